@@ -49,19 +49,23 @@ double middle_size(const std::vector<Landing>& landings) {
     low = {std::min(low.x, l.point.x), std::min(low.y, l.point.y), std::min(low.z, l.point.z)};
     high = {std::max(high.x, l.point.x), std::max(high.y, l.point.y), std::max(high.z, l.point.z)};
   }
-  const double diagonal = std::max(std::sqrt(dot(high - low, high - low)), 1e-6);
+  const double diagonal = std::max(std::sqrt(dot(high - low, high - low)), 1e-6 * landings[0].length);
   std::vector<std::uint64_t> keys(landings.size());
   GuideView g;
-  for (double size = diagonal / 512; size < diagonal; size *= 1.19) {
+  const auto fills_few = [&](double size) {
     set_sizes(size, g.inverse_size);
     for (std::size_t i = 0; i < keys.size(); ++i)
       keys[i] = coordinates_of(g, landings[i].point, guide_middle_level).key();
     std::sort(keys.begin(), keys.end());
     const auto filled = static_cast<double>(std::unique(keys.begin(), keys.end()) - keys.begin());
     keys.resize(landings.size());
-    if (filled < wanted_fill * static_cast<double>(landings.size())) return size;
-  }
-  return diagonal;
+    return filled < wanted_fill * static_cast<double>(landings.size());
+  };
+  constexpr double range = 512;
+  double size = diagonal / range;  // too small
+  for (double step = std::sqrt(range); step > 1.1; step = std::sqrt(step))
+    if (!fills_few(step * size)) size *= step;
+  return 1.1 * size;
 }
 
 /// Irradiance at a point, roughly, from all lights as if nothing were in the way.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace tyndall {
@@ -25,12 +26,13 @@ constexpr std::int32_t steps[7][3] = {{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0
 
 /// The landings around a cell after the same events.
 struct Sequence {
+  std::int32_t number = 0;  ///< of CellMaker::numbers_
   const Landing* first = nullptr;
   double power = 0, inverse_size2 = 0;
   std::vector<std::size_t> own, others, extra;  ///< in the cell; in its neighbours; in coarser cells
 
-  void restart(const Landing& landing, double size) {
-    first = &landing, power = 0, inverse_size2 = 1 / (size * size);
+  void restart(std::int32_t its_number, const Landing& landing, double size) {
+    number = its_number, first = &landing, power = 0, inverse_size2 = 1 / (size * size);
     own.clear(), others.clear(), extra.clear();
   }
 };
@@ -78,6 +80,11 @@ class CellMaker {
     set_sizes(middle_size(landings_), guide_.inverse_size);
     sizes_ = guide_.view();
     for (int level = 0; level < guide_levels; ++level) bins_[level].fill(sizes_, landings_, level);
+    std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> known;
+    for (const Landing& l : landings_)
+      numbers_.push_back(
+          known.try_emplace({l.events.high, l.events.low}, static_cast<std::int32_t>(known.size())).first->second);
+    place_of_.assign(known.size(), nowhere);
   }
 
   void make() {
@@ -118,6 +125,7 @@ class CellMaker {
 
   /// Lists the sequences of landings around a cell. Those that it lacks come from coarser levels.
   void list_sequences(int level, Vec3d middle) {
+    for (std::size_t q = 0; q < count_; ++q) place_of_[static_cast<std::size_t>(sequences_[q].number)] = nowhere;
     count_ = 0;
     double factor = 1;
     for (int coarser = level; coarser < guide_levels; ++coarser, factor *= coarse_factor) {
@@ -133,16 +141,19 @@ class CellMaker {
     const std::vector<std::size_t>& order = bins_[level].order;
     const std::size_t step = std::max<std::size_t>(1, (bin.end - bin.begin) / max_looked_at);
     for (std::size_t j = bin.begin; j < bin.end; j += step) {
-      const Landing& l = landings_[order[j]];
-      std::size_t q = 0;
-      while (q < count_ && !same_events(sequences_[q].first->events, l.events)) ++q;
+      const std::int32_t number = numbers_[order[j]];
+      std::size_t& q = place_of_[static_cast<std::size_t>(number)];
       if (q < known) {
         Sequence& old = sequences_[q];
         if (old.own.size() + old.others.size() < 4 && old.extra.size() < 12) old.extra.push_back(order[j]);
         continue;
       }
-      if (q == sequences_.size()) sequences_.emplace_back();
-      if (q == count_) sequences_[count_++].restart(l, size(level));
+      const Landing& l = landings_[order[j]];
+      if (q == nowhere) {
+        q = count_++;
+        if (q == sequences_.size()) sequences_.emplace_back();
+        sequences_[q].restart(number, l, size(level));
+      }
       Sequence& s = sequences_[q];
       s.power += l.weight * static_cast<double>(step) * factor * (home ? 1 : neighbour_factor);
       (home ? s.own : s.others).push_back(order[j]);
@@ -262,7 +273,10 @@ class CellMaker {
   GuideView sizes_;
   Bins bins_[guide_levels];
   std::vector<Cell> cells_[guide_levels];
-  std::vector<Sequence> sequences_;  ///< of the present cell: the first count_ ones
+  static constexpr std::size_t nowhere = ~std::size_t{0};
+  std::vector<std::int32_t> numbers_;  ///< of the sequence of events, for each landing
+  std::vector<Sequence> sequences_;    ///< of the present cell: the first count_ ones
+  std::vector<std::size_t> place_of_;  ///< in sequences_ as they were listed, by their numbers
   std::size_t count_ = 0;
 };
 

@@ -14,7 +14,9 @@ namespace tyndall {
 namespace {
 
 constexpr double min_reflected = 0.15;  // probability with which a light path is reflected, or refracted, at least
-constexpr double nearby = 1e-5;         // how far nearby rays are turned or moved
+constexpr double turn = 1e-5;           // of nearby rays, radian
+constexpr double move = 1e-3;           // of nearby rays, in radii of their light
+constexpr double focus = 1e-11;         // area of a wave front per steradian, over the flight's squared length
 constexpr double turned_apart = 2;      // copies are turned by up to this times the distance between light paths
 
 double at(const float* column, int i) { return static_cast<double>(column[i]); }
@@ -99,15 +101,15 @@ struct ChangedPair {
 };
 
 /// The changes of place and direction, in the plane across a flight at `point`, of two rays near it, as columns. They
-/// are those of rays turned or moved by `nearby`, divided by that.
-ChangedPair changes_of(const Vec3d (&origin)[2], const Vec3d (&direction)[2], Vec3d point, Vec3d d) {
+/// are those of rays turned or moved by `step`, divided by that.
+ChangedPair changes_of(const Vec3d (&origin)[2], const Vec3d (&direction)[2], Vec3d point, Vec3d d, double step) {
   const Basis<double> b = basis_around(d);
   double change[2][4];
   for (int i = 0; i < 2; ++i) {
     const double slope = 1 / dot(direction[i], d);
     const Vec3d turned = slope * direction[i], off = origin[i] + dot(point - origin[i], d) * turned - point;
     const double values[4] = {dot(off, b.s), dot(off, b.t), dot(turned, b.s), dot(turned, b.t)};
-    for (int c = 0; c < 4; ++c) change[i][c] = values[c] / nearby;
+    for (int c = 0; c < 4; ++c) change[i][c] = values[c] / step;
   }
   return {{change[0][0], change[1][0], change[0][1], change[1][1]},
           {change[0][2], change[1][2], change[0][3], change[1][3]}};
@@ -181,15 +183,15 @@ void LightPaths::begin(const Start& start) {
   const Vec3d middle = middle_of(start.light, start.time);
   Flight& f = flight_;
   f.start = start, f.fuzz.clear(), f.met.clear(), f.rays.clear();
-  f.weight = start.power, f.chance = 1;
+  f.weight = start.power, f.chance = 1, f.length = skip;
   const double longest = std::max(columns.length_u, columns.length_v);
   f.light_radius = round ? columns.length_u : longest * std::sqrt(1 / 3.0);  // of a disc as wide, roughly
   const bool behind = !round && dot(d, columns.normal) < 0;
   f.from = 4 * l.element[start.light] + static_cast<std::int32_t>(behind ? Side::inward : Side::outward);
   const Basis<double> b = basis_around(d);
-  const Vec3d directions[] = {d, unit_vector(d + nearby * b.s), unit_vector(d + nearby * b.t)};
+  const Vec3d directions[] = {d, unit_vector(d + turn * b.s), unit_vector(d + turn * b.t)};
   for (const Vec3d& direction : directions) f.rays.push_back({middle + skip * direction, direction});
-  for (const Vec3d& moved : {b.s, b.t}) f.rays.push_back({middle + nearby * moved + skip * d, d});
+  for (const Vec3d& moved : {b.s, b.t}) f.rays.push_back({middle + move * f.light_radius * moved + skip * d, d});
 }
 
 void LightPaths::trace(const Start& start, const OrderedEvents<double>* wanted) {
@@ -200,6 +202,7 @@ void LightPaths::trace(const Start& start, const OrderedEvents<double>* wanted) 
     const Ray<double> ray{f.rays[0].origin, f.rays[0].direction, start.time, f.from};
     const Hit<double> hit = closest<double>(scene_, ray, true);
     if (hit.element < 0) return;
+    f.length += hit.t;
     const std::int32_t aimed = things_[static_cast<std::size_t>(start.thing)].element;
     if (depth == 0 && hit.element != aimed) return;
     if (scene_.has_media()) f.weight *= transmitted(scene_, ray, hit.t);
@@ -255,7 +258,7 @@ bool LightPaths::meet(std::int32_t element, double t, const OrderedEvents<double
   if (thing.fuzz > 0) {
     const NearbyRay own = f.rays[0];
     const Basis<double> b = basis_around(own.direction);
-    for (const Vec3d& turned : {b.s, b.t}) f.rays.push_back({own.origin, unit_vector(own.direction + nearby * turned)});
+    for (const Vec3d& turned : {b.s, b.t}) f.rays.push_back({own.origin, unit_vector(own.direction + turn * turned)});
     f.fuzz.push_back(thing.fuzz);
   }
   f.from = 4 * element + (inside == m.reflects ? 1 : 0);
@@ -286,21 +289,21 @@ void LightPaths::land(Vec3d point, const OrderedEvents<double>* wanted) {
   Landing l;
   if (!name_events(wanted, l)) return;
   const Vec3d d = f.rays[0].direction;
-  const auto pair = [&](std::size_t k) {
+  const auto pair = [&](std::size_t k, double step) {
     return changes_of({f.rays[k].origin, f.rays[k + 1].origin}, {f.rays[k].direction, f.rays[k + 1].direction}, point,
-                      d);
+                      d, step);
   };
-  const ChangedPair turned = pair(1), moved = pair(3);
-  if (std::abs(determinant(turned.place)) < 1e-9) return;  // a focus
+  const ChangedPair turned = pair(1, turn), moved = pair(3, move * f.light_radius);
+  if (std::abs(determinant(turned.place)) < focus * f.length * f.length) return;
   const Matrix front = turned.turn * inverse(turned.place);
   add_square(moved.turn - front * moved.place, f.light_radius * f.light_radius / 4, l.variance);
   for (std::size_t k = 0; k < f.fuzz.size(); ++k) {
-    const ChangedPair blurred = pair(5 + 2 * k);
+    const ChangedPair blurred = pair(5 + 2 * k, turn);
     add_square(blurred.turn - front * blurred.place, f.fuzz[k] * f.fuzz[k] / 5, l.variance);
   }
   l.point = point, l.flight = d, l.axis = basis_around(d).s;
   l.curvature = {front.a, 0.5 * (front.b + front.c), front.d};
-  l.weight = f.weight, l.chance = f.chance;
+  l.weight = f.weight, l.chance = f.chance, l.length = f.length;
   if (!std::isfinite(l.variance.xx + l.variance.yy + front.a + front.b + front.c + front.d)) return;
   landings_.push_back(l), starts_.push_back(f.start);
 }

@@ -21,6 +21,7 @@ struct Landing {
   Symmetric variance;                  ///< of directions: by the light's size and by fuzz
   double weight = 0;                   ///< power that the path carries
   double chance = 1;                   ///< probability that glass sends a path this way
+  double length = 0;                   ///< of the path
   OrderedEvents<double> events, next;  ///< as seen from the surface; next: with the first event in the lowest bits
   int count = 0;                       ///< of events
 };
@@ -59,7 +60,7 @@ class LightPaths {
     Start start;
     std::vector<NearbyRay> rays;
     std::vector<double> fuzz;
-    double light_radius = 0, weight = 0, chance = 1;
+    double light_radius = 0, weight = 0, chance = 1, length = 0;
     std::int32_t from = 0;          ///< Ray::from of the path
     std::vector<std::int32_t> met;  ///< 2 · thing + (1: reflected)
   };
