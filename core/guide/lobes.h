@@ -32,7 +32,8 @@ template <class F>
 TYNDALL_INLINE UintOf<F> tag_of(const CellPlace<F>& c, int level) {
   using U = UintOf<F>;
   const U seed = U(static_cast<std::uint32_t>(level) * golden_ratio);
-  return hash(hash(hash(as_uint(c.x) + seed) ^ as_uint(c.y)) ^ as_uint(c.z)) | U(1u);
+  return hash(as_uint(c.x) * U(0x9e3779b1u) + as_uint(c.y) * U(0x85ebca6bu) + as_uint(c.z) * U(0xc2b2ae35u) + seed) |
+         U(1u);
 }
 
 /// The slot of the cell of a point at one level, in the lanes `wanted`; -1: there is none.
