@@ -54,16 +54,18 @@ bool predict(const Landing& l, Vec3d point, Vec3d& flight) {
   return true;
 }
 
-/// Turns the landing's frame to the axes of its variance.
+/// Turns the landing's frame to the axes of its variance. A variance that is almost the same in all directions has none
+/// that can be told: rounding would decide, and a scene in other units would be another picture.
 Landing along_axes(Landing l) {
   const double mean = 0.5 * (l.variance.xx + l.variance.yy), half = 0.5 * (l.variance.xx - l.variance.yy);
   const double radius = std::sqrt(half * half + l.variance.xy * l.variance.xy);
-  double c = 1, s = 0;
-  if (radius > 1e-12 * mean) {
-    const double cosine = half / radius;  // of twice the angle
-    c = std::sqrt(std::max(0.5 * (1 + cosine), 0.0)), s = std::sqrt(std::max(0.5 * (1 - cosine), 0.0));
-    if (l.variance.xy < 0) s = -s;
+  if (!(radius > 1e-3 * mean)) {
+    l.variance = {mean, 0, mean};
+    return l;
   }
+  const double cosine = half / radius;  // of twice the angle
+  const double c = std::sqrt(std::max(0.5 * (1 + cosine), 0.0));
+  const double s = std::copysign(std::sqrt(std::max(0.5 * (1 - cosine), 0.0)), l.variance.xy);
   const Vec3d other = cross(l.flight, l.axis);
   const Symmetric b = l.curvature;
   l.axis = c * l.axis + s * other;

@@ -123,7 +123,7 @@ TEST_CASE("adaptive: the window has the headless render's film") {
 TEST_CASE("adaptive: a region has its own samples, no more than asked for") {
   RenderOptions options = options_of(64);
   options.region = Region{0, 3, 61, 40};
-  const Film film = render(scene_of("showroom"), options).film;
+  const Film film = render(scene_of("stress-touching"), options).film;
   CHECK(film.region == *options.region);
   CHECK(totals(film).max_taken > totals(film).min_taken);
   CHECK(labelled_spp(film) == 64);
