@@ -37,8 +37,11 @@ Kernels kernels_of(Target target) { return tables[static_cast<int>(target)](); }
 void Kernels::render_tile(const SceneView& scene, const TileJob& job, double film_quantum, FilmPixel* pixels,
                           TileCounts& counts, EmissionSums* emission) const {
   // The pixels of a coarse pass are too far apart for reuse.
-  const auto& render = scene.reuses_paths && job.step == 1 ? render_reusing : render_alone;
-  render[static_cast<int>(scene.kernel)](scene, job, film_quantum, pixels, emission, counts);
+  const bool reuses = scene.reuses_paths && job.step == 1;
+  // Of the kernels that reuse vertices, those without specular paths do not split: see SceneViewFor.
+  const KernelSet set = reuses && scene.splits_paths ? KernelSet::everything : scene.kernel;
+  const auto& render = reuses ? render_reusing : render_alone;
+  render[static_cast<int>(set)](scene, job, film_quantum, pixels, emission, counts);
 }
 
 KernelSet Kernels::set_for(KernelSet minimum) const {

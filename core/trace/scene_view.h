@@ -110,6 +110,7 @@ struct SceneView {
   TYNDALL_INLINE bool has_guide() const { return guide.lobes > 0; }
   TYNDALL_INLINE bool has_lights() const { return lights.count > 0; }
   TYNDALL_INLINE bool has_reuse() const { return reuses_paths; }
+  TYNDALL_INLINE bool has_splitting() const { return splits_paths; }
 };
 
 /// The view of a kernel that leaves models out: for those models has_...() is a constant false, so that the compiler
@@ -126,6 +127,7 @@ struct SceneViewFor : SceneView {
   TYNDALL_INLINE bool has_specular_paths() const { return solves_specular_paths && specular.pairs > 0; }
   TYNDALL_INLINE bool has_guide() const { return set == KernelSet::everything && !reuse && guide.lobes > 0; }
   TYNDALL_INLINE static constexpr bool has_reuse() { return reuse; }
+  TYNDALL_INLINE bool has_splitting() const { return (!reuse || solves_specular_paths) && splits_paths; }
 };
 
 /// The textures of a scene as kernels read them. They point into `scene`.

@@ -16,10 +16,17 @@ struct WaitingBranches {
   int count = 0;
 };
 
-/// New samples start only when fewer paths wait than there are lanes. So at most 2 lanes_of<F> samples are in work, and
-/// each has at most 2^max_splits branches; append_lanes() writes up to one group of lanes behind the last of them.
+/// The groups of lanes for which there is room. Between two steps max_splits + 1 groups wait at most: new samples start
+/// when less than one group waits, and a step adds at most one group to what waits. All paths that are followed while
+/// more than k groups wait are offspring of those that were followed when there were k groups for the last time,
+/// because the path that was added last is followed first; so they have had k events at least, and after max_splits no
+/// path splits. A step stores up to two groups before the next paths are taken, and append_lanes() writes up to one
+/// behind them. One more keeps rows from being a power of two apart, which would put them into the same few sets of the
+/// cache.
+inline constexpr int pool_groups = max_splits + 5;
+
 template <class F>
-using PathPool = std::conditional_t<Plain<F>, WaitingBranches<F>, LanePool<F, 36, 11, (2 << max_splits) + 1>>;
+using PathPool = std::conditional_t<Plain<F>, WaitingBranches<F>, LanePool<F, 36, 11, pool_groups>>;
 
 /// Empties a pool, and clears the columns in which load_lanes() may read behind the last path.
 template <class F>
@@ -40,7 +47,7 @@ TYNDALL_INLINE IntOf<F> marks_of(const auto& s, const Paths<F>& p) {
     return select(mask_from_bits<F>(lanes), IntOf<F>(value), IntOf<F>(0));
   };
   IntOf<F> straight = mark(p.straight, 1);
-  if (s.splits_paths) straight = straight + mark(p.branch, 8);
+  if (s.has_splitting()) straight = straight + mark(p.branch, 8);
   return s.has_reuse() ? straight + mark(p.first, 2) + mark(p.second, 4) : straight;
 }
 template <class F>
@@ -49,7 +56,7 @@ TYNDALL_INLINE void set_marks(const auto& s, IntOf<F> marks, Paths<F>& p) {
     return bits(equal(marks & IntOf<F>(value), IntOf<F>(value)));
   };
   p.straight = marked(1);
-  if (s.splits_paths) p.branch = marked(8);
+  if (s.has_splitting()) p.branch = marked(8);
   if (s.has_reuse()) p.first = marked(2), p.second = marked(4);
 }
 
@@ -83,7 +90,7 @@ TYNDALL_INLINE void each_part(const auto& s, Paths<F>& p, const auto& number, co
     number(32, g.direction.x), number(33, g.direction.y), number(34, g.direction.z), number(35, g.pdf);
     integer(9, g.events.low), integer(10, g.events.high);
   }
-  if (s.has_reuse() || s.has_lights() || s.splits_paths) {
+  if (s.has_reuse() || s.has_lights() || s.has_splitting()) {
     IntOf<F> marks = marks_of(s, p);
     integer(8, marks);
     set_marks(s, marks, p);
@@ -130,7 +137,7 @@ TYNDALL_INLINE void begin_samples(const auto& s, Paths<F>& p, auto& samples) {
   if (s.has_specular_paths())
     p.weight = fresh.subpixel_lights.weight, p.route = fresh.subpixel_lights.route, p.trail.met.packed = IntOf<F>(-1);
   if (s.has_guide()) p.guide.events = OrderedEvents<F>::unknown();
-  p.straight = s.has_lights() || s.splits_paths ? ~0u : 0u, p.branch = p.first = p.second = 0;
+  p.straight = s.has_lights() || s.has_splitting() ? ~0u : 0u, p.branch = p.first = p.second = 0;
   p.alive = first_lanes(fresh.count);
 }
 

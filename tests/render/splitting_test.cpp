@@ -2,6 +2,7 @@
 #include "core/targets/kernels.h"
 #include "tests/support/capture.h"
 #include "tests/support/pictures.h"
+#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>
@@ -75,6 +76,45 @@ TEST_CASE("splitting: every sample counts once, and every instruction set splits
       CHECK(static_cast<double>(wide.split_events) ==
             doctest::Approx(static_cast<double>(scalar.split_events)).epsilon(0.01));
     }
+  }
+}
+
+TEST_CASE("splitting: the parts of a path are the whole path") {
+  Scene scene = sphere_under_sky();
+  scene.background = Vec3d{1, 1, 1};
+  add(scene, sphere({0, 0, 0}, 0.9), glass(1 / 1.5));
+  add(scene, sphere({0.2, 0.3, 0}, 0.3), glass(2.4));
+  for (const Kernels& kernels : available_kernels()) {
+    CAPTURE(kernels.isa);
+    const RenderResult sample = rendered(scene, 1, kernels.isa);
+    CHECK(static_cast<std::size_t>(sample.split_events) > sample.film.pixels.size() / 8);
+    for (const FilmPixel& pixel : sample.film.pixels)
+      REQUIRE(mean(sample.film, pixel).x == doctest::Approx(1).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("splitting: also where second vertices are shared, by every kernel") {
+  Scene scene = dark_room();
+  scene.render.integrator = Integrator::mis;
+  add(scene, sphere({0, 0, 0}, 1), lambertian(0.9));
+  add(scene, sphere({0, 0, 0}, 0.3), lamp(1));
+  add(scene, sphere({0.45, 0, 0.1}, 0.1), glass(1.5));
+  aim(scene, {-0.3, 0, 0.7}, {0.45, 0, 0.1});
+  RenderScene columns = compile(scene);
+  REQUIRE(SceneViewOf(columns).view().reuses_paths);
+  REQUIRE(columns.kernel == KernelSet::no_media_no_textures);
+  for (const Kernels& kernels : available_kernels()) {
+    CAPTURE(kernels.isa);
+    RenderOptions options;
+    options.isa = kernels.isa;
+    options.spp = 4;
+    columns.kernel = KernelSet::no_media_no_textures;
+    const RenderResult small = render(columns, options);
+    columns.kernel = KernelSet::everything;
+    const RenderResult full = render(columns, options);
+    CHECK(small.split_events > 20);
+    CHECK(small.split_events == full.split_events);
+    CHECK(small.film == full.film);
   }
 }
 
