@@ -93,7 +93,7 @@ inline constexpr float rare_distance = 30;
 /// than in one of 0.9.
 template <class F>
 TYNDALL_INLINE void compare_pixels(const FilterView& v, const ChunkOfHalves& q, std::ptrdiff_t at, int x, F level) {
-  F gain = F(0.0f), distance = F(0.0f), sum = F(1e-12f);
+  F gain = F(0.0f), by_noise = F(0.0f), distance = F(0.0f), sum = F(1e-12f);
   for (int output = 0; output < outputs; ++output) sum = sum + max(load<F>(v.filtered[output] + at), F(0.0f));
   const F per_sum = F(3.0f) * level / sum;
   for (int c = 0; c < 3; ++c) {
@@ -104,11 +104,13 @@ TYNDALL_INLINE void compare_pixels(const FilterView& v, const ChunkOfHalves& q, 
     const F per = F(1.0f) / mul_add(own, own, splat<F>(v.floor));
     const F cross = mul_add(residual_a, to_b, residual_b * to_a), noise = (pa - pb) * (to_a - to_b);
     gain = mul_add(per, mul_add(F(0.5f), cross, F(0.25f) * noise), gain);
+    by_noise = mul_add(F(0.25f) * per, noise, by_noise);
     distance = mul_add(F(0.25f) * per * (to_a + to_b), to_a + to_b, distance);
   }
   const F weight = F(1.0f) / mul_add(distance, splat<F>(1 / rare_distance), F(1.0f));
   store(v.gain + at, weight * gain);
   store(v.distance + at, weight * distance);
+  if (v.grouped) store(v.gain_by_noise + at, weight * by_noise);
 }
 
 template <class F>
@@ -122,6 +124,7 @@ TYNDALL_INLINE void compare_of(const FilterView& v, Rival rival, int y) {
   }
   clear_behind(v.gain + y * v.stride, v.width);
   clear_behind(v.distance + y * v.stride, v.width);
+  if (v.grouped) clear_behind(v.gain_by_noise + y * v.stride, v.width);
 }
 
 /// Number of pixels that decide at (x, y): those of the window inside the picture, without the hole in its middle; lane
@@ -146,10 +149,14 @@ TYNDALL_INLINE F deciding_pixels(const FilterView& v, int y, int x) {
   return max(all_rows * columns + rows * (all_columns - columns), F(1.0f));
 }
 
-/// Sums over the columns of a window: over all rows, and over the rows outside of the hole.
+/// Sums over the columns of a window: over all rows, and over the rows outside of a hole. From x0 - row_margin on.
+struct ColumnSums {
+  alignas(64) float all[chunk + 64], outer[chunk + 64];
+};
+
 struct WindowColumns {
-  static constexpr int gain = 0, squares = 1, distance = 2, sums = 3;
-  alignas(64) float all[sums][chunk + 64], outer[sums][chunk + 64];  // from x0 - row_margin on
+  ColumnSums gain, squares, distance;
+  ColumnSums by_noise, by_noise_nearby;  ///< only of grouped pixels; the latter's hole is the middle 3 x 3
 };
 
 /// Adds a row of gains, their squares and distances to sums.
@@ -170,18 +177,37 @@ TYNDALL_INLINE void sum_columns(const FilterView& v, int y, int x0, int count, W
       if (y + k >= 0 && y + k < v.height) add_row(v, (y + k) * v.stride + x0 + x, in_hole<spacing>(k) ? inner : outer);
     fetch(v, v.gain, y + window_reach + 1, x0 + x);
     fetch(v, v.distance, y + window_reach + 1, x0 + x);
+    ColumnSums* const sums[] = {&columns.gain, &columns.squares, &columns.distance};
     for (int s = 0; s < 3; ++s) {
-      store(columns.all[s] + row_margin + x, outer[s] + inner[s]);
-      store(columns.outer[s] + row_margin + x, outer[s]);
+      store(sums[s]->all + row_margin + x, outer[s] + inner[s]);
+      store(sums[s]->outer + row_margin + x, outer[s]);
     }
   }
 }
 
-/// Returns the sum over the window around x. The sum is computed anew for each x: a running sum would keep the rounding
-/// errors of a bright pixel that has left the window.
+/// Sums the columns of the part of the gain that is due to noise, with both holes.
 template <int spacing, class F>
-TYNDALL_INLINE F window_sum(const WindowColumns& columns, int sum, int x) {
-  const float *all = columns.all[sum] + row_margin + x, *outer = columns.outer[sum] + row_margin + x;
+TYNDALL_INLINE void sum_noise_columns(const FilterView& v, int y, int x0, int count, WindowColumns& columns) {
+  for (int x = -row_margin; x < count + window_reach; x += lanes_of<F>) {
+    F far = F(0.0f), between = F(0.0f), middle = F(0.0f);
+#pragma GCC unroll 13
+    for (int k = -window_reach; k <= window_reach; ++k) {
+      if (y + k < 0 || y + k >= v.height) continue;
+      F& sum = in_hole<0>(k) ? middle : in_hole<spacing>(k) ? between : far;
+      sum = sum + load<F>(v.gain_by_noise + (y + k) * v.stride + x0 + x);
+    }
+    const F nearby = far + between, all = nearby + middle;
+    store(columns.by_noise.all + row_margin + x, all), store(columns.by_noise.outer + row_margin + x, far);
+    store(columns.by_noise_nearby.all + row_margin + x, all);
+    store(columns.by_noise_nearby.outer + row_margin + x, nearby);
+  }
+}
+
+/// Returns the sum over the window around x, without its hole. The sum is computed anew for each x: a running sum would
+/// keep the rounding errors of a bright pixel that has left the window.
+template <int spacing, class F>
+TYNDALL_INLINE F window_sum(const ColumnSums& columns, int x) {
+  const float *all = columns.all + row_margin + x, *outer = columns.outer + row_margin + x;
   F total = F(0.0f);
   for (int k = -window_reach; k <= window_reach; ++k) total = total + load<F>((in_hole<spacing>(k) ? outer : all) + k);
   return total;
@@ -189,14 +215,24 @@ TYNDALL_INLINE F window_sum(const WindowColumns& columns, int sum, int x) {
 
 /// Returns the fraction of the rival in the mixture with the least error, in [0, 1]. doubt: the gain counts only as far
 /// as it exceeds this many of its standard errors; 0 for the raw picture, which has no bias in any scene.
+///
+/// Of grouped pixels, the part of the gain that is due to noise is a mean over all pixels but the middle 3 x 3. If a
+/// group of eight pixels has met one rare bright path, the regression has spread its light over the pixels around: for
+/// these the raw picture is better, and for the eight it is far worse. Without the eight in this mean, the raw picture
+/// would be chosen just there, and show them as a grid of dots. The rest of the gain is a product of independent halves
+/// and remains a mean over pixels that share no noise with the middle, as the error estimate requires.
 template <int spacing, class F>
 TYNDALL_INLINE F fraction_of_rival(const FilterView& v, const WindowColumns& columns, float doubt, int y, int x0,
                                    int x) {
   const F pixels = deciding_pixels<spacing, F>(v, y, x0 + x);
-  const F gain = window_sum<spacing, F>(columns, WindowColumns::gain, x) / pixels;
-  const F squares = window_sum<spacing, F>(columns, WindowColumns::squares, x) / pixels;
-  const F distance = window_sum<spacing, F>(columns, WindowColumns::distance, x) / pixels;
+  F gain = window_sum<spacing, F>(columns.gain, x) / pixels;
+  const F squares = window_sum<spacing, F>(columns.squares, x) / pixels;
+  const F distance = window_sum<spacing, F>(columns.distance, x) / pixels;
   const F error = sqrt(max(neg_mul_add(gain, gain, squares), F(0.0f)) / pixels);
+  if constexpr (spacing > 0) {
+    const F nearby = window_sum<0, F>(columns.by_noise_nearby, x) / deciding_pixels<0, F>(v, y, x0 + x);
+    gain = gain + (nearby - window_sum<spacing, F>(columns.by_noise, x) / pixels);
+  }
   const F fraction = neg_mul_add(splat<F>(doubt), error, gain) / max(distance, F(1e-12f));
   return min(max(fraction, F(0.0f)), F(1.0f));
 }
@@ -210,6 +246,7 @@ TYNDALL_INLINE void mix_spaced(const FilterView& v, Rival rival, int y) {
     const int count = minimum(chunk, v.width - x0);
     take_rival<F>(v, rival, y, x0, count, q);
     sum_columns<spacing, F>(v, y, x0, count, columns);
+    if constexpr (spacing > 0) sum_noise_columns<spacing, F>(v, y, x0, count, columns);
     for (int x = 0; x < count; x += lanes_of<F>) {
       const std::ptrdiff_t at = y * v.stride + x0 + x;
       const F fraction = fraction_of_rival<spacing, F>(v, columns, doubt, y, x0, x);

@@ -124,7 +124,7 @@ void grow(std::vector<float>& numbers, std::size_t count, const std::atomic<bool
 struct Cleaner::Memory {
   FilterSteps steps;
   std::vector<ColumnPair> pairs = column_pairs();
-  Planes work;  ///< filtered 6, level, gain, distance
+  Planes work;  ///< filtered 6, level, gain, distance; of grouped pixels also gain_by_noise
   CleanPicture made;
   ZeroedFloats sums, coefficients;
   std::vector<std::uint8_t> shines;
@@ -132,8 +132,8 @@ struct Cleaner::Memory {
   int cells_x = 0, cells_y = 0;
   std::ptrdiff_t cell_stride = 0;
 
-  void resize(int width, int height) {
-    work.resize(width, height, outputs + 3);
+  void resize(int width, int height, bool grouped) {
+    work.resize(width, height, outputs + (grouped ? 4 : 3));
     if (made.width != width || made.height != height) made = {};  // its memory would stay that of a larger picture
     row_noise.resize(static_cast<std::size_t>(height));
     if (cells_x == cells_in(width) && cells_y == cells_in(height)) return;
@@ -171,6 +171,7 @@ FilterView Cleaner::Memory::view_of(const CleanInput& input) {
   for (int k = 0; k < seen_features; ++k) v.seen[k] = input.seen.plane(k);
   v.sharp = input.seen.plane(seen_features);
   v.level = work.plane(outputs), v.gain = work.plane(outputs + 1), v.distance = work.plane(outputs + 2);
+  v.gain_by_noise = v.grouped ? work.plane(outputs + 3) : nullptr;
   v.error = v.gain, v.noise = v.distance;
   v.pairs = pairs.data(), v.sums = sums.data(), v.shines = shines.data(), v.cell_stride = cell_stride;
   v.coefficients = coefficients.data();
@@ -180,7 +181,7 @@ FilterView Cleaner::Memory::view_of(const CleanInput& input) {
 bool Cleaner::run(const CleanInput& input, ThreadPool& thread_pool, const std::atomic<bool>& give_up, CleanPicture& out,
                   const LevelsOf& levels_of) {
   Memory& m = *memory_;
-  m.resize(input.width, input.height);
+  m.resize(input.width, input.height, input.grouped);
   const FilterView v = m.view_of(input);
   const auto each = [&](int rows, const auto& step) {
     thread_pool.for_each(rows, [&](int row) {

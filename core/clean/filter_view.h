@@ -55,6 +55,7 @@ struct FilterView {
   float* filtered[outputs];  ///< A and B
   float* level;              ///< mean of the six planes of `filtered`
   float *gain, *distance;    ///< by how much another picture would lower the error, and its squared distance
+  float* gain_by_noise;      ///< the part of gain that is due to the halves' difference; only of grouped pixels
   const ColumnPair* pairs;   ///< all_sums of them
   // For each cell, in rows of cells and sum by sum, with a border of empty cells around the picture.
   float* sums;

@@ -220,4 +220,28 @@ TEST_CASE("choice: the error is known where groups of pixels share their noise")
   CHECK(ratio < 1.15);
 }
 
+TEST_CASE("choice: a group of pixels that met one bright path does not show as a grid of dots") {
+  // The second group of a block in the middle is six times as bright as the floor in half A; the floor is quiet.
+  const auto truth = [](int, int) { return Vec3f{0.5f, 0.5f, 0.5f}; };
+  Picture p = picture(truth, grey_floor, [](int, int) { return 0.05f; });
+  p.input.grouped = true;
+  double added = 0, shown = 0;
+  for (int member = 0; member < group_size; ++member) {
+    const int x = 2 * block_width + 1 + member % group_columns * group_spacing;
+    const int y = 3 * block_height + 1 + member / group_columns * group_spacing;
+    for (int channel = 0; channel < 3; ++channel) p.half(0, channel, x, y) = 3;
+    added += 0.5 * (3 - 0.5);  // the picture is the mean of both halves
+  }
+  const CleanPicture picture = clean(p);
+  const auto red = [&](int x, int y) {
+    return static_cast<double>(picture.rgb[3 * (static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x))]);
+  };
+  for (int member = 0; member < group_size; ++member) {
+    const int x = 2 * block_width + 1 + member % group_columns * group_spacing;
+    const int y = 3 * block_height + 1 + member / group_columns * group_spacing;
+    shown += red(x, y) - 0.25 * (red(x - 2, y) + red(x + 2, y) + red(x, y - 2) + red(x, y + 2));
+  }
+  CHECK(shown < 0.15 * added);
+}
+
 }  // namespace tyndall::test::choice_test
