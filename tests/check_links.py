@@ -14,7 +14,7 @@ import sys
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```\s*$", re.MULTILINE | re.DOTALL)
 CODE = re.compile(r"`([^`]+)`")
 LONGEST_FIRST_PAGE = 150  # lines; what is longer belongs on the page of what it is about
-INVENTED = re.compile(r"/(velvet|stripes|disc)(_test)?\.")  # files of the examples "how to add ..."
+INVENTED = re.compile(r"/(velvet|stripes|cylinder)(_test)?\.")  # files of the examples "how to add ..."
 
 
 def list_pages(root):

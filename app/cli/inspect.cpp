@@ -127,7 +127,11 @@ std::string specular_paths_text(const Report& report) {
   const SpecularPairs& specular = report.prepared->columns().specular;
   const RenderSettings& render = report.loaded.scene.render;
   if (const char* off = no_caustics_text(render)) return off;
-  if (specular.sphere.empty()) return "none: no lamp that is small as seen from a ball of glass, a mirror or a pane";
+  const SceneFeatures& features = report.prepared->columns().features;
+  const bool outlined = features.triangles || features.disks;
+  if (specular.sphere.empty())
+    return std::string("none: no lamp that is small as seen from a ball of glass, a mirror or a pane") +
+           (outlined ? "; triangles and disks of metal are no such mirrors, but left to BSDF sampling" : "");
   const int flat = specular.first_slab - specular.first_mirror;
   const int slabs = static_cast<int>(specular.index.size()) - specular.first_slab;
   int mirrors = -flat, shells = 0;
@@ -148,7 +152,8 @@ std::string specular_paths_text(const Report& report) {
   return text + " (" + named(report, specular.outer) + "), each alone, to " + count + " (" + named(report, lights) +
          ")" +
          "; with both ends within one ball or shell, too; by chance: ways over two of them, quads of glass, other "
-         "boxes of glass, and fuzzy metal";
+         "boxes of glass, " +
+         (outlined ? "triangles and disks of glass or metal (as lamps they take part), " : "") + "and fuzzy metal";
 }
 
 /// Where paths follow both ways.

@@ -59,11 +59,13 @@ int run(const ConvertCommand& command) {
     write_standard_output(text);
   } else {
     std::vector<Output> outputs{{"--output", command.output}};
-    const bool has_sky = foreign && !foreign->sky_name.empty();
+    const bool has_sky = foreign && !foreign->sky_name.empty(), has_mesh = foreign && !foreign->mesh_name.empty();
     if (has_sky) outputs.push_back({"--output", folder / foreign->sky_name});
+    if (has_mesh) outputs.push_back({"--output", folder / foreign->mesh_name});
     check_outputs(outputs, loaded.files);
     check_can_write(outputs);
     if (has_sky) write_pfm(folder / foreign->sky_name, {foreign->sky_width, foreign->sky_height, foreign->sky});
+    if (has_mesh) write_text_or_rescue(folder / foreign->mesh_name, foreign->mesh);
     write_text_or_rescue(command.output, text);
   }
   return 0;

@@ -65,8 +65,18 @@ Json shape(const ForeignShape& s) {
     json["radius"] = sphere->radius, json["inward"] = sphere->inward, json["degrees"] = sphere->degrees;
     return json;
   }
-  for (const ForeignFlat& f : std::get<std::vector<ForeignFlat>>(s.shape))
-    json["flats"].push_back({json_of(f.corner), json_of(f.u), json_of(f.v)});
+  std::visit(Overloaded{[](const ForeignSphere&) {},
+                        [&](const std::vector<ForeignFlat>& flats) {
+                          for (const ForeignFlat& f : flats)
+                            json["flats"].push_back({json_of(f.corner), json_of(f.u), json_of(f.v)});
+                        },
+                        [&](const ForeignTriangle& t) {
+                          json["triangle"] = {json_of(t.corner), json_of(t.u), json_of(t.v)};
+                        },
+                        [&](const ForeignDisk& d) {
+                          json["disk"] = {json_of(d.center), json_of(d.u), json_of(d.v)}, json["inner"] = d.inner;
+                        }},
+             s.shape);
   return json;
 }
 
@@ -86,7 +96,7 @@ Json camera(const Camera& c, const ForeignScene& foreign) {
 
 ForeignFile blender_file(const Scene& scene, const std::string& name) {
   using namespace blender;
-  const ForeignRenderer cycles{"Blender's Cycles", true, true, true, true, true, false};
+  const ForeignRenderer cycles{"Blender's Cycles", true, true, true, true, true, false, true, true};
   const ForeignScene foreign = foreign_scene(scene, name, cycles);
   Json json{{"name", all_printable(scene.name.empty() ? name : scene.name)},
             {"width", scene.width},
@@ -104,7 +114,8 @@ ForeignFile blender_file(const Scene& scene, const std::string& name) {
   for (const ForeignShape& s : foreign.shapes) json["shapes"].push_back(shape(s));
   // The scene is one string of ASCII in the script, and JSON in that: nothing in it can become a statement.
   const std::string data = Json(json.dump(-1, ' ', true)).dump(-1, ' ', true);
-  return {std::string(blender_script_head) + "DATA = " + data + "\n" + std::string(blender_script), {}, {}, 0, 0};
+  return {
+      std::string(blender_script_head) + "DATA = " + data + "\n" + std::string(blender_script), {}, {}, 0, 0, {}, {}};
 }
 
 }  // namespace tyndall

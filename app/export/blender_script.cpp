@@ -9,7 +9,7 @@ blender -b --factory-startup -P THIS.py -- OUTPUT.exr [SAMPLES]   and renders it
 
 Conventions: Blender's z is our y, its -y our z; a refractive index is inside over outside by the side of the normal, so a
 sphere of negative radius has its faces turned; bounces are our scattering events less one; colours are linear Rec.709;
-emission strength 1 is radiance 1. Spheres are meshes of 256 x 128 faces with smooth normals.
+emission strength 1 is radiance 1. Spheres are meshes of 256 x 128 faces with smooth normals, disks of 1024 sides.
 """
 )py";
 
@@ -200,19 +200,45 @@ def add_sphere(shape):
             key.interpolation = "LINEAR"
 
 
+def add_mesh(name, points, faces, uvs, shape):
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(points, [], faces)
+    layer = mesh.uv_layers.new()
+    for data, uv in zip(layer.data, uvs):
+        data.uv = uv
+    mesh.materials.append(None)
+    add(name, mesh, shape)
+
+
 def add_flats(shape):
     points, faces = [], []
     for corner, u, v in shape["flats"]:
         corner, u, v = world(corner), world(u), world(v)
-        faces.append(range(len(points), len(points) + 4))
+        faces.append(list(range(len(points), len(points) + 4)))
         points += [corner, corner + u, corner + u + v, corner + v]
-    mesh = bpy.data.meshes.new("flats")
-    mesh.from_pydata(points, [], [list(face) for face in faces])
-    layer = mesh.uv_layers.new()
-    for data, uv in zip(layer.data, [(0, 0), (1, 0), (1, 1), (0, 1)] * len(faces)):
-        data.uv = uv
-    mesh.materials.append(None)
-    add("flats", mesh, shape)
+    add_mesh("flats", points, faces, [(0, 0), (1, 0), (1, 1), (0, 1)] * len(faces), shape)
+
+
+def add_triangle(shape):
+    corner, u, v = map(world, shape["triangle"])
+    add_mesh("triangle", [corner, corner + u, corner + v], [[0, 1, 2]], [(0, 0), (1, 0), (0, 1)], shape)
+
+
+SIDES = 1024
+
+
+def add_disk(shape):
+    center, u, v = map(world, shape["disk"])
+    # The polygon has the area of the disk.
+    full = math.sqrt(2 * math.pi / SIDES / math.sin(2 * math.pi / SIDES))
+    rims = [[center + radius * full * (math.cos(a) * u + math.sin(a) * v)
+             for a in (2 * math.pi * k / SIDES for k in range(SIDES))]
+            for radius in (1.0, shape["inner"]) if radius > 0]
+    if len(rims) == 1:
+        faces = [list(range(SIDES))]
+    else:
+        faces = [[k, (k + 1) % SIDES, SIDES + (k + 1) % SIDES, SIDES + k] for k in range(SIDES)]
+    add_mesh("disk", [point for rim in rims for point in rim], faces, [], shape)
 
 
 def add_camera():
@@ -282,7 +308,8 @@ def set_up_render():
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 for each in scene["shapes"]:
-    (add_sphere if "radius" in each else add_flats)(each)
+    kinds = {"radius": add_sphere, "flats": add_flats, "triangle": add_triangle, "disk": add_disk}
+    next(make for key, make in kinds.items() if key in each)(each)
 add_camera()
 add_background()
 set_up_render()

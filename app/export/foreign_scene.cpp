@@ -76,20 +76,26 @@ ForeignFlat flat_of(Vec3d corner, Vec3d u, Vec3d v, const Placement& placement) 
   return {place(placement, corner), rotate(placement, u), rotate(placement, v)};
 }
 
-std::variant<ForeignSphere, std::vector<ForeignFlat>> shape_of(const auto& shape, const Placement& placement,
-                                                               const Camera& camera) {
-  using Result = std::variant<ForeignSphere, std::vector<ForeignFlat>>;
+ForeignGeometry shape_of(const auto& shape, const Placement& placement, const Camera& camera) {
+  using Result = ForeignGeometry;
   return std::visit(
-      Overloaded{[&](const Sphere<>& s) -> Result { return sphere_of(s, placement, camera); },
-                 [&](const Quad<>& q) -> Result { return std::vector{flat_of(q.corner, q.u, q.v, placement)}; },
-                 [&](const Box<>& b) -> Result {
-                   std::vector<ForeignFlat> faces;
-                   for (int i = 0; i < 6; ++i) {
-                     const BoxFace face = box_face_edges(b, i);
-                     faces.push_back(flat_of(face.corner, face.u, face.v, placement));
-                   }
-                   return faces;
-                 }},
+      Overloaded{
+          [&](const Sphere<>& s) -> Result { return sphere_of(s, placement, camera); },
+          [&](const Quad<>& q) -> Result { return std::vector{flat_of(q.corner, q.u, q.v, placement)}; },
+          [&](const Box<>& b) -> Result {
+            std::vector<ForeignFlat> faces;
+            for (int i = 0; i < 6; ++i) {
+              const BoxFace face = box_face_edges(b, i);
+              faces.push_back(flat_of(face.corner, face.u, face.v, placement));
+            }
+            return faces;
+          },
+          [&](const Triangle<>& t) -> Result {
+            return ForeignTriangle{place(placement, t.corner), rotate(placement, t.u), rotate(placement, t.v)};
+          },
+          [&](const Disk<>& d) -> Result {
+            return ForeignDisk{place(placement, d.center), rotate(placement, d.u), rotate(placement, d.v), d.inner};
+          }},
       shape);
 }
 
@@ -117,6 +123,26 @@ bool may_overlap(const PlacedVolume& a, const PlacedVolume& b, const Camera& cam
     if (a1 < b0 || b1 < a0) return false;
   }
   return true;
+}
+
+/// Whether both half axes are as long and at right angles, up to the rounding of what wrote the scene.
+bool is_circle(const ForeignDisk& disk) {
+  const double a = dot(disk.u, disk.u), b = dot(disk.v, disk.v), small = 1e-6 * std::max(a, b);
+  return std::abs(a - b) <= small && std::abs(dot(disk.u, disk.v)) <= small;
+}
+
+void check_disk(const ForeignDisk& disk, const Material& material, const Scene& scene, const Refusal& refuse) {
+  if (!refuse.renderer.ellipses && !is_circle(disk)) refuse("/objects", "an ellipse", "a circle");
+  if (!refuse.renderer.rings && disk.inner > 0) refuse("/objects", "a ring", "a disk without a hole");
+  const auto* texture = std::get_if<TextureIndex>(&material.colour);
+  if (texture && std::holds_alternative<Image>(scene.textures[static_cast<std::size_t>(texture->index)].kind))
+    refuse("/objects", "an image on a disk", "a colour");
+}
+
+void check_sphere(const ForeignSphere& sphere, const Material& material, const Refusal& refuse) {
+  if (!sphere.moves()) return;
+  if (!refuse.renderer.moving_spheres) refuse("/camera/shutter", "spheres that move while it is open", "an instant");
+  if (std::holds_alternative<Light<double>>(material.kind)) refuse("/objects", "a light that moves", "one at rest");
 }
 
 /// Adds the media; those whose boundary is a surface become its interior.
@@ -154,12 +180,11 @@ ForeignScene foreign_scene(const Scene& scene, const std::string& name, const Fo
   for (const PlacedShape& shape : flat.shapes) {
     used.insert(shape.material);
     out.shapes.push_back({shape_of(shape.shape, shape.placement, scene.camera), shape.material, -1});
-    const auto* sphere = std::get_if<ForeignSphere>(&out.shapes.back().shape);
-    if (sphere && sphere->moves() && !renderer.moving_spheres)
-      refuse("/camera/shutter", "spheres that move while it is open", "an instant");
-    if (sphere && sphere->moves() &&
-        std::holds_alternative<Light<double>>(scene.materials[static_cast<std::size_t>(shape.material)].kind))
-      refuse("/objects", "a light that moves", "one at rest");
+    const Material& material = scene.materials[static_cast<std::size_t>(shape.material)];
+    std::visit(
+        Overloaded{[&](const ForeignSphere& sphere) { check_sphere(sphere, material, refuse); },
+                   [&](const ForeignDisk& disk) { check_disk(disk, material, scene, refuse); }, [](const auto&) {}},
+        out.shapes.back().shape);
   }
   for (const int material : used) check_material(scene.materials[static_cast<std::size_t>(material)], scene, refuse);
   add_media(scene, flat, refuse, out);

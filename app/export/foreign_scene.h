@@ -15,6 +15,17 @@ struct ForeignFlat {
   Vec3d corner, u, v;
 };
 
+/// corner + a u + b v where a, b >= 0 and a + b <= 1; the normal is along u × v.
+struct ForeignTriangle {
+  Vec3d corner, u, v;
+};
+
+/// center + a u + b v where inner <= sqrt(a² + b²) <= 1; the normal is along u × v.
+struct ForeignDisk {
+  Vec3d center, u, v;
+  double inner = 0;
+};
+
 struct ForeignSphere {
   Vec3d center, center_end;  ///< while time runs from 0 to 1; equal: at rest
   double radius = 1;         ///< > 0
@@ -23,8 +34,11 @@ struct ForeignSphere {
   bool moves() const { return !(center == center_end); }
 };
 
+/// Several ForeignFlat: the faces of a box.
+using ForeignGeometry = std::variant<ForeignSphere, std::vector<ForeignFlat>, ForeignTriangle, ForeignDisk>;
+
 struct ForeignShape {
-  std::variant<ForeignSphere, std::vector<ForeignFlat>> shape;
+  ForeignGeometry shape;
   int material = -1;  ///< index into Scene::materials; -1: the boundary of a medium alone, which is not seen
   int medium = -1;    ///< index into ForeignScene::media, behind the surface; -1: none
 };
@@ -44,6 +58,8 @@ struct ForeignRenderer {
   bool moving_spheres = false;
   bool overlapping_media = false;
   bool depth_zero = false;  ///< pictures of lights and background alone
+  bool ellipses = false;    ///< disks whose half axes differ or are not at right angles
+  bool rings = false;
 };
 
 struct ForeignScene {
@@ -62,6 +78,7 @@ struct ForeignFile {
   std::string sky_name;    ///< of a picture of the background beside the file (PFM); empty: none is needed
   std::vector<float> sky;  ///< linear RGB, top row first
   int sky_width = 0, sky_height = 0;
+  std::string mesh_name, mesh;  ///< of a mesh (PLY) beside the file, and its text; empty: none is needed
 };
 /// file: where the text is to lie. Throw SceneError as foreign_scene() does.
 ForeignFile pbrt_file(const Scene& scene, const std::string& name, const std::string& file);

@@ -14,8 +14,8 @@
 ///
 /// Its conventions: max_depth counts segments, one more than our events; a sphere's normal that points inward is
 /// flip_normals; surfaces have one side unless they are "twosided"; lights shine on the side of their normal, so a flat
-/// light becomes two rectangles, a millionth of its size apart; a surface without "bsdf" is grey, so lights get a black
-/// one.
+/// light becomes two shapes, a millionth of its size apart; triangles are meshes in files of their own; a surface
+/// without "bsdf" is grey, so lights get a black one.
 namespace tyndall {
 namespace mitsuba {
 namespace {
@@ -119,32 +119,61 @@ std::string sphere(const ForeignSphere& s, const std::string& inner) {
          (s.inward ? "<boolean name=\"flip_normals\" value=\"true\"/>" : "") + inner + "</shape>\n";
 }
 
-/// Their rectangle is [-1, 1]² in x and y; its normal is z.
-std::string rectangle(const ForeignFlat& f, const std::string& inner) {
-  const Vec3d x = 0.5 * f.u, y = 0.5 * f.v, z = normalize(cross(f.u, f.v)), middle = f.corner + x + y;
+constexpr const char* triangle_file = "unit-triangle.ply";
+constexpr const char* triangle_mesh =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+    "property list uchar int vertex_index\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+/// A flat shape of theirs, in the plane of x and y with the normal z, that is placed in the world.
+struct Flat {
+  std::string type;  ///< with what it needs of its own
+  Vec3d x, y, origin;
+};
+
+/// Their rectangle is [-1, 1]² in x and y.
+Flat flat_of(const ForeignFlat& f) { return {"rectangle\">", 0.5 * f.u, 0.5 * f.v, f.corner + 0.5 * (f.u + f.v)}; }
+Flat flat_of(const ForeignDisk& d) { return {"disk\">", d.u, d.v, d.center}; }
+Flat flat_of(const ForeignTriangle& t) {
+  return {std::string("ply\"><string name=\"filename\" value=\"") + triangle_file + "\"/>", t.u, t.v, t.corner};
+}
+
+std::string placed(const Flat& f, const std::string& inner) {
   std::string matrix;
   for (const auto axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z})
-    for (const Vec3d& column : {x, y, z, middle}) matrix += number_text(column.*axis) + " ";
-  return "  <shape type=\"rectangle\"><transform name=\"to_world\"><matrix value=\"" + matrix +
+    for (const Vec3d& column : {f.x, f.y, normalize(cross(f.x, f.y)), f.origin})
+      matrix += number_text(column.*axis) + " ";
+  return "  <shape type=\"" + f.type + "<transform name=\"to_world\"><matrix value=\"" + matrix +
          "0 0 0 1\"/></transform>" + inner + "</shape>\n";
 }
 
-/// A flat light, which shines on both sides: two of one side each.
-std::string flat_light(const ForeignFlat& f, const std::string& inner) {
-  const Vec3d apart = (5e-7 * std::max(length(f.u), length(f.v))) * normalize(cross(f.u, f.v));
-  return rectangle({f.corner + apart, f.u, f.v}, inner) + rectangle({f.corner + f.u - apart, -f.u, f.v}, inner);
+/// A flat light, which shines on both sides: two of one side each. All these shapes are the same with x and y swapped,
+/// which turns the normal.
+std::string flat_light(Flat f, const std::string& inner) {
+  const Vec3d apart = (1e-6 * std::max(length(f.x), length(f.y))) * normalize(cross(f.x, f.y));
+  const Flat other{f.type, f.y, f.x, f.origin - apart};
+  f.origin = f.origin + apart;
+  return placed(f, inner) + placed(other, inner);
 }
 
-std::string shape(const ForeignShape& s, const Scene& scene, const ForeignScene& foreign) {
+/// out: gets the triangle's mesh, if there is one.
+std::string shape(const ForeignShape& s, const Scene& scene, const ForeignScene& foreign, ForeignFile& out) {
   const Material* material = s.material < 0 ? nullptr : &scene.materials[static_cast<std::size_t>(s.material)];
   const std::string inner = (material ? surface(*material, scene) : "<bsdf type=\"null\"/>") +
                             (s.medium < 0 ? "" : medium(foreign, s.medium, "interior"));
-  if (const auto* own = std::get_if<ForeignSphere>(&s.shape)) return sphere(*own, inner);
-  std::string text;
   const bool light = material && std::holds_alternative<Light<double>>(material->kind);
-  for (const ForeignFlat& flat : std::get<std::vector<ForeignFlat>>(s.shape))
-    text += light ? flat_light(flat, inner) : rectangle(flat, inner);
-  return text;
+  const auto write = [&](const Flat& flat) { return light ? flat_light(flat, inner) : placed(flat, inner); };
+  return std::visit(Overloaded{[&](const ForeignSphere& own) { return sphere(own, inner); },
+                               [&](const std::vector<ForeignFlat>& flats) {
+                                 std::string text;
+                                 for (const ForeignFlat& flat : flats) text += write(flat_of(flat));
+                                 return text;
+                               },
+                               [&](const ForeignTriangle& triangle) {
+                                 out.mesh_name = triangle_file, out.mesh = triangle_mesh;
+                                 return write(flat_of(triangle));
+                               },
+                               [&](const ForeignDisk& disk) { return write(flat_of(disk)); }},
+                    s.shape);
 }
 
 }  // namespace
@@ -152,7 +181,7 @@ std::string shape(const ForeignShape& s, const Scene& scene, const ForeignScene&
 
 ForeignFile mitsuba_file(const Scene& scene, const std::string& name, const std::string& file) {
   using namespace mitsuba;
-  const ForeignRenderer renderer{"Mitsuba 3", true, false, false, false, false, true};
+  const ForeignRenderer renderer{"Mitsuba 3", true, false, false, false, false, true, false, false};
   const ForeignScene foreign = foreign_scene(scene, name, renderer);
   ForeignFile out;
   out.text =
@@ -161,7 +190,7 @@ ForeignFile mitsuba_file(const Scene& scene, const std::string& name, const std:
   out.text += fmt::format("  <integrator type=\"{}\">{}{}</integrator>\n", foreign.media.empty() ? "path" : "volpath",
                           whole("max_depth", scene.render.max_depth + 1), whole("rr_depth", 16));
   out.text += camera(scene, foreign) + background(scene, file, out);
-  for (const ForeignShape& s : foreign.shapes) out.text += shape(s, scene, foreign);
+  for (const ForeignShape& s : foreign.shapes) out.text += shape(s, scene, foreign, out);
   out.text += "</scene>\n";
   return out;
 }

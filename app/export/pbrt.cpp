@@ -158,6 +158,23 @@ std::string shape(const std::vector<ForeignFlat>& flats) {
   return text;
 }
 
+std::string shape(const ForeignTriangle& t) {
+  return fmt::format(
+      "  Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 ] \"point3 P\" [ {}  {}  {} ]\n    \"point2 uv\" [ 0 0 1 "
+      "0 0 1 ]\n",
+      numbers_of(t.corner), numbers_of(t.corner + t.u), numbers_of(t.corner + t.v));
+}
+
+/// Their disk lies in the plane of x and y; its normal is z. The transform only turns and shifts it: under one that
+/// scales, lights would have the wrong area.
+std::string shape(const ForeignDisk& d) {
+  const double radius = length(d.u);
+  const Vec3d x = normalize(d.u), z = normalize(cross(d.u, d.v)), y = cross(z, x);
+  return fmt::format("  ConcatTransform [ {} 0  {} 0  {} 0  {} 1 ]\n  Shape \"disk\" {} {}\n", numbers_of(x),
+                     numbers_of(y), numbers_of(z), numbers_of(d.center), number("radius", radius),
+                     number("innerradius", d.inner * radius));
+}
+
 std::string medium(const ForeignMedium& m, std::size_t index) {
   const Vec3d scattering = m.sigma_t * m.albedo, absorption = Vec3d{m.sigma_t, m.sigma_t, m.sigma_t} - scattering;
   return fmt::format("MakeNamedMedium \"medium {}\" \"string type\" \"homogeneous\" {} {} {}\n", index,
@@ -169,7 +186,7 @@ std::string medium(const ForeignMedium& m, std::size_t index) {
 
 ForeignFile pbrt_file(const Scene& scene, const std::string& name, const std::string& file) {
   using namespace pbrt;
-  const ForeignRenderer renderer{"pbrt-v4", false, true, true, true, false, true};
+  const ForeignRenderer renderer{"pbrt-v4", false, true, true, true, false, true, false, true};
   const ForeignScene foreign = foreign_scene(scene, name, renderer);
   ForeignFile out;
   out.text = "# " + all_printable(scene.name.empty() ? name : scene.name) + ", by tyndall convert, for pbrt-v4\n";

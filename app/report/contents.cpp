@@ -12,17 +12,20 @@ bool emits(const Scene& scene, int material) {
   return std::holds_alternative<Light<double>>(scene.materials[static_cast<std::size_t>(material)].kind);
 }
 
+template <class Kinds>
+const char* type_of(const Kinds& kind) {
+  return std::visit([](const auto& k) { return std::decay_t<decltype(k)>::type; }, kind);
+}
+
 void count(const Scene& scene, const Solid3d& solid, Contents& contents) {
   const int lights = emits(scene, solid.material) ? 1 : 0;
   if (const auto* sphere = std::get_if<Sphere<>>(&solid.shape)) {
     ++contents.shapes[sphere->center_end ? "moving sphere" : "sphere"];
     contents.lights += lights;
-  } else if (std::holds_alternative<Quad<>>(solid.shape)) {
-    ++contents.shapes["quad"];
-    contents.lights += lights;
   } else {
-    ++contents.shapes["box"];
-    contents.lights += 6 * lights;
+    const auto* disk = std::get_if<Disk<>>(&solid.shape);
+    ++contents.shapes[disk && disk->inner > 0 ? "ring" : type_of(solid.shape)];
+    contents.lights += (std::holds_alternative<Box<>>(solid.shape) ? 6 : 1) * lights;
   }
 }
 
@@ -35,11 +38,6 @@ void count(const Scene& scene, const std::vector<Object>& objects, Contents& con
       if (volume->medium.g != 0) ++contents.phase_functions;
     }
   }
-}
-
-template <class Kinds>
-const char* type_of(const Kinds& kind) {
-  return std::visit([](const auto& k) { return std::decay_t<decltype(k)>::type; }, kind);
 }
 
 std::string background_of(const Scene& scene) {

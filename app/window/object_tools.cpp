@@ -13,11 +13,13 @@ namespace tyndall {
 namespace {
 
 constexpr Action add_actions[] = {Action::add_sphere, Action::add_hollow_sphere, Action::add_box,
-                                  Action::add_quad,   Action::add_light,         Action::add_medium};
+                                  Action::add_quad,   Action::add_triangle,      Action::add_disk,
+                                  Action::add_light,  Action::add_medium};
 constexpr Action object_actions[] = {Action::grab,       Action::duplicate,         Action::remove,
                                      Action::rename,     Action::own_material,      Action::frame,
                                      Action::add_sphere, Action::add_hollow_sphere, Action::add_box,
-                                     Action::add_quad,   Action::add_light,         Action::add_medium};
+                                     Action::add_quad,   Action::add_triangle,      Action::add_disk,
+                                     Action::add_light,  Action::add_medium};
 
 }  // namespace
 

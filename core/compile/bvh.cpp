@@ -16,6 +16,7 @@ constexpr int count_primitive_kinds() {
       case PrimitiveKind::moving_sphere:
       case PrimitiveKind::quad:
       case PrimitiveKind::box:
+      case PrimitiveKind::outlined:
         continue;
     }
     return count;

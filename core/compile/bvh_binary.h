@@ -12,9 +12,9 @@ struct Bounds {
   bool operator==(const Bounds&) const = default;
 };
 
-/// Kinds of primitives in leaves.
-enum class PrimitiveKind : std::uint8_t { sphere, moving_sphere, quad, box };
-inline constexpr int primitive_kinds = static_cast<int>(PrimitiveKind::box) + 1;
+/// Kinds of primitives in leaves. outlined: triangles and disks, see Outline.
+enum class PrimitiveKind : std::uint8_t { sphere, moving_sphere, quad, box, outlined };
+inline constexpr int primitive_kinds = static_cast<int>(PrimitiveKind::outlined) + 1;
 
 /// A primitive as the builder sees it.
 struct BvhInput {

@@ -3,6 +3,7 @@
 #include "core/base/kinds.h"
 #include "core/base/math.h"
 #include "core/base/random.h"
+#include "core/shapes/outline.h"
 
 #include <cmath>
 
@@ -64,6 +65,7 @@ struct Appender {
     to.inverse_radius.push_back(inverse_radius);
     if (more.motion) to.move_x.push_back(move.x), to.move_y.push_back(move.y), to.move_z.push_back(move.z);
     if (more.plane) to.plane.push_back(static_cast<float>(plane));
+    if (more.disk) to.disk.push_back(std::holds_alternative<Disk<>>(shape.shape) ? 1 : 0);
     to.material.push_back(shape.material);
     to.object.push_back(shape.object);
   }
@@ -103,6 +105,8 @@ struct Appender {
     const Vec3d u = rotated(q.u), v = rotated(q.v);
     append_flat(normalize(cross(u, v)), placed(q.corner), u, v);
   }
+  void operator()(const Triangle<>& t) const { (*this)(frame_of(t)); }
+  void operator()(const Disk<>& d) const { (*this)(frame_of(d)); }
   void operator()(const Box<>& b) const {
     for (std::int32_t i = 0; i < 6; ++i) {
       const BoxFace face = box_face_edges(b, i);

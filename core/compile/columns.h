@@ -41,9 +41,11 @@ struct MoreColumns {
   bool uv = false;      ///< for image textures
   bool motion = false;  ///< for moving spheres
   bool plane = false;   ///< for textures of any kind
+  bool disk = false;    ///< for image textures, in scenes with disks
 };
 
-/// Appends an element for each sphere, quad or box face. checker: the shape's texture; null: it has another or none.
+/// Appends an element for each sphere, flat shape or box face. checker: the shape's texture; null: it has another or
+/// none.
 void append_elements(const PlacedShape& shape, Vec3d origin, const MoreColumns& more, const Checker<>* checker,
                      Elements& elements);
 

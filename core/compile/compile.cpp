@@ -6,6 +6,7 @@
 #include "core/compile/specular_pairs.h"
 #include "core/compile/surroundings.h"
 #include "core/film/film.h"
+#include "core/shapes/outline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +59,9 @@ PrimitiveKind kind_of(const PlacedShape& shape) {
       Overloaded{[](const Sphere<>& sphere) {
                    return sphere.center_end ? PrimitiveKind::moving_sphere : PrimitiveKind::sphere;
                  },
-                 [](const Quad<>&) { return PrimitiveKind::quad; }, [](const Box<>&) { return PrimitiveKind::box; }},
+                 [](const Quad<>&) { return PrimitiveKind::quad; }, [](const Box<>&) { return PrimitiveKind::box; },
+                 [](const Triangle<>&) { return PrimitiveKind::outlined; },
+                 [](const Disk<>&) { return PrimitiveKind::outlined; }},
       shape.shape);
 }
 
@@ -89,6 +92,14 @@ struct SlotFiller {
       out.boxes.column[3 * row + 2].push_back(r.z), out.boxes.column[9 + row].push_back(map.offset[row]);
     }
     out.boxes.element.push_back(element);
+  }
+  void operator()(const Triangle<>& t) const { add_outlined(frame_of(t), outline_of(t)); }
+  void operator()(const Disk<>& d) const { add_outlined(frame_of(d), outline_of(d)); }
+
+  void add_outlined(const Quad<>& frame, const Outline& outline) const {
+    out.outlined.map.push_back(quad_map(frame, placement, out.origin));
+    out.outlined.outline.push_back(outline);
+    out.outlined.element.push_back(element);
   }
 };
 
@@ -122,7 +133,8 @@ const Checker<>* checker_of(const Scene& scene, std::int32_t material) {
 
 void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene* before, RenderScene& out) {
   std::vector<std::int32_t> first_element;
-  const MoreColumns more{out.features.image_textures, out.features.moving_spheres, out.features.textures};
+  const MoreColumns more{out.features.image_textures, out.features.moving_spheres, out.features.textures,
+                         out.features.image_textures && out.features.disks};
   for (const PlacedShape& shape : flat.shapes) {
     first_element.push_back(out.elements.count());
     append_elements(shape, out.origin, more, checker_of(scene, shape.material), out.elements);
@@ -157,8 +169,9 @@ void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene*
 }
 
 KernelSet min_kernel(const RenderScene& s) {
+  if (s.features.triangles || s.features.disks) return KernelSet::everything;
   const bool media_or_textures = s.features.media || s.features.textures;
-  if (!s.specular.sphere.empty()) return media_or_textures ? KernelSet::everything : KernelSet::specular_paths_only;
+  if (!s.specular.sphere.empty()) return media_or_textures ? KernelSet::no_outlines : KernelSet::specular_paths_only;
   return media_or_textures ? KernelSet::no_specular_paths : KernelSet::no_media_no_textures;
 }
 
@@ -229,13 +242,16 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
 }
 
 int RenderScene::primitives() const {
-  return static_cast<int>(spheres.x.size() + moving_spheres.x.size() + quads.map.size() + boxes.map.size());
+  return static_cast<int>(spheres.x.size() + moving_spheres.x.size() + quads.map.size() + boxes.map.size() +
+                          outlined.map.size());
 }
 
 const char* name_of(KernelSet set) {
   switch (set) {
     case KernelSet::everything:
       return "everything";
+    case KernelSet::no_outlines:
+      return "no triangles, no disks";
     case KernelSet::specular_paths_only:
       return "chains, no fog, no textures";
     case KernelSet::no_specular_paths:
@@ -250,6 +266,7 @@ std::size_t bytes_of(const RenderScene& s) {
   const std::size_t sphere = 5 * sizeof(float), element = 9 * sizeof(float);
   std::size_t bytes = sizeof s + sphere * s.spheres.x.size() + (sphere + 12) * s.moving_spheres.x.size();
   bytes += (sizeof(Affine) + 4) * (s.quads.map.size() + 2 * s.boxes.map.size());
+  bytes += (sizeof(Affine) + sizeof(Outline) + 4) * s.outlined.map.size();
   bytes += element * static_cast<std::size_t>(s.elements.count()) + sizeof(float) * s.elements.uv.size();
   if (s.bvh)
     bytes += sizeof(BvhNode) * s.bvh->nodes.size() + sizeof(BvhLeaf) * s.bvh->leaves.size() +

@@ -183,7 +183,7 @@ std::vector<Receiver> list_receivers(const Flattened& flat, const Scene& scene) 
     const Material& material = scene.materials[static_cast<std::size_t>(shape.material)];
     if (!traits_of(material.kind).diffuse) continue;
     Receiver receiver{extent_of(shape, scene.camera), false, {}};
-    if (const auto* quad = std::get_if<Quad<>>(&shape.shape)) {
+    if (const std::optional<Quad<>> quad = frame_of_flat(shape)) {
       receiver.is_quad = true;
       receiver.normal = normalize(rotate(shape.placement, cross(quad->u, quad->v)));
     }

@@ -22,8 +22,8 @@ std::vector<FlatMirror> list_flat_mirrors(const Flattened& flat, const std::vect
 /// A diffuse surface or a medium, on which the light of specular paths shows.
 struct Receiver {
   Extent extent;
-  bool is_quad = false;
-  Vec3d normal;  ///< of a quad
+  bool is_quad = false;  ///< or a triangle or disk
+  Vec3d normal;          ///< of a quad
 };
 std::vector<Receiver> list_receivers(const Flattened& flat, const Scene& scene);
 

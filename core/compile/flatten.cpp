@@ -2,6 +2,7 @@
 
 #include "core/base/kinds.h"
 #include "core/base/math.h"
+#include "core/shapes/outline.h"
 
 #include <algorithm>
 #include <bit>
@@ -64,6 +65,13 @@ std::uint64_t hash_of(const PlacedShape& placed) {
                         },
                         [&](const Box<>& b) {
                           add_all({b.min, b.max});
+                        },
+                        [&](const Triangle<>& t) {
+                          add_all({t.corner, t.u, t.v});
+                        },
+                        [&](const Disk<>& d) {
+                          add_all({d.center, d.u, d.v});
+                          add(d.inner);
                         }},
              placed.shape);
   add(placed.placement.degrees);
@@ -105,6 +113,8 @@ bool same_shape(const PlacedShape& shape, const PlacedVolume& volume) {
 Vec3d own_center(const Sphere<>& s) { return s.center; }
 Vec3d own_center(const Quad<>& q) { return q.corner + 0.5 * (q.u + q.v); }
 Vec3d own_center(const Box<>& b) { return 0.5 * b.min + 0.5 * b.max; }
+Vec3d own_center(const Triangle<>& t) { return t.corner + (1.0 / 3) * (t.u + t.v); }
+Vec3d own_center(const Disk<>& d) { return d.center; }
 
 Extent own_extent(const Sphere<>& s, const Camera& camera) {
   const Vec3d motion = s.center_end ? *s.center_end - s.center : Vec3d{};
@@ -117,6 +127,18 @@ Extent own_extent(const Box<>& b, const Camera&) {
   Extent extent;
   for (int i = 0; i < 8; ++i)
     extent.points.push_back({i & 1 ? b.max.x : b.min.x, i & 2 ? b.max.y : b.min.y, i & 4 ? b.max.z : b.min.z});
+  return extent;
+}
+
+Extent own_extent(const Triangle<>& t, const Camera&) { return {{t.corner, t.corner + t.u, t.corner + t.v}}; }
+/// An octagon around the disk, whose sides touch the rim.
+Extent own_extent(const Disk<>& d, const Camera&) {
+  Extent extent;
+  const double apothem = std::cos(pi / 8);
+  for (int i = 0; i < 8; ++i) {
+    const double angle = (2 * i + 1) * pi / 8;
+    extent.points.push_back(d.center + (1 / apothem) * (std::cos(angle) * d.u + std::sin(angle) * d.v));
+  }
   return extent;
 }
 
@@ -200,6 +222,8 @@ SceneFeatures features_of(const Scene& scene, const Flattened& flat) {
     n.moving_spheres |= sphere && sphere->center_end;
     n.quads |= std::holds_alternative<Quad<>>(s.shape);
     n.boxes |= std::holds_alternative<Box<>>(s.shape);
+    n.triangles |= std::holds_alternative<Triangle<>>(s.shape);
+    n.disks |= std::holds_alternative<Disk<>>(s.shape);
     used[static_cast<std::size_t>(s.material)] = true;
   }
   for (const PlacedVolume& v : flat.volumes) {
@@ -229,6 +253,7 @@ std::vector<std::string> names_of(const SceneFeatures& n) {
     if (needed) names.emplace_back(name);
   };
   add("spheres", n.spheres), add("moving_spheres", n.moving_spheres), add("quads", n.quads), add("boxes", n.boxes);
+  add("triangles", n.triangles), add("disks", n.disks);
   add("media", n.media), add("phase_functions", n.phase_functions);
   [&]<class... Kinds>(const std::variant<Kinds...>*) {
     (add(feature_name<Kinds>(), has_material<Kinds>(n)), ...);

@@ -24,7 +24,7 @@ Vec3d rotate(const Placement& p, Vec3d v);  ///< a direction
 Vec3d place(const Placement& p, Vec3d v);   ///< a point
 
 struct PlacedShape {
-  std::variant<Sphere<>, Quad<>, Box<>> shape;  ///< in its own frame
+  std::variant<Sphere<>, Quad<>, Box<>, Triangle<>, Disk<>> shape;  ///< in its own frame
   Placement placement;
   int material = -1;
   std::int32_t object = -1;  ///< number in Flattened::objects

@@ -2,6 +2,7 @@
 
 #include "core/base/math.h"
 #include "core/compile/columns.h"
+#include "core/shapes/outline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +39,26 @@ void add_flat(Lights& out, const Emitter& e, Vec3d corner, Vec3d u, Vec3d v) {
   push_common(out, e, length(n), corner + 0.5 * (u + v), 0.5 * std::max(length(u + v), length(u - v)));
 }
 
+/// Squared radius of a sphere around the middle of the frame that holds the shape.
+double reach2_of(const Triangle<>& t) { return 0.25 * std::max(dot(t.u + t.v, t.u + t.v), dot(t.u - t.v, t.u - t.v)); }
+double reach2_of(const Disk<>& d) {  // the square of the longer half axis of the ellipse
+  const double a = dot(d.u, d.u), b = dot(d.v, d.v);
+  return 0.5 * (a + b) + std::hypot(0.5 * (a - b), dot(d.u, d.v));
+}
+
+/// Turns the light that was added last, of the frame of a shape, into that of the shape.
+void give_outline(Lights& out, const Emitter& e, const auto& shape) {
+  const Outline outline = outline_of(shape);
+  const bool triangle = outline.kind == Outline::triangle;
+  const std::size_t k = out.kind.size() - 1;
+  out.reach2[k] = static_cast<float>(reach2_of(shape));
+  out.kind[k] = triangle ? Lights::triangle : Lights::ring;
+  out.inner.resize(k + 1);
+  out.inner[k] = outline.inner;
+  const double area = area_fraction(outline) * static_cast<double>(out.area[k]);
+  out.area[k] = static_cast<float>(area), out.power[k] = static_cast<float>(area * e.brightness);
+}
+
 struct Collector {
   Lights& out;
   const Placement& placement;
@@ -59,6 +80,12 @@ struct Collector {
   }
   void operator()(const Quad<>& q) const {
     add_flat(out, emitter, place(placement, q.corner) - origin, rotate(placement, q.u), rotate(placement, q.v));
+  }
+  void operator()(const Triangle<>& t) const { add_outlined(t); }
+  void operator()(const Disk<>& d) const { add_outlined(d); }
+  void add_outlined(const auto& shape) const {
+    (*this)(frame_of(shape));
+    give_outline(out, emitter, shape);
   }
   void operator()(const Box<>& b) const {
     for (std::int32_t i = 0; i < 6; ++i) {
@@ -242,6 +269,7 @@ Lights collect_lights(const Scene& scene, const Flattened& flat, const std::vect
   elements.light.assign(elements.material.size(), -1);
   for (int k = 0; k < out.count(); ++k)
     elements.light[static_cast<std::size_t>(out.element[static_cast<std::size_t>(k)])] = k;
+  if (!out.inner.empty()) out.inner.resize(out.kind.size());
   build_light_tree(out);
   return out;
 }

@@ -2,6 +2,7 @@
 
 #include "core/base/sampling.h"
 #include "core/compile/columns.h"
+#include "core/shapes/outline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +63,7 @@ bool reaches_into(const PlacedShape& shape, const RoundBody& body) {
     const double own = body.radius * (1 - touching);
     return d.minimum < own + other.radius && d.greatest > other.radius - own;
   }
-  if (const auto* quad = std::get_if<Quad<>>(&shape.shape)) {
+  if (const std::optional<Quad<>> quad = frame_of_flat(shape)) {
     const Vec3d corner = place(shape.placement, quad->corner);
     const Vec3d u = rotate(shape.placement, quad->u), v = rotate(shape.placement, quad->v);
     return comes_close(body, [&](Vec3d center) { return distance_to_flat(center, corner, u, v); });
@@ -165,6 +166,19 @@ double distance_to_flat(Vec3d point, Vec3d corner, Vec3d u, Vec3d v) {
                    distance_to_segment(point, corner + u, v), distance_to_segment(point, corner + v, u)});
 }
 
+std::optional<Quad<>> frame_of_flat(const PlacedShape& placed) {
+  return std::visit(
+      []<class Shape>(const Shape& shape) -> std::optional<Quad<>> {
+        if constexpr (std::is_same_v<Shape, Quad<>>)
+          return shape;
+        else if constexpr (has_outline<Shape>)
+          return frame_of(shape);
+        else
+          return {};
+      },
+      placed.shape);
+}
+
 RoundBody round_body(const Sphere<>& s, const Placement& placement) {
   const Vec3d motion = s.center_end ? rotate(placement, *s.center_end - s.center) : Vec3d{};
   return {place(placement, s.center), motion, std::abs(s.radius)};
@@ -206,7 +220,7 @@ std::vector<Flat> list_flats(const Flattened& flat) {
   std::vector<Flat> flats;
   for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
     const PlacedShape& shape = flat.shapes[i];
-    if (const auto* quad = std::get_if<Quad<>>(&shape.shape))
+    if (const std::optional<Quad<>> quad = frame_of_flat(shape))
       flats.push_back(flat_at(i, shape.placement, quad->corner, quad->u, quad->v));
     const auto* box = std::get_if<Box<>>(&shape.shape);
     for (std::int32_t k = 0; box && k < 6; ++k) {

@@ -4,11 +4,16 @@
 
 #include <array>
 #include <initializer_list>
+#include <optional>
 #include <vector>
 
 /// Tests for overlap: whether a shape or medium reaches into a sphere at any time from 0 to 1, and whether boxes and
 /// flats meet or coincide; and how much of a light a sphere sees past the rest of the scene.
 namespace tyndall {
+
+/// A quad itself, or the parallelogram around a triangle or disk, in the shape's own frame; nothing for other shapes.
+/// Tests for overlap take the whole parallelogram, so that for triangles and disks they may wrongly be true.
+std::optional<Quad<>> frame_of_flat(const PlacedShape& shape);
 
 /// A sphere in world space that moves from `center` to `center + motion` while time runs from 0 to 1.
 struct RoundBody {
@@ -18,8 +23,8 @@ struct RoundBody {
 RoundBody round_body(const Sphere<>& sphere, const Placement& placement);
 
 /// Whether a medium, or a surface of a shape that is not in `own` (indices into Flattened::shapes), is in `body` or
-/// reaches into it. An overlap below a millionth of the radius does not count. Where something moves past a flat, the
-/// answer may wrongly be true, never wrongly false.
+/// reaches into it. An overlap below a millionth of the radius does not count. Where something moves past a flat, or is
+/// within the parallelogram around a triangle or disk, the answer may wrongly be true, never wrongly false.
 bool is_overlapped(const Flattened& flat, const RoundBody& body, std::initializer_list<std::size_t> own);
 
 /// Distance from a point to the nearest point of the parallelogram with the edges u and v from `corner`.
@@ -37,7 +42,7 @@ Block block_of(const Box<>& box, const Placement& placement);
 /// Whether two blocks have no point in common.
 bool are_apart(const Block& a, const Block& b);
 
-/// A parallelogram of a scene: a quad, or a face of a box. Its edge[2] is 0.
+/// A parallelogram of a scene: a quad, one around a triangle or disk, or a face of a box. Its edge[2] is 0.
 struct Flat {
   std::size_t shape;  ///< index into Flattened::shapes
   Block block;

@@ -5,6 +5,7 @@
 #include "core/compile/bvh.h"
 #include "core/materials/materials.h"
 #include "core/scene/integrator.h"
+#include "core/shapes/outline.h"
 #include "core/shapes/quad.h"
 #include "core/textures/textures.h"
 
@@ -52,7 +53,7 @@ class ObjectTree {
 /// The models that a scene contains. They select a kernel that leaves out other models; which kernel runs changes no
 /// bit of the picture.
 struct SceneFeatures {
-  bool spheres = false, moving_spheres = false, quads = false, boxes = false;
+  bool spheres = false, moving_spheres = false, quads = false, boxes = false, triangles = false, disks = false;
   bool media = false, phase_functions = false;                      ///< phase_functions: some medium has g != 0
   bool materials[std::variant_size_v<MaterialKinds<double>>] = {};  ///< by kind
   bool textures = false, image_textures = false;
@@ -115,10 +116,11 @@ struct Flats {
   std::vector<std::int32_t> element;  ///< a box owns six: its faces x-, x+, y-, y+, z-, z+
   /// Boxes only: the numbers of `map` once more, in columns: x, y, z of the rows, then the offsets.
   std::vector<float> column[affine_numbers];
+  std::vector<Outline> outline;  ///< triangles and disks only, whose `map` is that of their frame
   int bounding = 0;  ///< how many at the end are quads that bound the scene: shadow rays skip them (surroundings.h)
 };
 
-/// Columns by element. An element is a sphere, a quad or a face of a box.
+/// Columns by element. An element is a sphere, a flat shape or a face of a box.
 struct Elements {
   /// Spheres: centre and 1 / signed radius. Flats: unit outward normal and 0.
   std::vector<float> x, y, z, inverse_radius;
@@ -133,6 +135,9 @@ struct Elements {
   /// checker: then the plane lies within the layer that floor() gives, so that rounding does not choose the cell.
   /// Spheres: 0.
   std::vector<float> plane;
+  /// For image textures, in scenes with disks: 1 for disks, whose uv columns give fractions of the edges of their
+  /// frame, see disk_uv(); 0 for others.
+  std::vector<std::int32_t> disk;
   std::vector<std::int32_t> object;  ///< the number of the object that it belongs to, in RenderScene::objects
   int count() const { return static_cast<int>(material.size()); }
 };
@@ -180,18 +185,21 @@ struct LightTree {
   std::vector<std::int32_t> leaf;  ///< by light: its node
 };
 
-/// Emitting primitives: spheres, quads, faces of boxes. Columns by light.
+/// Emitting primitives: spheres, flat shapes, faces of boxes. Columns by light.
 struct Lights {
-  enum Kind : std::int32_t { rectangle, parallelogram, sphere };  ///< rectangle: edges at right angles
+  /// rectangle: edges at right angles; triangle, ring: those with an outline, see Outline
+  enum Kind : std::int32_t { rectangle, parallelogram, sphere, triangle, ring };
   std::vector<std::int32_t> kind, element;
-  /// Flats: a corner and unit edges. Spheres: the centre in corner, and its motion over the shutter in edge_u.
+  /// Flats: a corner and unit edges, of the frame if they have an outline. Spheres: the centre in corner, and its
+  /// motion over the shutter in edge_u.
   std::vector<float> corner[3], edge_u[3], edge_v[3], normal[3];
   std::vector<float> length_u, length_v;  ///< spheres: the radius in length_u
-  std::vector<float> area;
-  std::vector<float> center[3];  ///< a point in the middle, for choosing a light
-  std::vector<float> power;      ///< area times the largest component of the radiance
-  std::vector<float> reach2;     ///< squared radius of a sphere around center that holds the light
-  LightTree tree;                ///< empty with at most max_lights_by_contribution
+  std::vector<float> area;                ///< of what emits: of a triangle half of its frame's
+  std::vector<float> inner;               ///< rings: Outline::inner; empty without triangles and rings
+  std::vector<float> center[3];           ///< a point in the middle, for choosing a light
+  std::vector<float> power;               ///< area times the largest component of the radiance
+  std::vector<float> reach2;              ///< squared radius of a sphere around center that holds the light
+  LightTree tree;                         ///< empty with at most max_lights_by_contribution
   int count() const { return static_cast<int>(kind.size()); }
 };
 inline constexpr int max_lights_by_contribution = 16;
@@ -245,8 +253,10 @@ struct SpecularPairs {
 
 /// The variants of the kernels, by the models that they leave out. A scene without these models gives the same picture
 /// with the variant, bit by bit.
-enum class KernelSet { everything, specular_paths_only, no_specular_paths, no_media_no_textures };
-inline constexpr int kernel_sets = 4;
+///
+/// Only `everything` has triangles and disks.
+enum class KernelSet { everything, no_outlines, specular_paths_only, no_specular_paths, no_media_no_textures };
+inline constexpr int kernel_sets = 5;
 const char* name_of(KernelSet set);
 
 struct RenderScene {
@@ -255,7 +265,7 @@ struct RenderScene {
   CameraColumns camera;
   BackgroundColumns background;
   Spheres spheres, moving_spheres;
-  Flats quads, boxes;
+  Flats quads, boxes, outlined;    ///< outlined: triangles and disks
   std::shared_ptr<const Bvh> bvh;  ///< null: few primitives, all are tested
   Elements elements;
   ObjectTree objects;

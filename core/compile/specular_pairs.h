@@ -11,7 +11,7 @@ namespace tyndall {
 ///
 /// - Spheres: metal without fuzz, solid glass, and glass shells (two spheres around one centre) with the same medium
 /// inside as outside.
-/// - Flat mirrors: quads and faces of boxes, of metal without fuzz.
+/// - Flat mirrors: quads and faces of boxes, of metal without fuzz; not triangles and disks.
 /// - Slabs: boxes of glass, see flat_objects.h.
 /// - Lights: the radius of the light is at most 1/4 of its distance from the sphere (0.15 of it if it shines through
 /// solid glass from outside), or 1/4 of the radius of a sphere around it, or 1/2 of its distance from the mirror or

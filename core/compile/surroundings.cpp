@@ -1,6 +1,7 @@
 #include "core/compile/surroundings.h"
 
 #include "core/compile/columns.h"
+#include "core/shapes/outline.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +40,11 @@ class NearestSurface {
   void look_at(const Quad<>& quad, const Placement& placement, std::int32_t element) {
     look_at_flat(place(placement, quad.corner), rotate(placement, quad.u), rotate(placement, quad.v), element);
   }
+  template <class Shape>
+  requires has_outline<Shape>
+  void look_at(const Shape& shape, const Placement& placement, std::int32_t element) {
+    if (holds_lens(frame_of(shape), outline_of(shape), placement)) look_at(frame_of(shape), placement, element);
+  }
   void look_at(const Box<>& box, const Placement& placement, std::int32_t element) {
     for (std::int32_t i = 0; i < 6; ++i) {
       const BoxFace face = box_face_edges(box, i);
@@ -59,6 +65,18 @@ class NearestSurface {
     const Vec3d normal = normalize(cross(u, v)), from = corner - origin_;
     const double size = std::max(largest_component(from), largest_component(from + u + v));
     keep(normal, dot(normal, arm), 0, size, element);
+  }
+
+  /// Whether the middle and the corners of a rectangle around the lens lie within the outline.
+  bool holds_lens(const Quad<>& frame, const Outline& outline, const Placement& placement) const {
+    const Vec3d arm = eye_ - place(placement, frame.corner);
+    const Reciprocal r = reciprocal_edges(rotate(placement, frame.u), rotate(placement, frame.v));
+    const double x = 2 * dot(r.a, arm) - 1, y = 2 * dot(r.b, arm) - 1;
+    const double room_x = 2 * lens_ * length(r.a), room_y = 2 * lens_ * length(r.b);
+    bool holds = within(outline, x, y);
+    for (const double i : {-room_x, room_x})
+      for (const double k : {-room_y, room_y}) holds = holds && within(outline, x + i, y + k);
+    return holds;
   }
 
   /// size: the largest number that is rounded in tests of rays against the surface. curvature: 0 for flats.

@@ -131,6 +131,22 @@ void check_shape(const Place& at, const Quad<>& quad) {
     fail(at, quad.u == Vec3d{} || quad.v == Vec3d{} ? "a quad with an edge of length 0" : "a quad with parallel edges",
          "edges u and v that span an area");
 }
+void check_shape(const Place& at, const Triangle<>& triangle) {
+  check_fields(at, triangle);
+  if (parallel(triangle.u, triangle.v))
+    fail(at,
+         triangle.u == Vec3d{} || triangle.v == Vec3d{} ? "a triangle with an edge of length 0"
+                                                        : "a triangle with parallel edges",
+         "edges u and v that span an area");
+}
+void check_shape(const Place& at, const Disk<>& disk) {
+  check_fields(at, disk);
+  if (parallel(disk.u, disk.v))
+    fail(at,
+         disk.u == Vec3d{} || disk.v == Vec3d{} ? "a disk with a half axis of length 0"
+                                                : "a disk with parallel half axes",
+         "half axes u and v that span an area");
+}
 void check_shape(const Place& at, const Box<>& box) {
   check_fields(at, box);
   const double low[3] = {box.min.x, box.min.y, box.min.z}, high[3] = {box.max.x, box.max.y, box.max.z};

@@ -59,7 +59,7 @@ using Transform = std::vector<std::variant<RotateY, Translate>>;
 
 /// A shape with a surface of some material.
 struct Solid3d {
-  std::variant<Sphere<>, Quad<>, Box<>> shape;
+  std::variant<Sphere<>, Quad<>, Box<>, Triangle<>, Disk<>> shape;
   int material = 0;  ///< index into Scene::materials
   bool operator==(const Solid3d&) const = default;
 };

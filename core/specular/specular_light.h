@@ -75,7 +75,7 @@ TYNDALL_INLINE SpecularQuery<F> specular_query(const auto& s, const SpecularRequ
 /// Draws a point of the light into `a`, and updates the plane and the ends of the path.
 template <class F>
 TYNDALL_INLINE void aim_at_light(const auto& s, Vec3<F> point, F time, Pair<F> u, SpecularQuery<F>& a) {
-  a.at = sample_light_point(a.light_columns, a.sphere, a.receiver, time, u);
+  a.at = sample_light_point(s, a.light, a.light_columns, a.sphere, a.receiver, time, u);
   if (!s.specular.has_spheres()) return;
   a.plane = plane_of(a.sphere, point, a.at.point);
   a.ends = ends_of(a.sphere, a.plane.near, a.plane.far);
@@ -266,7 +266,7 @@ TYNDALL_INLINE SampledPath<F> sample_specular_path(const auto& s, const Specular
 /// Radiance that reaches the requests' points by specular paths, times their throughput. Each visibility test of a lane
 /// adds one to shadow_rays.
 template <class F>
-[[gnu::noinline]] static Vec3<F> specular_light(const SceneView& s, const SpecularRequest<F>& q, MaskOf<F> lanes,
+[[gnu::noinline]] static Vec3<F> specular_light(const auto& s, const SpecularRequest<F>& q, MaskOf<F> lanes,
                                                 std::uint32_t& shadow_rays) {
   const SpecularQuery<F> a = specular_query<F>(s, q, lanes);
   const Decisions<F> decisions{q.sampler.independent_bits(dimension::event_sequence),
@@ -283,7 +283,8 @@ template <class F>
     const Ray<F>& ray = leg == 0 ? near : far;
     const F distance = leg == 0 ? found.near_distance : found.far_distance;
     shadow_rays += static_cast<std::uint32_t>(__builtin_popcount(bits(arrives)));
-    arrives = mask_and_not(arrives, call_blocked(s, ray, distance, leg == 0 ? found.wall : light_element, arrives));
+    arrives = mask_and_not(arrives,
+                           call_blocked(shared_view(s), ray, distance, leg == 0 ? found.wall : light_element, arrives));
     if (!any(arrives)) return zero3<F>();
     if (s.has_media()) weight = weight * pass_media(s, ray, distance, arrives);
   }

@@ -70,12 +70,14 @@ TYNDALL_INLINE F draw_on_light_side(const LightSide<F>& side, F u) {
   return select(side.outside, growing, within);
 }
 
-/// Draws a point of a light for a specular path at sphere `b`. receiver: the shading point, as seen from the light.
+/// Draws a point of the light k for a specular path at sphere `b`. light: its columns. receiver: the shading point, as
+/// seen from the light.
 template <class F>
-TYNDALL_INLINE LightPoint<F> sample_light_point(const LightColumns<F>& light, const SpecularSphere<F>& b,
-                                                Vec3<F> receiver, F time, Pair<F> u) {
+TYNDALL_INLINE LightPoint<F> sample_light_point(const auto& s, IntOf<F> k, const LightColumns<F>& light,
+                                                const SpecularSphere<F>& b, Vec3<F> receiver, F time, Pair<F> u) {
+  const Pair<F> drawn = on_flat_light(s, k, light.kind, u);
   const Vec3<F> flat =
-      point_at(point_at(light.corner, u.x * light.length_u, light.edge_u), u.y * light.length_v, light.edge_v);
+      point_at(point_at(light.corner, drawn.x * light.length_u, light.edge_u), drawn.y * light.length_v, light.edge_v);
   LightPoint<F> at{flat, light.normal, F(1.0f) / max(light.area, F(1e-37f))};
   const auto round = equal(light.kind, IntOf<F>(Lights::sphere));
   if (!any(round)) return at;
@@ -272,7 +274,8 @@ TYNDALL_INLINE F pass_inside(const auto& s, const SpecularSphere<F>& b, const Pa
       const Ray<F> ray{from, (F(1.0f) / length_of) * (to - from), time,
                        select(from_outer, b.outer, b.inner) * I(4) + select(outward, I(0), I(1))};
       shadow_rays += static_cast<std::uint32_t>(__builtin_popcount(bits(here)));
-      clear = mask_and_not(clear, call_blocked(s, ray, length_of, select(to_outer, b.outer, b.inner), here));
+      clear =
+          mask_and_not(clear, call_blocked(shared_view(s), ray, length_of, select(to_outer, b.outer, b.inner), here));
       if (s.has_media()) throughput = select(here, throughput * pass_media(s, ray, length_of, here), throughput);
     }
     path.angle = end;

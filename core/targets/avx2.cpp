@@ -10,6 +10,6 @@ using F = Twice<HWY_NAMESPACE::Floats>;
 static_assert(lanes_of<F> == 16, "the SIMD library fell back to a narrower set: a flag is missing");
 }  // namespace
 
-Kernels avx2_kernels() { return kernels_of<F>("avx2"); }
+Kernels avx2_kernels() { return with_kernel_sets<F>(avx2_full_kernel()); }
 
 }  // namespace tyndall

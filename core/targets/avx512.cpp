@@ -10,6 +10,6 @@ using F = Twice<HWY_NAMESPACE::Floats>;
 static_assert(lanes_of<F> == 32, "the SIMD library fell back to a narrower set: a flag is missing");
 }  // namespace
 
-Kernels avx512_kernels() { return kernels_of<F>("avx512"); }
+Kernels avx512_kernels() { return with_kernel_sets<F>(avx512_full_kernel()); }
 
 }  // namespace tyndall

@@ -132,7 +132,7 @@ static void render_any_tile(const SceneView& s, const TileJob& job, const TileFi
 template <class F, KernelSet set, bool reuse>
 static void render_tile_entry(const SceneView& scene, const TileJob& job, double film_quantum, FilmPixel* pixels,
                               EmissionSums* emission, TileCounts& counts) {
-  const SceneViewFor<set, reuse> s{scene};
+  const SceneViewFor<set, reuse> s{{scene}};
   const TileFilm film{1 / film_quantum, pixels, emission, counts};
   NoRecorder recorder;
   if constexpr (reuse) {
@@ -160,23 +160,6 @@ template <class F>
 static void first_hits_entry(const SceneView& s, const Region& r, FirstHit* h) {
   first_hits<F>(s, r, h);
 }
-/// A table with a separate kernel for each KernelSet, for the instruction sets that most processors have. With reuse,
-/// all scenes with specular paths have one kernel, with or without media and textures: another one would make the build
-/// longer.
-template <class F>
-static Kernels kernels_of(const char* isa) {
-  const RenderTile reusing = render_tile_entry<F, KernelSet::everything, true>;
-  return {
-      isa,
-      lanes_of<F>,
-      {render_tile_entry<F, KernelSet::everything, false>, render_tile_entry<F, KernelSet::specular_paths_only, false>,
-       render_tile_entry<F, KernelSet::no_specular_paths, false>,
-       render_tile_entry<F, KernelSet::no_media_no_textures, false>},
-      {reusing, reusing, render_tile_entry<F, KernelSet::no_specular_paths, true>,
-       render_tile_entry<F, KernelSet::no_media_no_textures, true>},
-      trace_entry<F>,
-      first_hits_entry<F>};
-}
 /// A table in which one kernel with every model serves all KernelSets, with and without reuse. It gives the same
 /// pictures, a little slower, and compiles much sooner: for references and for old processors.
 template <class F, class Recorder = NoRecorder>
@@ -184,10 +167,29 @@ static Kernels full_kernel_of(const char* isa) {
   const RenderTile render = render_any_entry<F, Recorder, false>, fraction = render_any_entry<F, Recorder, true>;
   return {isa,
           lanes_of<F>,
-          {render, render, render, render},
-          {fraction, fraction, fraction, fraction},
+          {render, render, render, render, render},
+          {fraction, fraction, fraction, fraction, fraction},
           trace_entry<F>,
           first_hits_entry<F>};
+}
+
+/// Gives the table of the full kernel a separate kernel for each other KernelSet, for the instruction sets that most
+/// processors have. With reuse, all scenes with specular paths have one kernel, with or without media and textures:
+/// another one would make the build longer.
+template <class F>
+static Kernels with_kernel_sets(Kernels full) {
+  const auto give = [&](KernelSet set, RenderTile alone, RenderTile reusing) {
+    full.render_alone[static_cast<int>(set)] = alone, full.render_reusing[static_cast<int>(set)] = reusing;
+  };
+  using enum KernelSet;
+  const RenderTile reusing = render_tile_entry<F, no_outlines, true>;
+  give(no_outlines, render_tile_entry<F, no_outlines, false>, reusing);
+  give(specular_paths_only, render_tile_entry<F, specular_paths_only, false>, reusing);
+  give(no_specular_paths, render_tile_entry<F, no_specular_paths, false>,
+       render_tile_entry<F, no_specular_paths, true>);
+  give(no_media_no_textures, render_tile_entry<F, no_media_no_textures, false>,
+       render_tile_entry<F, no_media_no_textures, true>);
+  return full;
 }
 
 }  // namespace tyndall

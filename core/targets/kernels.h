@@ -45,6 +45,9 @@ Kernels sse4_kernels();
 Kernels avx2_kernels();
 Kernels avx512_kernels();
 Kernels neon_kernels();
+// The tables of two of them before with_kernel_sets(), in files of their own: compilers work on both at once.
+Kernels avx2_full_kernel();
+Kernels avx512_full_kernel();
 /// The same source over double, to see what rounding costs the other kernels. It reads the same columns of floats and
 /// draws the same random numbers, but is slow. Its name is "double"; available_kernels() does not list it.
 Kernels double_kernels();

@@ -16,7 +16,8 @@ struct Image {
   static constexpr const char* type = "image";
   static constexpr const char* about =
       "A picture laid on the surface by its uv coordinates, bilinear; v is up. u wraps around spheres and ends at the "
-      "edge of quads and boxes. An alpha channel is not looked at: what is hidden beneath it is shown. Not for media.";
+      "edge of flat shapes and boxes. An alpha channel is not looked at: what is hidden beneath it is shown. Not for "
+      "media.";
   struct Pixels {
     int width = 0, height = 0;
     std::vector<float> rgb;              ///< 3·width·height linear numbers in [0, 1], top row first

@@ -71,7 +71,7 @@ TYNDALL_INLINE void open_node(const BvhNode& node, const Slopes<F>& slopes, F li
 /// Replaces `best` in lanes that hit something closer. On entry best.t is the distance up to which each lane searches;
 /// negative: the lane is inactive.
 template <class F, class Q>
-TYNDALL_INLINE void test_tree(const SceneView& s, const Ray<F>& ray, Q query, Hit<F>& best) {
+TYNDALL_INLINE void test_tree(const auto& s, const Ray<F>& ray, Q query, Hit<F>& best) {
   const Slopes<F> slopes = slopes_of(ray);
   SingleRays<F> alone;
   Stack<F> stack;
@@ -95,28 +95,28 @@ TYNDALL_INLINE void test_tree(const SceneView& s, const Ray<F>& ray, Q query, Hi
 }
 
 template <class F>
-TYNDALL_INLINE Hit<F> closest_of_all(const SceneView& s, const Ray<F>& ray, MaskOf<F> active) {
+TYNDALL_INLINE Hit<F> closest_of_all(const auto& s, const Ray<F>& ray, MaskOf<F> active) {
   Hit<F> best{select(active, F(__builtin_inff()), F(-1.0f)), IntOf<F>(-1)};
   test_all(s, ray, RayQuery<F, false, false>{F(0.0f), IntOf<F>(-1), -1}, best);
   return best;
 }
 
 template <class F>
-TYNDALL_INLINE Hit<F> closest_in_tree(const SceneView& s, const Ray<F>& ray, MaskOf<F> active) {
+TYNDALL_INLINE Hit<F> closest_in_tree(const auto& s, const Ray<F>& ray, MaskOf<F> active) {
   Hit<F> best{select(active, F(__builtin_inff()), F(-1.0f)), IntOf<F>(-1)};
   test_tree(s, ray, RayQuery<F, false, true>{F(0.0f), IntOf<F>(-1), -1}, best);
   return best;
 }
 
 template <class F>
-TYNDALL_INLINE Hit<F> closest(const SceneView& s, const Ray<F>& ray, MaskOf<F> active) {
+TYNDALL_INLINE Hit<F> closest(const auto& s, const Ray<F>& ray, MaskOf<F> active) {
   return s.nodes ? closest_in_tree(s, ray, active) : closest_of_all(s, ray, active);
 }
 
 /// Lanes that hit anything but element `aim` before `distance`. If `aim` is a face of a box, the box's other faces do
 /// block. common_aim: the element that all lanes aim at, or -1 if they may aim at different ones.
 template <class F>
-TYNDALL_INLINE MaskOf<F> blocked_towards(const SceneView& s, const Ray<F>& ray, F distance, IntOf<F> aim,
+TYNDALL_INLINE MaskOf<F> blocked_towards(const auto& s, const Ray<F>& ray, F distance, IntOf<F> aim,
                                          std::int32_t common_aim, MaskOf<F> active) {
   Hit<F> best{select(active, distance, F(-1.0f)), IntOf<F>(-1)};
   if (s.nodes)
@@ -128,7 +128,7 @@ TYNDALL_INLINE MaskOf<F> blocked_towards(const SceneView& s, const Ray<F>& ray, 
 
 /// blocked_towards() for shadow rays to lights. aim: the light's element.
 template <class F>
-TYNDALL_INLINE MaskOf<F> blocked(const SceneView& s, const Ray<F>& ray, F distance, IntOf<F> aim, MaskOf<F> active) {
+TYNDALL_INLINE MaskOf<F> blocked(const auto& s, const Ray<F>& ray, F distance, IntOf<F> aim, MaskOf<F> active) {
   return blocked_towards(s, ray, distance, aim, s.lights.count == 1 ? s.lights.element[0] : -1, active);
 }
 
@@ -140,9 +140,9 @@ template <class F>
   return closest(s, ray, active);
 }
 
+/// s: a shared_view().
 template <class F>
-[[gnu::noinline]] static MaskOf<F> call_blocked(const SceneView& s, Ray<F> ray, F distance, IntOf<F> aim,
-                                                MaskOf<F> active) {
+[[gnu::noinline]] static MaskOf<F> call_blocked(const auto& s, Ray<F> ray, F distance, IntOf<F> aim, MaskOf<F> active) {
   return blocked_towards(s, ray, distance, aim, -1, active);
 }
 

@@ -3,42 +3,13 @@
 #include "core/base/sampling.h"
 #include "core/shapes/sphere.h"
 #include "core/trace/light_choice.h"
+#include "core/trace/light_columns.h"
+#include "core/trace/spherical_triangle.h"
 
 /// Samples points of lights as seen from a point, and gives the pdf of the direction, per steradian, times the
 /// probability of choosing the light (light_choice.h). This pdf depends only on the point and the light, so that a ray
 /// that hits a light by BSDF sampling can be weighed against the sample that would have chosen the same direction.
 namespace tyndall {
-
-/// One light per lane, read from the columns of Lights. With one light in the scene they are read once for all lanes.
-template <class F>
-struct LightColumns {
-  IntOf<F> kind;
-  Vec3<F> corner, edge_u, edge_v, normal;
-  F length_u, length_v, area;
-};
-
-/// Value of a column of lights in each lane.
-template <class F>
-TYNDALL_INLINE F light_value(const LightView& l, const float* column, IntOf<F> k) {
-  return l.count == 1 ? splat<F>(column[0]) : lookup<F>(column, l.count, k);
-}
-
-template <class F>
-TYNDALL_INLINE Vec3<F> light_vector(const LightView& l, const float* const* columns, IntOf<F> k) {
-  return {light_value<F>(l, columns[0], k), light_value<F>(l, columns[1], k), light_value<F>(l, columns[2], k)};
-}
-
-template <class F>
-TYNDALL_INLINE LightColumns<F> load_light(const LightView& l, IntOf<F> k) {
-  return {l.count == 1 ? IntOf<F>(l.kind[0]) : lookup_int<F>(l.kind, l.count, k),
-          light_vector<F>(l, l.corner, k),
-          light_vector<F>(l, l.edge_u, k),
-          light_vector<F>(l, l.edge_v, k),
-          light_vector<F>(l, l.normal, k),
-          light_value<F>(l, l.length_u, k),
-          light_value<F>(l, l.length_v, k),
-          light_value<F>(l, l.area, k)};
-}
 
 /// A rectangle as seen from a point: its sides in a frame along its edges with the point at the origin, and its solid
 /// angle. After C. Ureña, M. Fajardo, A. King, An Area-Preserving Parametrization for Spherical Rectangles, EGSR 2013.
@@ -159,23 +130,35 @@ struct LightSample {
   F pdf;  ///< per steradian, without the probability of choosing the light; 0: no light comes from there
 };
 
+/// k: the light's index; light: its columns.
 template <class F>
-TYNDALL_INLINE LightSample<F> sample_flat(const LightColumns<F>& light, Vec3<F> point, Pair<F> u) {
+TYNDALL_INLINE LightSample<F> sample_flat(const auto& s, IntOf<F> k, const LightColumns<F>& light, Vec3<F> point,
+                                          Pair<F> u) {
   const SphericalRectangle<F> r = rectangle_from(light, point);
-  const auto by_area = equal(r.solid_angle, F(0.0f));
+  F solid_angle = r.solid_angle;
+  auto by_area = equal(solid_angle, F(0.0f));
+  const Pair<F> drawn = on_flat_light(s, k, light.kind, u);
   Vec3<F> to_light =
-      point_at(point_at(light.corner, u.x * light.length_u, light.edge_u), u.y * light.length_v, light.edge_v) - point;
+      point_at(point_at(light.corner, drawn.x * light.length_u, light.edge_u), drawn.y * light.length_v, light.edge_v) -
+      point;
   if (!all(by_area)) {
     const Pair<F> at = on_spherical_rectangle(r, u);
     const F side = copy_sign(F(1.0f), dot(light.corner - point, light.normal));
     const Vec3<F> local = point_at(point_at(at.x * light.edge_u, at.y, light.edge_v), side * r.z, light.normal);
     to_light = select(by_area, to_light, r.scale * local);
   }
+  if (s.has_outlined_lights()) {
+    const DrawnBySolidAngle<F> triangle = draw_on_triangle(light, point, u);
+    const auto by_angle = less(F(0.0f), triangle.solid_angle);
+    solid_angle = select(by_angle, triangle.solid_angle, solid_angle);
+    to_light = select(by_angle, triangle.to_light, to_light);
+    by_area = equal(solid_angle, F(0.0f));
+  }
   const F d2 = max(dot(to_light, to_light), F(1e-37f)), inverse = F(1.0f) / sqrt(d2);
   const Vec3<F> direction = inverse * to_light;
   const F cosine = abs(dot(direction, light.normal));
   const F area_pdf = select(less(F(0.0f), cosine), d2 / max(cosine * light.area, F(1e-37f)), F(0.0f));
-  return {direction, d2 * inverse, select(by_area, area_pdf, F(1.0f) / r.solid_angle)};
+  return {direction, d2 * inverse, select(by_area, area_pdf, F(1.0f) / solid_angle)};
 }
 
 template <class F>
@@ -192,11 +175,11 @@ TYNDALL_INLINE LightSample<F> sample_sphere_light(const LightColumns<F>& light, 
 }
 
 template <class F>
-TYNDALL_INLINE LightSample<F> sample_light(const LightView& l, IntOf<F> light, Vec3<F> point, F time, Pair<F> u) {
-  const LightColumns<F> columns = load_light<F>(l, light);
+TYNDALL_INLINE LightSample<F> sample_light(const auto& s, IntOf<F> light, Vec3<F> point, F time, Pair<F> u) {
+  const LightColumns<F> columns = load_light<F>(s.lights, light);
   const auto round = equal(columns.kind, IntOf<F>(Lights::sphere));
   LightSample<F> sample{{F(0.0f), F(0.0f), F(1.0f)}, F(0.0f), F(0.0f)};
-  if (!all(round)) sample = sample_flat(columns, point, u);
+  if (!all(round)) sample = sample_flat(s, light, columns, point, u);
   if (any(round)) {
     const LightSample<F> sphere = sample_sphere_light(columns, point, time, u);
     sample = {select(round, sphere.direction, sample.direction), select(round, sphere.distance, sample.distance),
@@ -208,18 +191,20 @@ TYNDALL_INLINE LightSample<F> sample_light(const LightView& l, IntOf<F> light, V
 /// Pdf, per steradian, with which sample_light() gives `direction`, which hits `light` at `distance`, times the
 /// probability with which choose_light() takes this light.
 template <class F>
-TYNDALL_INLINE F light_pdf(const LightView& l, IntOf<F> light, Vec3<F> point, F time, Vec3<F> direction, F distance) {
-  const LightColumns<F> columns = load_light<F>(l, light);
+TYNDALL_INLINE F light_pdf(const auto& s, IntOf<F> light, Vec3<F> point, F time, Vec3<F> direction, F distance) {
+  const LightColumns<F> columns = load_light<F>(s.lights, light);
   const auto round = equal(columns.kind, IntOf<F>(Lights::sphere));
   F pdf = F(0.0f);
   if (!all(round)) {
     const SphericalRectangle<F> r = rectangle_from(columns, point);
     const F cosine = abs(dot(direction, columns.normal));
     const F by_area = distance * distance / max(cosine * columns.area, F(1e-37f));
-    pdf = select(less(F(0.0f), r.solid_angle), F(1.0f) / r.solid_angle, by_area);
+    const F solid_angle =
+        s.has_outlined_lights() ? r.solid_angle + triangle_solid_angle(columns, point) : r.solid_angle;
+    pdf = select(less(F(0.0f), solid_angle), F(1.0f) / solid_angle, by_area);
   }
   if (any(round)) pdf = select(round, cap_from(sphere_light_center(columns, time) - point, columns.length_u).pdf, pdf);
-  return pdf * choice_probability(l, point, light);
+  return pdf * choice_probability(s.lights, point, light);
 }
 
 }  // namespace tyndall

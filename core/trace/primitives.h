@@ -1,6 +1,7 @@
 #pragma once
 #include "core/base/ray.h"
 #include "core/shapes/box.h"
+#include "core/shapes/outline.h"
 #include "core/shapes/quad.h"
 #include "core/shapes/sphere.h"
 #include "core/trace/scene_view.h"
@@ -90,6 +91,25 @@ TYNDALL_INLINE void test_quads(const FlatView& q, int first, int last, const Ray
   }
 }
 
+/// Triangles and disks. Returns the closest hit. Not inlined, and by value, because each inlined copy takes seconds to
+/// compile.
+template <class F, class Q>
+[[gnu::noinline]] static Hit<F> test_outlined(const FlatView& f, int first, int last, Ray<F> ray, Q query,
+                                              Hit<F> best) {
+  for (int i = first; i < last; ++i) {
+    if (Q::shadow && f.element[i] == query.common_aim) continue;
+    const auto element = splat_int<F>(f.element[i]);
+    QuadHit<F> h = hit_outlined(f.map[i], f.outline[i], ray.origin, ray.direction, best.t);
+    if constexpr (Q::shadow) h.hit = mask_and_not(h.hit, equal(query.aim, element));
+    if (!any(h.hit)) continue;
+    const Start<F> start = start_on<F>(ray.from, element);
+    const auto better = beats(h.t, element, mask_and_not(h.hit, start.here), best, query);
+    best.t = select(better, h.t, best.t);
+    best.element = select(better, element, best.element);
+  }
+  return best;
+}
+
 /// map: as for box_slabs(). element: the box's first face.
 template <class F, class Q>
 TYNDALL_INLINE void test_box(const auto& map, IntOf<F> element, Start<F> start, const Ray<F>& ray, const Q& query,
@@ -119,16 +139,16 @@ TYNDALL_INLINE void test_boxes(const FlatView& b, int first, int last, const Ray
 }
 
 template <class F, class Q>
-TYNDALL_INLINE void test_all(const SceneView& s, const Ray<F>& ray, const Q& query, Hit<F>& best) {
+TYNDALL_INLINE void test_all(const auto& s, const Ray<F>& ray, const Q& query, Hit<F>& best) {
   test_spheres(s.spheres, 0, s.spheres.count, ray, query, best);
   test_moving_spheres(s.moving_spheres, 0, s.moving_spheres.count, ray, query, best);
   test_quads(s.quads, 0, Q::shadow ? s.quads.blocking : s.quads.count, ray, query, best);
   test_boxes(s.boxes, 0, s.boxes.count, ray, query, best);
+  if (s.has_outlined()) best = test_outlined(s.outlined, 0, s.outlined.count, ray, query, best);
 }
 
 template <class F, class Q>
-TYNDALL_INLINE void test_leaf(const SceneView& s, const BvhLeaf& leaf, const Ray<F>& ray, const Q& query,
-                              Hit<F>& best) {
+TYNDALL_INLINE void test_leaf(const auto& s, const BvhLeaf& leaf, const Ray<F>& ray, const Q& query, Hit<F>& best) {
   const int last = leaf.first + leaf.count;
   switch (leaf.kind) {
     case PrimitiveKind::sphere:
@@ -142,6 +162,9 @@ TYNDALL_INLINE void test_leaf(const SceneView& s, const BvhLeaf& leaf, const Ray
       break;
     case PrimitiveKind::box:
       test_boxes(s.boxes, leaf.first, last, ray, query, best);
+      break;
+    case PrimitiveKind::outlined:
+      if (s.has_outlined()) best = test_outlined(s.outlined, leaf.first, last, ray, query, best);
       break;
   }
 }

@@ -19,7 +19,7 @@ SphereView view_of(const Spheres& s) {
 
 FlatView view_of(const Flats& f) {
   const int count = static_cast<int>(f.map.size());
-  FlatView v{count, count - f.bounding, f.map.data(), f.element.data(), {}};
+  FlatView v{count, count - f.bounding, f.map.data(), f.element.data(), {}, f.outline.data()};
   for (int k = 0; k < affine_numbers; ++k) v.column[k] = f.column[k].data();
   return v;
 }
@@ -47,7 +47,7 @@ LightView view_of(const Lights& l) {
     v.normal[i] = l.normal[i].data(), v.center[i] = l.center[i].data();
   }
   v.length_u = l.length_u.data(), v.length_v = l.length_v.data(), v.area = l.area.data(), v.power = l.power.data();
-  v.reach2 = l.reach2.data();
+  v.reach2 = l.reach2.data(), v.inner = l.inner.empty() ? nullptr : l.inner.data();
   const LightTree& tree = l.tree;
   v.tree = {{tree.center[0].data(), tree.center[1].data(), tree.center[2].data()},
             tree.power.data(),
@@ -89,14 +89,14 @@ SceneView view_of(const RenderScene& s, const std::vector<TextureView>& textures
   v.camera = s.camera;
   v.background = s.background;
   v.spheres = view_of(s.spheres), v.moving_spheres = view_of(s.moving_spheres);
-  v.quads = view_of(s.quads), v.boxes = view_of(s.boxes);
+  v.quads = view_of(s.quads), v.boxes = view_of(s.boxes), v.outlined = view_of(s.outlined);
   v.nodes = s.bvh ? s.bvh->nodes.data() : nullptr;
   v.leaves = s.bvh ? s.bvh->leaves.data() : nullptr;
   const Elements& e = s.elements;
   v.x = e.x.data(), v.y = e.y.data(), v.z = e.z.data(), v.inverse_radius = e.inverse_radius.data();
   v.move_x = e.move_x.data(), v.move_y = e.move_y.data(), v.move_z = e.move_z.data(), v.uv = e.uv.data(),
   v.plane = e.plane.data();
-  v.material = e.material.data(), v.light_of = e.light.data();
+  v.material = e.material.data(), v.light_of = e.light.data(), v.disk = e.disk.data();
   v.lights = view_of(s.lights);
   v.element_count = static_cast<int>(e.material.size());
   const Materials& m = s.materials;

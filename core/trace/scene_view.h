@@ -21,6 +21,7 @@ struct FlatView {
   const Affine* map;
   const std::int32_t* element;
   const float* column[affine_numbers];  ///< boxes only: see Flats
+  const Outline* outline;               ///< triangles and disks only
 };
 struct TextureView {
   std::int32_t kind;
@@ -40,6 +41,7 @@ struct LightView {
   const std::int32_t *kind, *element;
   const float *corner[3], *edge_u[3], *edge_v[3], *normal[3], *center[3];
   const float *length_u, *length_v, *area, *power, *reach2;
+  const float* inner;  ///< null: no light is a triangle or a disk
   LightTreeView tree;
 };
 
@@ -67,13 +69,13 @@ struct SceneView {
   CameraColumns camera;
   BackgroundColumns background;
   SphereView spheres, moving_spheres;
-  FlatView quads, boxes;
+  FlatView quads, boxes, outlined;
   const BvhNode* nodes;  ///< null: there is no tree, and every primitive is tested
   const BvhLeaf* leaves;
   int element_count, material_count;
   // elements
   const float *x, *y, *z, *inverse_radius, *move_x, *move_y, *move_z, *uv, *plane;
-  const std::int32_t *material, *light_of;
+  const std::int32_t *material, *light_of, *disk;
   LightView lights;
   // materials
   const std::int32_t *kind, *texture_of;
@@ -111,21 +113,34 @@ struct SceneView {
   TYNDALL_INLINE bool has_lights() const { return lights.count > 0; }
   TYNDALL_INLINE bool has_reuse() const { return reuses_paths; }
   TYNDALL_INLINE bool has_splitting() const { return splits_paths; }
+  TYNDALL_INLINE bool has_outlined() const { return outlined.count > 0; }  ///< triangles and disks
+  TYNDALL_INLINE bool has_outlined_lights() const { return lights.inner != nullptr; }
 };
 
-/// The view of a kernel that leaves models out: for those models has_...() is a constant false, so that the compiler
-/// drops their code. reuse: whether the kernel reuses second vertices between pixels (core/reuse).
+/// The view of kernels without triangles, disks and guides: has_...() is a constant false for them, so that the compiler
+/// drops their code.
+struct SceneViewWithoutOutlines : SceneView {
+  TYNDALL_INLINE static constexpr bool has_guide() { return false; }
+  TYNDALL_INLINE static constexpr bool has_outlined() { return false; }
+  TYNDALL_INLINE static constexpr bool has_outlined_lights() { return false; }
+};
+
+/// A kernel's view as functions that are not inlined take it: one copy of them serves all kernels of a file.
+TYNDALL_INLINE const SceneView& shared_view(const SceneView& s) { return s; }
+TYNDALL_INLINE const SceneViewWithoutOutlines& shared_view(const SceneViewWithoutOutlines& s) { return s; }
+
+/// The view of a kernel that leaves models out. reuse: whether the kernel reuses second vertices between pixels
+/// (core/reuse). The kernel with every model reads SceneView itself.
 template <KernelSet set, bool reuse>
-struct SceneViewFor : SceneView {
+requires(set != KernelSet::everything) struct SceneViewFor : SceneViewWithoutOutlines {
   static constexpr bool media_and_textures =
       set != KernelSet::no_media_no_textures && set != KernelSet::specular_paths_only;
-  static constexpr bool solves_specular_paths = set == KernelSet::everything || set == KernelSet::specular_paths_only;
+  static constexpr bool solves_specular_paths = set == KernelSet::no_outlines || set == KernelSet::specular_paths_only;
   TYNDALL_INLINE bool has_media() const { return media_and_textures && features.media; }
   TYNDALL_INLINE bool has_textures() const { return media_and_textures && features.textures; }
   TYNDALL_INLINE bool has_image_textures() const { return media_and_textures && features.image_textures; }
   TYNDALL_INLINE bool has_lights_in_media() const { return media_and_textures && near_count > 0; }
   TYNDALL_INLINE bool has_specular_paths() const { return solves_specular_paths && specular.pairs > 0; }
-  TYNDALL_INLINE bool has_guide() const { return set == KernelSet::everything && !reuse && guide.lobes > 0; }
   TYNDALL_INLINE static constexpr bool has_reuse() { return reuse; }
   TYNDALL_INLINE bool has_splitting() const { return (!reuse || solves_specular_paths) && splits_paths; }
 };

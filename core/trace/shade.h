@@ -1,6 +1,7 @@
 #pragma once
 #include "core/base/ray.h"
 #include "core/materials/materials.h"
+#include "core/shapes/outline.h"
 #include "core/textures/textures.h"
 #include "core/trace/intersect.h"
 #include "core/trace/scene_view.h"
@@ -61,12 +62,17 @@ TYNDALL_INLINE SurfacePoint<F> surface_at(const SceneView& s, const Ray<F>& ray,
 
 /// uv of a point for image textures; see Elements::uv.
 template <class F>
-TYNDALL_INLINE TextureUv<F> surface_uv(const SceneView& s, const SurfacePoint<F>& p) {
+TYNDALL_INLINE TextureUv<F> surface_uv(const auto& s, const SurfacePoint<F>& p) {
   const IntOf<F> at = p.element * IntOf<F>(8);
   F column[8];
   for (int i = 0; i < 8; ++i) column[i] = gather<F>(s.uv + i, at);
-  const F u = mul_add(column[0], p.point.x, mul_add(column[1], p.point.y, mul_add(column[2], p.point.z, column[3])));
-  const F v = mul_add(column[4], p.point.x, mul_add(column[5], p.point.y, mul_add(column[6], p.point.z, column[7])));
+  F u = mul_add(column[0], p.point.x, mul_add(column[1], p.point.y, mul_add(column[2], p.point.z, column[3])));
+  F v = mul_add(column[4], p.point.x, mul_add(column[5], p.point.y, mul_add(column[6], p.point.z, column[7])));
+  if (s.has_outlined() && s.features.disks) {
+    const auto disk = equal(lookup_int<F>(s.disk, s.element_count, p.element), IntOf<F>(1));
+    const Pair<F> on_disk = disk_uv(u, v);
+    u = select(disk, on_disk.x, u), v = select(disk, on_disk.y, v);
+  }
   const auto round = mask_not(equal(lookup<F>(s.inverse_radius, s.element_count, p.element), F(0.0f)));
   if (!any(round)) return {u, v, round};
   const Vec3<F> outward = select(p.inverted, -p.normal, p.normal);
@@ -78,9 +84,9 @@ TYNDALL_INLINE TextureUv<F> surface_uv(const SceneView& s, const SurfacePoint<F>
 }
 
 /// Computes the uv coordinates of a surface for textures that need them.
-template <class F>
+template <class F, class View>
 struct SurfaceUv {
-  const SceneView* scene;
+  const View* scene;
   const SurfacePoint<F>* surface;  ///< null in a medium, whose textures need no uv
   TYNDALL_INLINE TextureUv<F> operator()() const { return surface_uv(*scene, *surface); }
 };
@@ -89,8 +95,8 @@ struct SurfaceUv {
 // to read, but compilers then keep what they capture, all of a path, in memory.
 
 /// Colour at a point of a texture of kind `first` or a later kind.
-template <std::size_t first = 0, class F>
-TYNDALL_INLINE Vec3<F> colour_of_kind(const TextureView& t, const TexturePoint<F, SurfaceUv<F>>& at) {
+template <std::size_t first = 0, class F, class Uv>
+TYNDALL_INLINE Vec3<F> colour_of_kind(const TextureView& t, const TexturePoint<F, Uv>& at) {
   using Kinds = TextureKinds<F>;
   if constexpr (first + 1 < std::variant_size_v<Kinds>)
     if (t.kind != static_cast<std::int32_t>(first)) return colour_of_kind<first + 1>(t, at);
@@ -99,11 +105,11 @@ TYNDALL_INLINE Vec3<F> colour_of_kind(const TextureView& t, const TexturePoint<F
 
 /// Colour of a texture at a point, in the lanes `wanted`. surface: gives the uv coordinates for image textures; null in
 /// a medium.
-template <class F>
-TYNDALL_INLINE Vec3<F> texture_colour(const SceneView& s, const TextureView& t, Vec3<F> point, MaskOf<F> wanted,
+template <class F, class View>
+TYNDALL_INLINE Vec3<F> texture_colour(const View& s, const TextureView& t, Vec3<F> point, MaskOf<F> wanted,
                                       const SurfacePoint<F>* surface) {
   const Vec3<F> scaled = point_at(splat<F>(t.offset), splat<F>(t.scale), point);
-  return colour_of_kind<0, F>(t, {point, scaled, wanted, s.gradients, {&s, surface}});
+  return colour_of_kind<0, F, SurfaceUv<F, View>>(t, {point, scaled, wanted, s.gradients, {&s, surface}});
 }
 
 /// `colour`, or the texture's colour in lanes whose `index` is not -1.

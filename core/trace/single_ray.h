@@ -145,7 +145,7 @@ struct SingleRay {
     }
   }
 
-  TYNDALL_INLINE void test_leaf(const SceneView& s, const BvhLeaf& leaf) {
+  TYNDALL_INLINE void test_leaf(const auto& s, const BvhLeaf& leaf) {
     query.near = splat<R>(near);
     const int last = leaf.first + leaf.count;
     if (leaf.kind == PrimitiveKind::sphere)
@@ -154,11 +154,13 @@ struct SingleRay {
       test_spheres<true>(s.moving_spheres, leaf.first, last);
     else if (leaf.kind == PrimitiveKind::box)
       test_boxes(s.boxes, leaf.first, last);
+    else if (s.has_outlined() && leaf.kind == PrimitiveKind::outlined)
+      best = test_outlined(s.outlined, leaf.first, last, ray, query, best);
     else
       test_quads(s.quads, leaf.first, last, ray, query, best);
   }
 
-  TYNDALL_INLINE void run(const SceneView& s) {
+  TYNDALL_INLINE void run(const auto& s) {
     SingleStack stack;
     for (;;) {
       if (node >= 0) {
@@ -199,7 +201,7 @@ struct SingleRays {
 
 /// Traverses everything beneath a node with the ray of lane k, and stores its closest hit in `rays`.
 template <class F, class Q>
-[[gnu::noinline]] static void test_single_ray(const SceneView& s, SingleRays<F>& rays, int k, std::int32_t node) {
+[[gnu::noinline]] static void test_single_ray(const auto& s, SingleRays<F>& rays, int k, std::int32_t node) {
   using R = typename RowFor<F>::type;
   const auto row3 = [k](const auto& column) __attribute__((always_inline)) {
     return Vec3<R>{splat<R>(column[0][k]), splat<R>(column[1][k]), splat<R>(column[2][k])};
@@ -218,10 +220,10 @@ template <class F, class Q>
 
 /// Calls test_single_ray() for each lane whose bit is set in `live`.
 template <class F, class Q>
-TYNDALL_INLINE void test_single_rays(const SceneView& s, SingleRays<F>& rays, std::int32_t node, std::uint32_t live,
+TYNDALL_INLINE void test_single_rays(const auto& s, SingleRays<F>& rays, std::int32_t node, std::uint32_t live,
                                      Hit<F>& best) {
   store(rays.t, best.t), store(rays.element, best.element);
-  for (; live; live &= live - 1) test_single_ray<F, Q>(s, rays, __builtin_ctz(live), node);
+  for (; live; live &= live - 1) test_single_ray<F, Q>(shared_view(s), rays, __builtin_ctz(live), node);
   best = {load<F>(rays.t), load_int<F>(rays.element)};
 }
 

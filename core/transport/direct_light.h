@@ -77,7 +77,7 @@ template <class F>
 TYNDALL_INLINE Vec3<F> direct_light(const auto& s, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes,
                                     const LightQuery<F>& query, std::uint32_t& shadow_rays) {
   const LightChoice<F>& choice = query.choice;
-  const LightSample<F> sample = sample_light(s.lights, choice.light, e.point, p.ray.time, query.u);
+  const LightSample<F> sample = sample_light(s, choice.light, e.point, p.ray.time, query.u);
   BsdfValue<F> scattered{F(0.0f), F(0.0f)};
   if (any(e.surface)) scattered = eval_any(s, e.at.material, e.kind, e.surface, e.incident, sample.direction);
   if (s.has_media() && any(e.medium)) {
@@ -113,7 +113,7 @@ TYNDALL_INLINE F found_light_weight(const auto& s, const Paths<F>& p, IntOf<F> e
   if (s.integrator != Integrator::mis) return select(could, F(0.0f), F(1.0f));
   const IntOf<F> light = lookup_int<F>(s.light_of, s.element_count, element);
   const IntOf<F> safe = select(less(light, IntOf<F>(0)), IntOf<F>(0), light);
-  const F chosen = light_pdf(s.lights, safe, p.ray.origin, p.ray.time, p.ray.direction, distance);
+  const F chosen = light_pdf(s, safe, p.ray.origin, p.ray.time, p.ray.direction, distance);
   const F ratio = p.pdf / max(chosen, F(1e-30f));
   F others = F(1.0f);
   if (s.has_lights_in_media())

@@ -69,7 +69,7 @@ TYNDALL_INLINE MediumFlight<F> free_flight_to(const SceneView& s, const Ray<F>& 
 /// of direct_light(): a second copy would take seconds to compile in each kernel. Its arguments are copies, so that the
 /// path loop can keep its own values in registers.
 template <class F>
-[[gnu::noinline]] static Vec3<F> light_by_angle(const SceneView& s, Ray<F> ray, Vec3<F> throughput, Sampler<F> sampler,
+[[gnu::noinline]] static Vec3<F> light_by_angle(const auto& s, Ray<F> ray, Vec3<F> throughput, Sampler<F> sampler,
                                                 MaskOf<F> lanes, F to_surface, std::uint32_t& shadow_rays) {
   Paths<F> p{};
   p.ray = ray, p.throughput = throughput, p.sampler = sampler;
@@ -96,7 +96,7 @@ TYNDALL_INLINE void add_near_lights(const auto& s, Paths<F>& p, Vec3<F> throughp
                                     MaskOf<F> active, Pair<F> lengths, std::uint32_t& shadow_rays) {
   p.flight = free_flight_to(s, p.ray, found, lengths);
   const auto lanes = mask_and(active, less(p.depth, IntOf<F>(s.max_depth)));
-  p.radiance = p.radiance + light_by_angle(s, p.ray, throughput, p.sampler, lanes, lengths.y, shadow_rays);
+  p.radiance = p.radiance + light_by_angle(shared_view(s), p.ray, throughput, p.sampler, lanes, lengths.y, shadow_rays);
 }
 
 }  // namespace tyndall

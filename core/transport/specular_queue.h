@@ -47,7 +47,7 @@ TYNDALL_INLINE void request_specular_paths(const auto& s, Paths<F>& p, Event<F>&
   if constexpr (SpecularQueue<F>::waits) {
     append_lanes<F>(s, request, receiver, waiting);
   } else if (any(receiver)) {
-    const Vec3<F> light = specular_light(s, request, receiver, shadow_rays);
+    const Vec3<F> light = specular_light(shared_view(s), request, receiver, shadow_rays);
     recorder.on_specular_path_light(light);
     p.radiance = p.radiance + light;
   }
@@ -101,7 +101,7 @@ template <class F>
 TYNDALL_INLINE void answer_requests(const auto& s, SpecularQueue<F>& waiting, TileCounts& counts, const auto& add) {
   const auto light_of = [&](const SpecularRequest<F>& q, MaskOf<F> lanes, std::uint32_t&, std::uint32_t& shadow_rays)
       __attribute__((always_inline)) {
-    return specular_light(s, q, lanes, shadow_rays);
+    return specular_light(shared_view(s), q, lanes, shadow_rays);
   };
   answer_queue(s, waiting, counts, light_of, add);
 }

@@ -23,10 +23,22 @@ def unit(a): return scale(1 / math.sqrt(dot(a, a)), a)
 
 
 class Scene:
-    """Spheres (center, radius), parallelograms (corner, u, v) and ray(x, y) for x, y in [0, 1], y down."""
+    """Spheres (center, radius), flats (corner, u, v, within) and ray(x, y) for x, y in [0, 1], y down.
+
+    within(a, b): whether the point corner + a u + b v belongs to the flat.
+    """
 
     def __init__(self):
         self.spheres, self.flats, self.inward, self.lights = [], [], 0, 0
+
+    def add_quad(self, corner, u, v):
+        self.flats.append((corner, u, v, lambda a, b: 0 <= a <= 1 and 0 <= b <= 1))
+
+    def add_triangle(self, corner, u, v):
+        self.flats.append((corner, u, v, lambda a, b: a >= 0 and b >= 0 and a + b <= 1))
+
+    def add_disk(self, center, u, v, inner=0.0):
+        self.flats.append((center, u, v, lambda a, b: inner * inner <= a * a + b * b <= 1))
 
     def distance(self, origin, direction):
         nearest = math.inf
@@ -38,14 +50,14 @@ class Scene:
                     if 1e-4 < t < nearest:
                         nearest = t
                         break
-        for corner, u, v in self.flats:
+        for corner, u, v, within in self.flats:
             n = cross(u, v)
             if dot(n, direction) == 0:
                 continue
             t = dot(n, sub(corner, origin)) / dot(n, direction)
             p = sub(add(origin, scale(t, direction)), corner)
             a, b = dot(cross(p, v), n) / dot(n, n), dot(cross(u, p), n) / dot(n, n)
-            if 1e-4 < t < nearest and 0 <= a <= 1 and 0 <= b <= 1:
+            if 1e-4 < t < nearest and within(a, b):
                 nearest = t
         return nearest
 
@@ -70,7 +82,7 @@ def read_pbrt(text, aspect):
     known = {"Scale": 3, "LookAt": 9, "Translate": 3, "Rotate": 4, "ConcatTransform": 18, "TransformTimes": 2}
     named = ("Camera", "Film", "PixelFilter", "Sampler", "Integrator", "Material", "AreaLightSource", "LightSource", "Shape",
              "MakeNamedMedium", "Texture")
-    place, mirrored, fov, seen = [0, 0, 0], False, None, True
+    place, mirrored, fov, seen, axes = [0, 0, 0], False, None, True, None
     while at < len(words):
         word, at = words[at], at + 1
         if word in known:
@@ -82,6 +94,8 @@ def read_pbrt(text, aspect):
                 look = numbers
             elif word == "Translate":
                 place = numbers
+            elif word == "ConcatTransform":
+                axes = [numbers[4 * k:4 * k + 3] for k in range(4)]  # by columns: x, y, z, origin
         elif word in named:
             kind, at = words[at], at + 1
             at += 2 if word == "Texture" else 0
@@ -104,10 +118,15 @@ def read_pbrt(text, aspect):
                 assert values["twosided"] == ["true"]
             elif word == "Shape" and kind == '"sphere"':
                 scene.spheres.append((place, float(values["radius"][0])))
+            elif word == "Shape" and kind == '"disk"':
+                assert all(abs(dot(axes[i], axes[k]) - (i == k)) < 1e-9 for i in range(3) for k in range(3))
+                radius, inner = float(values["radius"][0]), float(values["innerradius"][0])
+                scene.add_disk(axes[3], scale(radius, axes[0]), scale(radius, axes[1]), inner / radius)
             elif word == "Shape":
                 p = [float(v) for v in values["P"]]
-                corner, second, _, last = (p[k:k + 3] for k in (0, 3, 6, 9))
-                scene.flats.append((corner, sub(second, corner), sub(last, corner)))
+                corners = [p[k:k + 3] for k in range(0, len(p), 3)]
+                add_flat = scene.add_quad if len(corners) == 4 else scene.add_triangle
+                add_flat(corners[0], sub(corners[1], corners[0]), sub(corners[-1], corners[0]))
         elif word == "ReverseOrientation":
             scene.inward += 1
         elif word == "MediumInterface":
@@ -125,6 +144,12 @@ def read_pbrt(text, aspect):
     return scene
 
 
+def check_mesh(file):
+    head, body = open(file, encoding="ascii").read().split("end_header\n")
+    assert head.startswith("ply\nformat ascii 1.0\nelement vertex 3\n"), head
+    assert body.split("\n") == ["0 0 0", "1 0 0", "0 1 0", "3 0 1 2", ""], body
+
+
 def read_xml(text, aspect):
     scene, root = Scene(), xml.etree.ElementTree.fromstring(text)
     vector = lambda words: [float(w) for w in re.split(r"[,\s]+", words.strip())]
@@ -140,7 +165,14 @@ def read_xml(text, aspect):
         else:
             m = vector(shape.find("transform/matrix").get("value"))
             x, y, _, middle = ([m[4 * row + column] for row in range(3)] for column in range(4))
-            scene.flats.append((sub(middle, add(x, y)), scale(2, x), scale(2, y)))
+            if shape.get("type") == "rectangle":
+                scene.add_quad(sub(middle, add(x, y)), scale(2, x), scale(2, y))
+            elif shape.get("type") == "disk":
+                assert abs(dot(x, x) - dot(y, y)) < 1e-5 * dot(x, x) and abs(dot(x, y)) < 1e-5 * dot(x, x)
+                scene.add_disk(middle, x, y)
+            else:
+                check_mesh(shape.find("string[@name='filename']").get("value"))
+                scene.add_triangle(middle, x, y)
     sensor = root.find("sensor")
     look = sensor.find("transform/lookat")
     origin, target, up = (vector(look.get(k)) for k in ("origin", "target", "up"))
@@ -174,8 +206,13 @@ def read_script(text, aspect):
             scene.inward += shape["inward"]
             scene.lights += light
         else:
-            scene.flats += [tuple(world(p) for p in flat) for flat in shape["flats"]]
-            scene.lights += light * len(shape["flats"])
+            for flat in shape.get("flats", []):
+                scene.add_quad(*map(world, flat))
+            if "triangle" in shape:
+                scene.add_triangle(*map(world, shape["triangle"]))
+            if "disk" in shape:
+                scene.add_disk(*map(world, shape["disk"]), shape["inner"])
+            scene.lights += light * len(shape.get("flats", [None]))
     camera = data["camera"]
     half = math.tan(math.radians(camera["vfov"]) / 2)
     # Blender's camera looks along its -z, x to the right, y up.

@@ -45,15 +45,15 @@ void coarsen(Vec3d& v) {
 
 TEST_CASE("compile: a scene far from the origin compiles to the same numbers") {
   Engine engine(1);
-  Scene scene = mixed_scene(engine, {.count = 100, .middle = {}});
+  Scene scene = mixed_scene(engine, {.count = 140, .middle = {}, .kinds = 7});
   for (Object& object : scene.objects)
     std::visit(
         [](auto& shape) {
-          if constexpr (requires { shape.center; }) {
-            coarsen(shape.center);
+          if constexpr (requires { shape.center; }) coarsen(shape.center);
+          if constexpr (requires { shape.center_end; })
             if (shape.center_end) coarsen(*shape.center_end);
-          }
-          if constexpr (requires { shape.corner; }) coarsen(shape.corner), coarsen(shape.u), coarsen(shape.v);
+          if constexpr (requires { shape.corner; }) coarsen(shape.corner);
+          if constexpr (requires { shape.u; }) coarsen(shape.u), coarsen(shape.v);
         },
         std::get<Solid3d>(object.kind).shape);
   for (Object& object : scene.objects)

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -256,6 +257,39 @@ TEST_CASE("images: on spheres by longitude and latitude of their own frame, also
 TEST_CASE("images: a compiled scene has the scene's own pixels, no copy") {
   const Scene scene = textured_wall(Image{"ramp", ramp()}, {});
   CHECK(compile(scene).textures[0].pixels == std::get<Image>(scene.textures[0].kind).pixels);
+}
+
+TEST_CASE("textures: a picture lies on a disk by radius and angle, on a triangle as on its quad") {
+  const auto ramp = [](int width, int height) {  // grey from 0 at the left or the bottom to 1
+    auto pixels = std::make_shared<Image::Pixels>();
+    pixels->width = width, pixels->height = height;
+    for (int i = 0; i < 4; ++i) pixels->rgb.insert(pixels->rgb.end(), 3, static_cast<float>(width > 1 ? i : 3 - i) / 3);
+    return Image{"ramp", pixels};
+  };
+  const auto expected = [](double along) { return std::clamp(4 * along - 0.5, 0.0, 3.0) / 3; };
+  for (const bool across : {true, false})
+    for (const bool is_disk : {true, false}) {
+      Scene scene = textured_wall(across ? ramp(4, 1) : ramp(1, 4), {});
+      auto& shape = std::get<Solid3d>(scene.objects[0].kind).shape;
+      if (is_disk)
+        shape = Disk<>{{0, 0, 0}, {1.4, 0, 0}, {0, 1.4, 0}, 0.2};
+      else
+        shape = Triangle<>{{-1.4, -1.4, 0}, {2.8, 0, 0}, {0, 2.8, 0}};
+      const std::vector<FirstHit> hits = seen(compile(scene));
+      int met = 0;
+      for (std::size_t i = 0; i < hits.size(); ++i) {
+        if (hits[i].element < 0) continue;
+        const Vec3d p = point_at(i, {});
+        const double angle = std::atan2(p.y, p.x) / (2 * pi);
+        const double on_disk = across ? std::hypot(p.x, p.y) / 1.4 : angle < 0 ? angle + 1 : angle;
+        const double on_triangle = ((across ? p.x : p.y) + 1.4) / 2.8;
+        CHECK(static_cast<double>(hits[i].albedo.x) ==
+              doctest::Approx(expected(is_disk ? on_disk : on_triangle)).epsilon(1e-4));
+        ++met;
+      }
+      const double area = is_disk ? pi * 1.4 * 1.4 * (1 - 0.04) : 0.5 * 2.8 * 2.8;
+      CHECK(met == doctest::Approx(area / 9 * edge * edge).epsilon(0.02));
+    }
 }
 
 }  // namespace tyndall::test::texture_test

@@ -162,6 +162,14 @@ class SceneGenerator {
     return out;
   }
 
+  void fill_flat(Solid3d& solid) {
+    const Quad<> frame = quad();
+    const int which = below(3);
+    if (which == 0) solid.shape = frame;
+    if (which == 1) solid.shape = Triangle<>{frame.corner, frame.u, frame.v};
+    if (which == 2) solid.shape = Disk<>{frame.corner, frame.u, frame.v, chance() ? 0.625 : 0};
+  }
+
   Object object(int depth) {
     Object out;
     if (chance()) out.name = name();
@@ -183,7 +191,7 @@ class SceneGenerator {
     } else {
       Solid3d solid;
       if (kind == 0) fill(solid.shape.emplace<Sphere<>>());
-      if (kind == 1) solid.shape = quad();
+      if (kind == 1) fill_flat(solid);
       if (kind == 2) solid.shape = box();
       solid.material = below(materials_);
       out.kind = solid;

@@ -116,12 +116,13 @@ TEST_CASE("specular paths: the solid angle that a light fills off a mirror spher
   const double traced = 2 * pi * one_minus_cos * hits / rays;
   SpecularSphere<double> b = sphere_of<double>(1, 0);
   b.mirror = true;
+  const SceneViewWithoutOutlines s{};
   LightColumns<double> light{};
   light.kind = Lights::sphere, light.corner = lamp, light.length_u = light_radius;
   double sum = 0;
   constexpr int points = 20000;
   for (int i = 0; i < points; ++i) {
-    const LightPoint<double> at = sample_light_point(light, b, point, 0.0, Pair<double>{u(engine), u(engine)});
+    const LightPoint<double> at = sample_light_point(s, 0, light, b, point, 0.0, {u(engine), u(engine)});
     const PathPlane<double> plane = plane_of(b, point, at.point);
     const PathEnds<double> ends = ends_of(b, plane.near, plane.far);
     const SpecularDeflection<double> path = deflection_between(b, main_sequence(b, ends), plane.near, plane.far);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <thread>
 
 namespace tyndall::test {
@@ -185,6 +186,8 @@ class Program {
       part.balls.push_back({point(shape.center), point(shape.center_end.value_or(shape.center)), radius});
     } else if constexpr (std::is_same_v<Shape, Quad<>>) {
       part.plates.push_back({point(shape.corner), way(shape.u), way(shape.v)});
+    } else if constexpr (!std::is_same_v<Shape, Box<>>) {
+      throw std::invalid_argument(std::string("the books have no ") + Shape::type);
     } else {
       const V size = shape.max - shape.min, x = way({size.x, 0, 0}), y = way({0, size.y, 0}), z = way({0, 0, size.z});
       const V low = point(shape.min), high = point(shape.max);

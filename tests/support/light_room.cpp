@@ -130,6 +130,7 @@ void LightRoom::add(const PlacedShape& placed) {
                    surfaces.push_back(out);
                  },
                  [&](const Quad<>& q) { add_flat(placed, q.corner, q.u, q.v); },
+                 [](const Triangle<>&) { refuse(true, "a triangle"); }, [](const Disk<>&) { refuse(true, "a disk"); },
                  [&](const Box<>& b) {
                    const Vec3d x{b.max.x - b.min.x, 0, 0}, y{0, b.max.y - b.min.y, 0}, z{0, 0, b.max.z - b.min.z};
                    add_flat(placed, b.min, y, x), add_flat(placed, b.min + z, x, y);

@@ -35,10 +35,11 @@ inline Vec3f rounded(Vec3d v) { return {static_cast<float>(v.x), static_cast<flo
 inline Vec3d exact(Vec3f v) { return {v.x, v.y, v.z}; }
 
 struct Mixture {
-  int count = 200;        ///< primitives: a fifth each of spheres, inverted and moving spheres, quads and boxes
+  int count = 200;        ///< primitives: equally many of each kind
   double half_width = 5;  ///< of the cube that holds their centres
   Vec3d middle;           ///< of that cube
   double smallest = 0.02, largest = 1.5;
+  int kinds = 5;  ///< 5: spheres, inverted and moving spheres, quads, boxes; 7: also triangles and disks
 };
 
 /// A scene of one white matt material.
@@ -52,7 +53,7 @@ inline Scene mixed_scene(Engine& engine, const Mixture& mix = {}) {
     const double size = mix.smallest * std::pow(mix.largest / mix.smallest, uniform(engine, 0, 1));
     const Vec3d at = mix.middle + in_cube(engine, mix.half_width);
     Object object;
-    switch (i % 5) {
+    switch (i % mix.kinds) {
       case 0:
         object.kind = Solid3d{Sphere<>{at, size, {}}, 0};
         break;
@@ -64,6 +65,13 @@ inline Scene mixed_scene(Engine& engine, const Mixture& mix = {}) {
         break;
       case 3:
         object.kind = Solid3d{Quad<>{at, size * direction(engine), size * direction(engine)}, 0};
+        break;
+      case 5:
+        object.kind = Solid3d{Triangle<>{at, size * direction(engine), size * direction(engine)}, 0};
+        break;
+      case 6:
+        object.kind = Solid3d{
+            Disk<>{at, size * direction(engine), size * direction(engine), i % 2 ? uniform(engine, 0, 0.9) : 0}, 0};
         break;
       default: {
         const Vec3d half{size * uniform(engine, 0.1, 1), size * uniform(engine, 0.1, 1),

@@ -10,9 +10,13 @@ namespace tyndall::test {
 inline bool same(const Affine& a, const Affine& b) {
   return std::equal(a.row, a.row + 3, b.row) && std::equal(a.offset, a.offset + 3, b.offset);
 }
+inline bool same(const Outline& a, const Outline& b) { return a.kind == b.kind && a.inner == b.inner; }
 inline bool same(const Flats& a, const Flats& b) {
-  return a.element == b.element && std::equal(a.map.begin(), a.map.end(), b.map.begin(), b.map.end(),
-                                              [](const Affine& x, const Affine& y) { return same(x, y); });
+  return a.element == b.element &&
+         std::equal(a.outline.begin(), a.outline.end(), b.outline.begin(), b.outline.end(),
+                    [](const Outline& x, const Outline& y) { return same(x, y); }) &&
+         std::equal(a.map.begin(), a.map.end(), b.map.begin(), b.map.end(),
+                    [](const Affine& x, const Affine& y) { return same(x, y); });
 }
 inline bool same(const Spheres& a, const Spheres& b) {
   return a.x == b.x && a.y == b.y && a.z == b.z && a.radius == b.radius && a.move_x == b.move_x &&
@@ -20,7 +24,7 @@ inline bool same(const Spheres& a, const Spheres& b) {
 }
 inline bool same(const Elements& a, const Elements& b) {
   return a.x == b.x && a.y == b.y && a.z == b.z && a.inverse_radius == b.inverse_radius && a.move_x == b.move_x &&
-         a.material == b.material && a.uv == b.uv && a.object == b.object;
+         a.material == b.material && a.uv == b.uv && a.disk == b.disk && a.object == b.object;
 }
 inline bool same(const CameraColumns& a, const CameraColumns& b) {
   return a.center == b.center && a.corner == b.corner && a.du == b.du && a.dv == b.dv && a.lens_u == b.lens_u &&
@@ -39,7 +43,8 @@ inline bool same(const std::vector<MediumColumns>& a, const std::vector<MediumCo
 }
 inline bool same_geometry(const RenderScene& a, const RenderScene& b) {
   return same(a.spheres, b.spheres) && same(a.moving_spheres, b.moving_spheres) && same(a.quads, b.quads) &&
-         same(a.boxes, b.boxes) && same(a.elements, b.elements) && same(a.media, b.media);
+         same(a.boxes, b.boxes) && same(a.outlined, b.outlined) && same(a.elements, b.elements) &&
+         same(a.media, b.media);
 }
 inline bool same_tree(const RenderScene& a, const RenderScene& b) {
   if (!a.bvh || !b.bvh) return a.bvh == b.bvh;

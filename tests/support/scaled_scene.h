@@ -27,6 +27,8 @@ class Scaled {
     s.radius *= scale_;
   }
   void grow(Quad<>& q) const { grow(q.corner), grow(q.u), grow(q.v); }
+  void grow(Triangle<>& t) const { grow(t.corner), grow(t.u), grow(t.v); }
+  void grow(Disk<>& d) const { grow(d.center), grow(d.u), grow(d.v); }
   void grow(Box<>& b) const { grow(b.min), grow(b.max); }
   void grow(Transform& transform) const {
     for (auto& part : transform)

@@ -20,6 +20,7 @@ const Mixture mixtures[] = {
     {.count = 600, .half_width = 2, .middle = {}},
     {.count = 200, .middle = {}, .smallest = 1e-5, .largest = 3},
     {.count = 60, .middle = {1e5, -2e5, 3e5}},
+    {.count = 700, .half_width = 3, .middle = {}, .kinds = 7},
 };
 
 /// Random rays, rays along the axes, and rays that leave surfaces.

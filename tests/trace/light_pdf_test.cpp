@@ -35,13 +35,14 @@ double distance_to(const LightView& lights, int k, Vec3d point, Vec3d direction)
 }
 
 /// Density of a direction: the sum over all lights that could have been sampled there.
-double density_of(const LightView& lights, Vec3d point, Vec3d direction) {
+double density_of(const SceneView& s, Vec3d point, Vec3d direction) {
+  const LightView& lights = s.lights;
   double density = 0;
   for (int k = 0; k < lights.count; ++k) {
     const double t = distance_to(lights, k, point, direction);
     if (!(t > 0)) continue;
-    density += static_cast<double>(
-        light_pdf<float>(lights, k, rounded(point), 0.0f, rounded(direction), static_cast<float>(t)));
+    density +=
+        static_cast<double>(light_pdf<float>(s, k, rounded(point), 0.0f, rounded(direction), static_cast<float>(t)));
   }
   return density;
 }
@@ -56,11 +57,12 @@ void check(const std::vector<Object>& lamps, Vec3d from, Vec3d towards, double w
   for (std::uint32_t i = 0; i < drawn; ++i) {
     const Sampler<float> d = sampler_of(i);
     const LightChoice<float> choice = choose_light<float>(lights, point, d.next_1d(dimension::light_choice));
-    const LightSample<float> s = sample_light<float>(lights, choice.light, point, 0, d.next_2d(dimension::light_point));
+    const LightSample<float> s =
+        sample_light<float>(view.view(), choice.light, point, 0, d.next_2d(dimension::light_point));
     REQUIRE(s.pdf > 0);
     cap.count(exact(s.direction));
   }
-  const auto fraction = cap.integrate([&](Vec3d d) { return density_of(lights, exact(point), d); }, 120);
+  const auto fraction = cap.integrate([&](Vec3d d) { return density_of(view.view(), exact(point), d); }, 120);
   CAPTURE(length(towards - from));
   CAPTURE(width);
   CHECK(cap.outside() == 0);

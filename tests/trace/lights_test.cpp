@@ -1,5 +1,7 @@
 #include "core/trace/lights.h"
 
+#include "core/compile/columns.h"
+#include "core/shapes/outline.h"
 #include "core/trace/scene_view.h"
 #include "tests/support/mixed_scene.h"
 #include "tests/support/prepared.h"
@@ -7,23 +9,27 @@
 
 #include <doctest/doctest.h>
 
+#include <optional>
+
 namespace tyndall::test::lights_test {
 
 namespace {
 
 Sampler<float> sampler_of(std::uint32_t i) { return Sampler<float>::of(1, i, i >> 12, i * 7u); }
 
-/// Solid angle of a rectangle by quadrature over its area, and the mean direction over the solid angle.
+/// Solid angle of a parallelogram, or of what an outline leaves of it, by quadrature over its area, and the mean
+/// direction over the solid angle.
 struct Seen {
   double solid_angle = 0;
   Vec3d mean;
 };
-Seen quadrature(const Quad<>& q, Vec3d point) {
+Seen quadrature(const Quad<>& q, Vec3d point, std::optional<Outline> outline = {}) {
   Seen seen;
   const int n = 400;
   const Vec3d normal = normalize(cross(q.u, q.v));
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
+      if (outline && !within(*outline, (2 * i + 1.0) / n - 1, (2 * j + 1.0) / n - 1)) continue;
       const Vec3d offset = q.corner + ((i + 0.5) / n) * q.u + ((j + 0.5) / n) * q.v - point;
       const double d2 = dot(offset, offset);
       const Vec3d direction = (1 / std::sqrt(d2)) * offset;
@@ -52,7 +58,7 @@ TEST_CASE("lights: a rectangle is sampled uniformly in its solid angle, a far or
     const Vec3f point = rounded(from - scene.origin);
     Moments inverse, x, y, z;
     for (std::uint32_t i = 0; i < 20000; ++i) {
-      const LightSample<float> s = sample_light<float>(view.view().lights, 0, point, 0.0f, sampler_of(i).next_2d(2));
+      const LightSample<float> s = sample_light<float>(view.view(), 0, point, 0.0f, sampler_of(i).next_2d(2));
       REQUIRE(s.pdf > 0);
       const double weight = 1 / static_cast<double>(s.pdf);
       inverse.add(weight);
@@ -60,7 +66,7 @@ TEST_CASE("lights: a rectangle is sampled uniformly in its solid angle, a far or
       y.add(weight * static_cast<double>(s.direction.y));
       z.add(weight * static_cast<double>(s.direction.z));
       // The same density is found for the direction by itself.
-      const float again = light_pdf<float>(view.view().lights, 0, point, 0.0f, s.direction, s.distance);
+      const float again = light_pdf<float>(view.view(), 0, point, 0.0f, s.direction, s.distance);
       REQUIRE(again == doctest::Approx(s.pdf).epsilon(1e-3).scale(0));
     }
     CAPTURE(k);
@@ -74,6 +80,54 @@ TEST_CASE("lights: a rectangle is sampled uniformly in its solid angle, a far or
   }
 }
 
+TEST_CASE("lights: triangles are sampled evenly in solid angle, rings and small triangles by area") {
+  Engine engine(6);
+  int by_solid_angle = 0;
+  for (int k = 0; k < 60; ++k) {
+    const Vec3d u = direction(engine), v = uniform(engine, 0.3, 2) * direction(engine), at = in_cube(engine, 1);
+    const bool is_disk = k % 3 == 0;
+    const Triangle<> triangle{at, u, v};
+    const Disk<> disk{at, u, v, k % 2 ? uniform(engine, 0.2, 0.9) : 0};
+    const Vec3d from = in_cube(engine, k % 3 == 1 ? 1.5 : 5), normal = normalize(cross(u, v));
+    if (std::abs(dot(normal, from - at)) < 0.2 || length(cross(u, v)) < 0.1) continue;
+    const RenderScene scene = lit({is_disk ? light_object(disk) : light_object(triangle)});
+    const SceneViewOf view(scene);
+    const Seen seen = quadrature(is_disk ? frame_of(disk) : frame_of(triangle), from,
+                                 is_disk ? outline_of(disk) : outline_of(triangle));
+    const Vec3f point = rounded(from - scene.origin);
+    Moments inverse, x, y, z;
+    bool even = true;
+    for (std::uint32_t i = 0; i < 20000; ++i) {
+      const LightSample<float> s = sample_light<float>(view.view(), 0, point, 0.0f, sampler_of(i).next_2d(2));
+      REQUIRE(s.pdf > 0);
+      const double weight = 1 / static_cast<double>(s.pdf);
+      even = even && std::abs(weight - seen.solid_angle) < 5e-3 * seen.solid_angle;
+      inverse.add(weight);
+      x.add(weight * static_cast<double>(s.direction.x));
+      y.add(weight * static_cast<double>(s.direction.y));
+      z.add(weight * static_cast<double>(s.direction.z));
+      const float again = light_pdf<float>(view.view(), 0, point, 0.0f, s.direction, s.distance);
+      REQUIRE(again == doctest::Approx(s.pdf).epsilon(1e-3).scale(0));
+      const Vec3d hit = from + static_cast<double>(s.distance) * exact(s.direction) - at;
+      const Reciprocal r = reciprocal_edges(u, v);
+      const double a = dot(r.a, hit), b = dot(r.b, hit), slack = 1e-4;
+      if (!is_disk) REQUIRE(std::min({a, b, 1 - a - b}) > -slack);
+      if (is_disk) REQUIRE(std::hypot(a, b) < 1 + slack);
+      if (is_disk) REQUIRE(std::hypot(a, b) > disk.inner - slack);
+    }
+    if (even && !is_disk) ++by_solid_angle;
+    CAPTURE(k);
+    CHECK(std::abs(inverse.estimate().mean - seen.solid_angle) <
+          4 * inverse.estimate().error + 5e-3 * seen.solid_angle);
+    const Moments* sums[] = {&x, &y, &z};
+    const double expected[] = {seen.mean.x, seen.mean.y, seen.mean.z};
+    for (int c = 0; c < 3; ++c)
+      CHECK(std::abs(sums[c]->estimate().mean - expected[c] * seen.solid_angle) <
+            4 * sums[c]->estimate().error + 5e-3 * seen.solid_angle);
+  }
+  CHECK(by_solid_angle > 15);
+}
+
 TEST_CASE("lights: a sphere is sampled over its cap, from touching to ten thousand radii away, and from inside") {
   for (const double distance : {0.0, 0.5, 0.999, 1.001, 1.01, 2.0, 100.0, 1e4}) {
     const RenderScene scene = lit({light_object(sphere({0, 0, 0}, 1))});
@@ -83,7 +137,7 @@ TEST_CASE("lights: a sphere is sampled over its cap, from touching to ten thousa
     const double part = distance <= 1 ? 2 : 1 / (distance * distance) / (1 + cosine);  // 1 - cos
     Moments angle;
     for (std::uint32_t i = 0; i < 20000; ++i) {
-      const LightSample<float> s = sample_light<float>(view.view().lights, 0, point, 0.0f, sampler_of(i).next_2d(2));
+      const LightSample<float> s = sample_light<float>(view.view(), 0, point, 0.0f, sampler_of(i).next_2d(2));
       CHECK(static_cast<double>(s.pdf) == doctest::Approx(0.5 / pi / part).epsilon(1e-5).scale(0));
       CHECK(s.distance > 0);
       CHECK(static_cast<double>(length(point_at(point, s.distance, s.direction))) ==

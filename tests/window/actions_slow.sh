@@ -20,6 +20,8 @@ effect_of() {
     add_a_hollow_ball) echo '^widget picture .* Shell' ;;
     add_a_box) echo '^widget picture .* Box' ;;
     add_a_quad) echo '^widget picture .* Quad' ;;
+    add_a_triangle) echo '^widget picture .* Triangle' ;;
+    add_a_disk) echo '^widget picture .* Disk' ;;
     add_a_lamp) echo '^widget picture .* Lamp 2$' ;;
     add_fog) echo '^widget picture .* Fog 2$' ;;
     pause_or_go_on) echo '^state ' ;;

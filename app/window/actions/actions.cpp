@@ -37,6 +37,8 @@ constexpr ActionEntry entries[] = {
     {Action::add_hollow_sphere, "add a hollow ball", "hollow glass, bubble", no_key},
     {Action::add_box, "add a box", "cube, box, add a cube", no_key},
     {Action::add_quad, "add a quad", "plane, quad, add a plane", no_key},
+    {Action::add_triangle, "add a triangle", "triangle, polygon", no_key},
+    {Action::add_disk, "add a disk", "disk, disc, circle, ring, ellipse, annulus", no_key},
     {Action::add_light, "add a lamp", "light, lamp, add light, area light", no_key},
     {Action::add_medium, "add fog", "volume, fog, smoke, mist, add a volume", no_key},
     {Action::frame, "frame the selection", "zoom to, centre, center, frame selected, view selected, zoom selected",

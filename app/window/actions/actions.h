@@ -55,6 +55,8 @@ enum class Action {
   add_hollow_sphere,
   add_box,
   add_quad,
+  add_triangle,
+  add_disk,
   add_light,
   add_medium,
   // From here on none is in actions(); most have an argument.

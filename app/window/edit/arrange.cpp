@@ -14,12 +14,16 @@ constexpr int min_exponent = -300, max_exponent = 300;  // where powers of ten a
 Vec3d place_of(const Sphere<>& sphere) { return sphere.center; }
 Vec3d place_of(const Quad<>& quad) { return quad.corner; }
 Vec3d place_of(const Box<>& box) { return box.min; }
+Vec3d place_of(const Triangle<>& triangle) { return triangle.corner; }
+Vec3d place_of(const Disk<>& disk) { return disk.center; }
 
 void set_place(Sphere<>& sphere, Vec3d place) {
   if (sphere.center_end) sphere.center_end = without_noise(*sphere.center_end + (place - sphere.center));
   sphere.center = place;
 }
 void set_place(Quad<>& quad, Vec3d place) { quad.corner = place; }
+void set_place(Triangle<>& triangle, Vec3d place) { triangle.corner = place; }
+void set_place(Disk<>& disk, Vec3d place) { disk.center = place; }
 void set_place(Box<>& box, Vec3d place) {
   box.max = without_noise(box.max + (place - box.min));
   box.min = place;
@@ -30,6 +34,8 @@ Vec3d middle(const Sphere<>& sphere) {
 }
 Vec3d middle(const Quad<>& quad) { return quad.corner + 0.5 * (quad.u + quad.v); }
 Vec3d middle(const Box<>& box) { return 0.5 * (box.min + box.max); }
+Vec3d middle(const Triangle<>& triangle) { return triangle.corner + (1.0 / 3) * (triangle.u + triangle.v); }
+Vec3d middle(const Disk<>& disk) { return disk.center; }
 
 /// The middle of an object in the frame that own_transform() places.
 Vec3d own_middle(const Object& object) {
@@ -65,6 +71,23 @@ Grips grips_of(const Quad<>& quad, const Placement& at, Vec3d /*across*/) {
           {place(at, quad.corner + quad.v + 0.5 * quad.u), normalize(rotate(at, quad.v)), length(quad.v), "v"}};
 }
 
+Grips grips_of(const Triangle<>& triangle, const Placement& at, Vec3d /*across*/) {
+  const auto grip = [&](Vec3d edge, const char* name) {
+    return SizeGrip{place(at, triangle.corner + edge), normalize(rotate(at, edge)), length(edge), name};
+  };
+  return {grip(triangle.u, "u"), grip(triangle.v, "v")};
+}
+
+/// The half axes, and the hole of a ring.
+Grips grips_of(const Disk<>& disk, const Placement& at, Vec3d /*across*/) {
+  const auto grip = [&](Vec3d arm, const char* name) {
+    return SizeGrip{place(at, disk.center + arm), normalize(rotate(at, arm)), length(arm), name};
+  };
+  Grips grips{grip(disk.u, "u"), grip(disk.v, "v")};
+  if (disk.inner > 0) grips.push_back(grip(-disk.inner * disk.u, "inner"));
+  return grips;
+}
+
 Grips grips_of(const Box<>& box, const Placement& at, Vec3d /*across*/) {
   static constexpr const char* names[6] = {"x", "-x", "y", "-y", "z", "-z"};
   const Vec3d middle = 0.5 * (box.min + box.max);
@@ -83,9 +106,21 @@ void set_value(Sphere<>& sphere, std::size_t /*grip*/, double value, double mini
   sphere.radius = std::copysign(std::max(value, minimum), sphere.radius);
 }
 
-void set_value(Quad<>& quad, std::size_t grip, double value, double minimum) {
-  Vec3d& edge = grip == 0 ? quad.u : quad.v;
+void set_edge(Vec3d& edge, double value, double minimum) {
   edge = without_noise((std::max(value, minimum) / length(edge)) * edge);
+}
+void set_value(Quad<>& quad, std::size_t grip, double value, double minimum) {
+  set_edge(grip == 0 ? quad.u : quad.v, value, minimum);
+}
+void set_value(Triangle<>& triangle, std::size_t grip, double value, double minimum) {
+  set_edge(grip == 0 ? triangle.u : triangle.v, value, minimum);
+}
+void set_value(Disk<>& disk, std::size_t grip, double value, double minimum) {
+  constexpr double narrowest = 0.99;  // of the rim's radius, to which the hole can be pulled
+  if (grip < 2)
+    set_edge(grip == 0 ? disk.u : disk.v, value, minimum);
+  else
+    disk.inner = without_noise(std::min(std::max(value, minimum) / length(disk.u), narrowest));
 }
 
 void set_value(Box<>& box, std::size_t grip, double value, double minimum) {

@@ -30,7 +30,7 @@ void follow(const Object& leader_before, const Object& leader, const Object& lin
   if (volume && fills(std::get<Volume>(linked.kind), solid_before)) {
     std::visit(
         [&]<class Shape>(const Shape& shape) {
-          if constexpr (!std::is_same_v<Shape, Quad<>>) volume->boundary = shape;
+          if constexpr (std::is_constructible_v<decltype(volume->boundary), Shape>) volume->boundary = shape;
         },
         solid.shape);
   } else if (const Sphere<>* outer = std::get_if<Sphere<>>(&solid.shape)) {

@@ -82,7 +82,7 @@ void fill(Scene& scene, const ObjectPath& path, const ColourOrTexture& colour) {
   double size = 1;
   std::visit(Overloaded{[&](const Sphere<>& sphere) { volume.boundary = sphere, size = sphere.radius; },
                         [&](const Box<>& box) { volume.boundary = box, size = 0.5 * length(box.max - box.min); },
-                        [](const Quad<>&) {}},
+                        [](const auto&) {}},
              std::get<Solid3d>(object.kind).shape);
   volume.medium.density = nice_below(2 / size).size();
   if (const Vec3d* albedo = std::get_if<Vec3d>(&colour)) volume.albedo = *albedo;
@@ -107,7 +107,8 @@ std::string why_not(const Scene& scene, const ObjectPath& path, int type) {
   const Solid3d* solid = solid_at(scene, path);
   if (!solid || type != medium_within) return solid ? "" : "it has no surface";
   const Sphere<>* sphere = std::get_if<Sphere<>>(&solid->shape);
-  if (std::holds_alternative<Quad<>>(solid->shape)) return "a quad has no inside for fog";
+  if (!sphere && !std::holds_alternative<Box<>>(solid->shape))
+    return std::string("a ") + kind_name(*find_object(scene, path)) + " has no inside for fog";
   if (sphere && sphere->radius < 0) return "fog cannot be within a sphere of negative radius";
   if (sphere && sphere->center_end) return "fog cannot move with a moving sphere";
   return "";

@@ -58,6 +58,8 @@ constexpr AdditionEntry entries[] = {{Addition::sphere, "sphere", "a matt ball"}
                                      {Addition::hollow_sphere, "hollow ball", "a thin shell of glass"},
                                      {Addition::box, "box", "a matt box"},
                                      {Addition::quad, "quad", "a matt square that lies flat"},
+                                     {Addition::triangle, "triangle", "a matt triangle that lies flat"},
+                                     {Addition::disk, "disk", "a matt disk that lies flat"},
                                      {Addition::light, "lamp", "a square that shines"},
                                      {Addition::medium, "fog", "a ball of mist"}};
 
@@ -162,7 +164,7 @@ Vec3d normal_at(const Scene& scene, const ObjectPath& path, Vec3d point) {
   const Vec3d own = rotate({-placed.degrees, {}}, point - placed.offset);
   const Vec3d normal =
       std::visit(Overloaded{[&](const Sphere<>& sphere) { return own - sphere.center; },
-                            [](const Quad<>& quad) { return cross(quad.u, quad.v); },
+                            [](const auto& flat) { return cross(flat.u, flat.v); },
                             [&](const Box<>& box) {
                               const double out[6] = {std::abs(own.x - box.min.x), std::abs(own.x - box.max.x),
                                                      std::abs(own.y - box.min.y), std::abs(own.y - box.max.y),
@@ -215,6 +217,14 @@ ObjectPaths add_object(Scene& scene, Addition what, const Spot& spot) {
     }
     case Addition::quad:
       return {append(scene, "quad", Solid3d{flat(lifted(0.05 * size)), matt(scene)})};
+    case Addition::triangle: {
+      const Quad<> frame = flat(lifted(0.05 * size));
+      return {append(scene, "triangle", Solid3d{Triangle<>{frame.corner, frame.u, frame.v}, matt(scene)})};
+    }
+    case Addition::disk: {
+      const Disk<> disk{lifted(0.05 * size), {half, 0, 0}, {0, 0, -half}, 0};
+      return {append(scene, "disk", Solid3d{disk, matt(scene)})};
+    }
     case Addition::light:
       return {append(scene, "lamp", Solid3d{flat(lifted(2 * size)), light_material(scene)})};
     case Addition::medium:

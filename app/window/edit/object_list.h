@@ -27,7 +27,7 @@ int delete_objects(Scene& scene, const ObjectPaths& paths, const std::vector<Mat
 std::string free_name(const Scene& scene, const std::string& wish);
 
 /// What can be added.
-enum class Addition { sphere, hollow_sphere, box, quad, light, medium };
+enum class Addition { sphere, hollow_sphere, box, quad, triangle, disk, light, medium };
 
 struct AdditionEntry {
   Addition what;

@@ -46,6 +46,7 @@ std::string label_of(std::string_view field) {
                                                                        {"center_end", "Centre, end"},
                                                                        {"u", "Edge u"},
                                                                        {"v", "Edge v"},
+                                                                       {"inner", "Hole"},
                                                                        {"min", "Low corner"},
                                                                        {"max", "High corner"},
                                                                        {"even", "Even cubes"},
@@ -107,6 +108,12 @@ std::string meaning(const Medium<>& medium, std::string_view field) {
 std::string meaning(const Sphere<>& sphere, std::string_view field) {
   if (field == "radius" && sphere.radius < 0) return "negative: the normal points inward";
   if (field == "center_end" && sphere.center_end) return "moves while the shutter is open";
+  return "";
+}
+
+std::string meaning(const Disk<>& disk, std::string_view field) {
+  if (field == "u" || field == "v") return "half axis of " + format_three(length(field == "u" ? disk.u : disk.v));
+  if (field == "inner") return disk.inner > 0 ? "a ring: the hole is " + percent(disk.inner) + " as wide" : "no hole";
   return "";
 }
 

@@ -28,6 +28,7 @@ std::string meaning(const Metal<>& metal, std::string_view field);
 std::string meaning(const Dielectric<>& glass, std::string_view field);
 std::string meaning(const Medium<>& medium, std::string_view field);
 std::string meaning(const Sphere<>& sphere, std::string_view field);
+std::string meaning(const Disk<>& disk, std::string_view field);
 std::string meaning(const Camera& camera, std::string_view field);
 std::string meaning(const Display& display, std::string_view field);
 

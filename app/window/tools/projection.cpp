@@ -2,6 +2,7 @@
 
 #include "app/window/tools/camera_control.h"
 #include "core/base/math.h"
+#include "core/shapes/outline.h"
 
 #include <algorithm>
 #include <array>
@@ -55,6 +56,21 @@ void add_shape(Projector& out, const Quad<>& quad, const Placement& at) {
   const std::array<Vec3d, 4> p{place(at, quad.corner), place(at, quad.corner + quad.u),
                                place(at, quad.corner + quad.u + quad.v), place(at, quad.corner + quad.v)};
   for (std::size_t k = 0; k < 4; ++k) out.add(p[k], p[(k + 1) % 4]);
+}
+
+void add_shape(Projector& out, const Triangle<>& triangle, const Placement& at) {
+  const std::array<Vec3d, 3> p{place(at, triangle.corner), place(at, triangle.corner + triangle.u),
+                               place(at, triangle.corner + triangle.v)};
+  for (std::size_t k = 0; k < 3; ++k) out.add(p[k], p[(k + 1) % 3]);
+}
+
+void add_shape(Projector& out, const Disk<>& disk, const Placement& at) {
+  const auto point = [&](int k, double radius) {
+    const double angle = 2 * pi * k / circle_points;
+    return place(at, disk.center + (radius * std::cos(angle)) * disk.u + (radius * std::sin(angle)) * disk.v);
+  };
+  for (const double radius : {1.0, disk.inner})
+    for (int k = 0; radius > 0 && k < circle_points; ++k) out.add(point(k, radius), point(k + 1, radius));
 }
 
 /// An edge belongs to the silhouette when the eye is in front of one of its two faces only.
@@ -116,14 +132,28 @@ Crossing crossing(const Box<>& box, const ViewRay& view_ray) {
   return near <= far ? Crossing{near, far} : Crossing{};
 }
 
-Crossing crossing(const Quad<>& quad, const ViewRay& view_ray) {
+/// Where a line meets the plane of a parallelogram, and there the fractions a and b of its edges.
+struct PlanePoint {
+  double t, a, b;
+};
+PlanePoint on_plane(const Quad<>& quad, const ViewRay& view_ray) {
   const Vec3d normal = cross(quad.u, quad.v);
   const double t = dot(normal, quad.corner - view_ray.origin) / dot(normal, view_ray.direction);
   const Vec3d p = view_ray.origin + t * view_ray.direction - quad.corner;
-  const double square = dot(normal, normal), a = dot(cross(p, quad.v), normal) / square,
-               b = dot(cross(quad.u, p), normal) / square;
+  const double square = dot(normal, normal);
+  return {t, dot(cross(p, quad.v), normal) / square, dot(cross(quad.u, p), normal) / square};
+}
+
+Crossing crossing(const Quad<>& quad, const ViewRay& view_ray) {
+  const auto [t, a, b] = on_plane(quad, view_ray);
   const bool inside = a >= 0 && a <= 1 && b >= 0 && b <= 1;  // false for what is not a number
   return inside ? Crossing{t, t} : Crossing{};
+}
+
+template <class Shape>
+requires has_outline<Shape> Crossing crossing(const Shape& shape, const ViewRay& view_ray) {
+  const PlanePoint at = on_plane(frame_of(shape), view_ray);
+  return within(outline_of(shape), 2 * at.a - 1, 2 * at.b - 1) ? Crossing{at.t, at.t} : Crossing{};
 }
 
 /// Where the object begins along the line of sight, at a distance above 0; `never`: nowhere.

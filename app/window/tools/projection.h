@@ -46,8 +46,8 @@ class Projection {
   double height_, width_, near_;
 };
 
-/// The outline of an object as the camera sees it, hidden or not: a sphere's silhouette, the edges of quads, the
-/// silhouette of boxes. Of a group: of what is in it, up to a limit. What is behind the eye is left out.
+/// The outline of an object as the camera sees it, hidden or not: a sphere's silhouette, the edges of flat
+/// shapes, the silhouette of boxes. Of a group: of what is in it, up to a limit. What is behind the eye is left out.
 std::vector<ImageLine> outline(const Scene& scene, const ObjectPath& path);
 
 /// An object and how far along the line of sight it begins, scene units.

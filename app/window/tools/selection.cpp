@@ -1,6 +1,7 @@
 #include "app/window/tools/selection.h"
 
 #include "core/base/text.h"
+#include "core/shapes/outline.h"
 
 #include <algorithm>
 #include <cctype>
@@ -9,7 +10,7 @@
 namespace tyndall {
 namespace {
 
-using Shape = std::variant<Sphere<>, Quad<>, Box<>>;
+using Shape = decltype(Solid3d::shape);
 
 Shape shape_of(const Volume& volume) {
   return std::visit([](const auto& boundary) { return Shape{boundary}; }, volume.boundary);
@@ -22,6 +23,10 @@ BoundingSphere own_bounding_sphere(const Sphere<>& sphere) {
 }
 BoundingSphere own_bounding_sphere(const Quad<>& quad) {
   return {quad.corner + 0.5 * (quad.u + quad.v), 0.5 * std::max(length(quad.u + quad.v), length(quad.u - quad.v))};
+}
+BoundingSphere own_bounding_sphere(const Triangle<>& triangle) { return own_bounding_sphere(frame_of(triangle)); }
+BoundingSphere own_bounding_sphere(const Disk<>& disk) {
+  return {disk.center, std::hypot(length(disk.u), length(disk.v))};
 }
 BoundingSphere own_bounding_sphere(const Box<>& box) {
   return {0.5 * (box.min + box.max), 0.5 * length(box.max - box.min)};

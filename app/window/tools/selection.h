@@ -11,7 +11,7 @@
 /// What is selected in the window, and what is said of an object there.
 namespace tyndall {
 
-/// "sphere", "quad", "box", "medium", "group".
+/// "sphere", "quad", "box", "triangle", "disk", "medium", "group".
 const char* kind_name(const Object& object);
 /// "lambertian", "metal", ...; a medium's or group's own kind.
 const char* material_name(const Material& material);

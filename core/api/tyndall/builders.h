@@ -92,7 +92,7 @@ struct Noise {
   }
 };
 
-/// A picture laid on the surface by its uv coordinates, bilinear; v is up. u wraps around spheres and ends at the edge of quads and boxes. An alpha channel is not looked at: what is hidden beneath it is shown. Not for media.
+/// A picture laid on the surface by its uv coordinates, bilinear; v is up. u wraps around spheres and ends at the edge of flat shapes and boxes. An alpha channel is not looked at: what is hidden beneath it is shown. Not for media.
 struct Image {
   static constexpr const char* type = "image";
   static constexpr const char* list = "/textures/";
@@ -156,6 +156,48 @@ struct Box {
     visit("min", min);
     visit("max", max);
     visit("material", material);
+    visit("name", name);
+    visit("transform", transform);
+  }
+};
+
+/// A triangle: corner + a * u + b * v for a, b >= 0 and a + b <= 1.
+struct Triangle {
+  static constexpr const char* type = "triangle";
+  Vec3 corner{0, 0, 0};  ///< scene units
+  Vec3 u{1, 0, 0};  ///< edge from the corner, scene units
+  Vec3 v{0, 1, 0};  ///< other edge from the corner, scene units
+  std::string material{};  ///< a material's name; empty for the boundary of a medium
+  std::string name{};  ///< for messages; may stay empty
+  Transform transform{};
+  template <class Visit>
+  void each(Visit& visit) const {
+    visit("corner", corner);
+    visit("u", u);
+    visit("v", v);
+    visit("material", material);
+    visit("name", name);
+    visit("transform", transform);
+  }
+};
+
+/// A disk, an ellipse or a ring: center + a * u + b * v, where inner <= sqrt(a^2 + b^2) <= 1.
+struct Disk {
+  static constexpr const char* type = "disk";
+  Vec3 center{0, 0, 0};  ///< centre, scene units
+  Vec3 u{1, 0, 0};  ///< first half axis, scene units
+  Vec3 v{0, 1, 0};  ///< second half axis, scene units
+  std::string material{};  ///< a material's name; empty for the boundary of a medium
+  double inner = 0;  ///< radius of the hole over that of the rim; 0: no hole
+  std::string name{};  ///< for messages; may stay empty
+  Transform transform{};
+  template <class Visit>
+  void each(Visit& visit) const {
+    visit("center", center);
+    visit("u", u);
+    visit("v", v);
+    visit("material", material);
+    visit("inner", inner);
     visit("name", name);
     visit("transform", transform);
   }

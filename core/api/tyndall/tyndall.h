@@ -81,7 +81,8 @@ class TYNDALL_API Scene {
   void add(const std::string& name, const Thing& thing) {
     set_json(std::string(Thing::list) + detail::pointer_step(name), detail::json_of(thing));
   }
-  /// Adds an object: Sphere, Quad, Box or MediumIn, whose materials are there. Throws Error, and then changes nothing.
+  /// Adds an object: Sphere, Quad, Triangle, Disk, Box or MediumIn, whose materials are there. Throws Error, and then
+  /// changes nothing.
   template <class Thing>
   void add(const Thing& object) {
     add_json(detail::json_of(object));

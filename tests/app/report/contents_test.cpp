@@ -34,6 +34,15 @@ TEST_CASE("contents: objects in groups count, boxes are six lights") {
   CHECK_FALSE(c.defocus);
 }
 
+TEST_CASE("contents: triangles, disks and rings are one light each; a disk with a hole is a ring") {
+  const Contents c = contents_of(read(R"(
+    {"type":"triangle","corner":[0,0,0],"u":[1,0,0],"v":[0,1,0],"material":"lamp"},
+    {"type":"disk","center":[0,0,0],"u":[1,0,0],"v":[0,1,0],"material":"lamp"},
+    {"type":"disk","center":[0,0,0],"u":[1,0,0],"v":[0,1,0],"inner":0.5,"material":"lamp"})"));
+  CHECK(c.shapes == std::map<std::string, int>{{"triangle", 1}, {"disk", 1}, {"ring", 1}});
+  CHECK(c.lights == 3);
+}
+
 TEST_CASE("contents: something moves only while the shutter is open") {
   const char* moving = R"({"type":"sphere","center":[0,0,0],"center_end":[1,0,0],"radius":1,"material":"white"})";
   CHECK(contents_of(read(moving)).shapes.at("moving sphere") == 1);

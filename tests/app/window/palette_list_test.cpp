@@ -34,6 +34,7 @@ Scene varied_scene() {
                    {"screen", Solid3d{Quad<>{}, 8}, {}},
                    {"fog", Volume{Box<>{}, {RotateY{10}}, Medium<>{1.1, 0}, Vec3d{1, 1, 1}}, {}},
                    {"tiled fog", Volume{ball, {}, Medium<>{1.1, 0}, TextureIndex{0}}, {}},
+                   {"ring", Solid3d{Disk<>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.5}, 2}, {}},
                    {"group", Group{{{"inner", Solid3d{ball, 2}, {}}}}, {Translate{}}}};
   return scene;
 }
@@ -107,6 +108,7 @@ TEST_CASE("the words of other programs lead to the action or row that is meant t
       {"resolution", "go to: Image size"},
       {"threads", "go to: Threads"},
       {"tone mapping", "go to: Tone map"},
+      {"inner radius", "go to: Hole"},
       {"environment", "go to: Background kind"},
       {"histogram", "go to: Histogram"},
       {"noise", "view: noise"},

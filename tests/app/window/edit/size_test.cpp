@@ -8,7 +8,7 @@ namespace tyndall::test::size_test {
 
 namespace {
 
-Scene scene_of(std::variant<Sphere<>, Quad<>, Box<>> shape, Transform transform = {}) {
+Scene scene_of(decltype(Solid3d::shape) shape, Transform transform = {}) {
   Scene scene;
   scene.materials = {{"grey", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}};
   scene.objects = {{"", Solid3d{shape, 0}, std::move(transform)}};
@@ -49,6 +49,30 @@ TEST_CASE("a box's grips are its faces, turned with it; the face opposite stays"
     const Vec3d edges = box.max - box.min;
     CHECK(std::min({edges.x, edges.y, edges.z}) == doctest::Approx(0.1));
   }
+}
+
+TEST_CASE("a triangle's grips are at its corners, a disk's at the ends of its half axes, a ring's also at its hole") {
+  Scene scene = scene_of(Triangle<>{{0, 0, 0}, {3, 0, 4}, {0, 2, 0}});
+  auto grips = size_grips(scene, {0}, {0, 1, 0});
+  REQUIRE(grips.size() == 2);
+  CHECK(grips[0].at == Vec3d{3, 0, 4});
+  CHECK(grips[0].value == 5);
+  set_size(scene, {0}, 1, 3, 0.1);
+  CHECK(only_shape<Triangle<>>(scene).v == Vec3d{0, 3, 0});
+  scene = scene_of(Disk<>{{0, 1, 0}, {2, 0, 0}, {0, 0, 1}, 0});
+  CHECK(size_grips(scene, {0}, {0, 1, 0}).size() == 2);
+  scene = scene_of(Disk<>{{0, 1, 0}, {2, 0, 0}, {0, 0, 1}, 0.5});
+  grips = size_grips(scene, {0}, {0, 1, 0});
+  REQUIRE(grips.size() == 3);
+  CHECK(grips[1].at == Vec3d{0, 1, 1});
+  CHECK(grips[2].at == Vec3d{-1, 1, 0});
+  CHECK(grips[2].value == 1);
+  set_size(scene, {0}, 0, 4, 0.1);
+  CHECK(only_shape<Disk<>>(scene).u == Vec3d{4, 0, 0});
+  set_size(scene, {0}, 2, 1, 0.1);
+  CHECK(only_shape<Disk<>>(scene).inner == 0.25);
+  set_size(scene, {0}, 2, 100, 0.1);  // beyond the rim
+  CHECK(only_shape<Disk<>>(scene).inner == 0.99);
 }
 
 TEST_CASE("a quad's grips are the lengths of its edges") {

@@ -44,6 +44,15 @@ TEST_CASE("fog says how far light gets") {
   CHECK(meaning(Medium<>{1, 0}, "g") == "isotropic: scatters evenly");
 }
 
+TEST_CASE("a disk says how long its half axes are and how wide its hole is") {
+  const Disk<> ring{{0, 0, 0}, {3, 4, 0}, {0, 0, 0.5}, 0.25};
+  CHECK(meaning(ring, "u") == "half axis of 5");
+  CHECK(meaning(ring, "v") == "half axis of 0.5");
+  CHECK(meaning(ring, "inner") == "a ring: the hole is 25 % as wide");
+  CHECK(meaning(Disk<>{}, "inner") == "no hole");
+  CHECK(meaning(ring, "center").empty());
+}
+
 TEST_CASE("the sharp range: its ends blur to one pixel") {
   Camera camera;
   camera.vfov = 30;

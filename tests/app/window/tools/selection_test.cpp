@@ -162,6 +162,20 @@ TEST_CASE(
   CHECK(objects_under(scene, {0.95, 0.5}).empty());
 }
 
+TEST_CASE("a triangle and a ring are found only where they are") {
+  Scene scene = example();
+  const auto found_at = [&](double x, double y) {
+    return !objects_under(scene, *Projection(scene).point({x, y, 0})).empty();
+  };
+  scene.objects = {{"sail", Solid3d{Triangle<>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 0}, {}}};
+  CHECK(found_at(0.4, 0.4));
+  CHECK_FALSE(found_at(0.6, 0.6));
+  scene.objects = {{"ring", Solid3d{Disk<>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.5}, 0}, {}}};
+  CHECK(found_at(0.5, 0.5));
+  CHECK_FALSE(found_at(0.3, 0.3));
+  CHECK_FALSE(found_at(0.8, 0.8));
+}
+
 TEST_CASE("what a projection shows at a point lies on the line of sight through it") {
   const Projection projection(example());
   const Vec3d point{1.5, -0.7, 2};
