@@ -82,6 +82,9 @@ class Layouter {
       if (name == "pi") layout_.options.emplace_back("-DTYNDALL_BOOK_NO_PI");
       if (name == "infinity") layout_.options.emplace_back("-DTYNDALL_BOOK_NO_INFINITY");
     }
+    for (const auto& [name, base] : classes_of(all_text_))
+      for (const std::string_view shape : {"tri", "triangle", "ellipse", "disk", "annulus"})
+        if (name == shape) layout_.options.push_back("-DTYNDALL_BOOK_OWN_" + name);
     layout_.texts[our_headers] = "#pragma once\n" + camera_constructor_ + camera_defaults_ +
                                  "#include <rtweekend.h>\n#include \"" + std::string(own_names) + "\"\n";
     layout_.texts[own_names] = "";

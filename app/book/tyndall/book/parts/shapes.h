@@ -2,6 +2,9 @@
 #include "materials.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
 
 /// The books' shapes, lists and moves. A world is never traced by these: `hit` is only ever called by the loop in
 /// main() of editions 1 to 3, and answered by the probe (loop.h).
@@ -144,6 +147,51 @@ struct moving_sphere : sphere {
   }
 };
 
+namespace tyndall_book {
+
+/// What quad::is_interior() leaves of the plane corner + a u + b v.
+struct outline {
+  const char* type = nullptr;   ///< of the scene's object: "quad", "triangle" or "disk"; null: none of them
+  double inner = 0, outer = 1;  ///< of a disk: radii of its hole and its rim
+};
+
+/// The number in (low, high] from which on holds() is what it is at high, in steps of 1e-12. It is not so at low.
+inline double edge_of(const std::function<bool(double)>& holds, double low, double high) {
+  const bool beyond = holds(high);
+  for (double middle = 0.5 * (low + high); low < middle && middle < high; middle = 0.5 * (low + high))
+    (holds(middle) == beyond ? high : low) = middle;
+  return std::round(1e12 * high) / 1e12;
+}
+
+/// holds(a, b): whether the point belongs to the shape. It is asked at the points of a grid, none of them on an edge.
+inline outline outline_of(const std::function<bool(double, double)>& holds) {
+  const auto is = [&](const auto& expected) {
+    constexpr int cells = 45;
+    for (int i = 0; i < cells; ++i)
+      for (int k = 0; k < cells; ++k) {
+        const double a = 3.3 * (i + 0.5) / cells - 1.61, b = 3.3 * (k + 0.5) / cells - 1.61;
+        if (holds(a, b) != expected(a, b)) return false;
+      }
+    return true;
+  };
+  if (is([](double a, double b) { return 0 < a && a < 1 && 0 < b && b < 1; })) return {"quad"};
+  if (is([](double a, double b) { return 0 < a && 0 < b && a + b < 1; })) return {"triangle"};
+  outline disk{"disk", 0, 0};
+  const auto at = [&](double radius) { return holds(radius, 0); };
+  double within = 0;
+  while (within < 1.5 && !at(within)) within += 0.01;
+  if (within >= 1.5 || at(100)) return {};
+  if (within > 0) disk.inner = edge_of(at, within - 0.01, within);
+  disk.outer = edge_of(at, within, 100);
+  const auto on_ring = [&](double a, double b) {
+    const double radius = std::sqrt(a * a + b * b);
+    return disk.inner < radius && radius < disk.outer;
+  };
+  return is(on_ring) ? disk : outline{};
+}
+
+}  // namespace tyndall_book
+
 struct quad : hittable {
   point3 Q;
   vec3 u, v;
@@ -151,6 +199,11 @@ struct quad : hittable {
 
   quad(const point3& corner, const vec3& side_u, const vec3& side_v, tyndall_book::ref<material> m)
       : quad(corner, side_u, side_v, m, 1) {}
+  /// Whether the point corner + a u + b v belongs to the shape. Readers derive triangles and disks by another one.
+  virtual bool is_interior(double a, double b, hit_record& record) const {
+    record.u = a, record.v = b;
+    return 0 <= a && a <= 1 && 0 <= b && b <= 1;
+  }
   void tyndall_write(tyndall_book::scene_text& out, const tyndall_book::placing& at) const override {
     tyndall_only<quad>();
     write_as_quad(out, at);
@@ -161,28 +214,87 @@ struct quad : hittable {
       : Q(corner), u(side_u), v(side_v), mat(m), mp(m), side_(side) {}
 
   void write_as_quad(tyndall_book::scene_text& out, const tyndall_book::placing& at) const {
-    if (at.boundary) tyndall_book::refuse("constant_medium in a quad: Tyndall's media fill a sphere or a box");
-    write_at(out, at, Q, mat);
-    if (out.one_sided_lights && dynamic_cast<const diffuse_light*>(mat.get())) write_back(out, at);
+    const tyndall_book::outline outline = tyndall_book::outline_of([this](double a, double b) {
+      hit_record record{};
+      return is_interior(a, b, record);
+    });
+    if (!outline.type) tyndall_refuse();
+    if (at.boundary)
+      tyndall_book::refuse(std::string("constant_medium in a ") + outline.type +
+                           ": Tyndall's media fill a sphere or a box");
+    if (outline.type == std::string("disk")) refuse_image();
+    write_at(out, at, outline, Q, mat);
+    if (out.one_sided_lights && dynamic_cast<const diffuse_light*>(mat.get())) write_back(out, at, outline);
   }
 
  private:
-  void write_at(tyndall_book::scene_text& out, const tyndall_book::placing& at, const point3& corner,
-                const shared_ptr<material>& m) const {
-    out.objects.push_back("{\"type\":\"quad\",\"corner\":" + tyndall_book::triple(corner) +
-                          ",\"u\":" + tyndall_book::triple(u) + ",\"v\":" + tyndall_book::triple(v) +
-                          tyndall_book::material_of("quad", m, out, at) + tyndall_book::transform_of(at) + "}");
+  /// The books lay an image on a disk by its half axes, Tyndall by radius and angle.
+  void refuse_image() const {
+    const auto* matt = dynamic_cast<const lambertian*>(mat.get());
+    const auto* light = dynamic_cast<const diffuse_light*>(mat.get());
+    const texture* tex = matt ? matt->tex.get() : light ? light->tex.get() : nullptr;
+    if (dynamic_cast<const image_texture*>(tex))
+      tyndall_book::refuse("a disk with an image_texture: Tyndall lays images on disks by radius and angle");
+  }
+  void write_at(tyndall_book::scene_text& out, const tyndall_book::placing& at, const tyndall_book::outline& outline,
+                const point3& corner, const shared_ptr<material>& m) const {
+    const bool disk = outline.type == std::string("disk");
+    out.objects.push_back(std::string("{\"type\":\"") + outline.type + (disk ? "\",\"center\":" : "\",\"corner\":") +
+                          tyndall_book::triple(corner) + ",\"u\":" + tyndall_book::triple(outline.outer * u) +
+                          ",\"v\":" + tyndall_book::triple(outline.outer * v) +
+                          (disk ? ",\"inner\":" + tyndall_book::number(outline.inner / outline.outer) : "") +
+                          tyndall_book::material_of(outline.type, m, out, at) + tyndall_book::transform_of(at) + "}");
   }
   /// Black, close behind a light: Tyndall's lights shine on both sides, those of the third book on one.
-  void write_back(tyndall_book::scene_text& out, const tyndall_book::placing& at) const {
+  void write_back(tyndall_book::scene_text& out, const tyndall_book::placing& at,
+                  const tyndall_book::outline& outline) const {
     static const shared_ptr<material> black = make_shared<lambertian>(color(0, 0, 0));
     const vec3 normal = (at.flipped ? -side_ : side_) * cross(u, v);
     const double distance = 1e-5 * std::sqrt(normal.length());
-    write_at(out, at, Q - distance * unit_vector(normal), black);
+    write_at(out, at, outline, Q - distance * unit_vector(normal), black);
   }
 
   double side_;  ///< 1: the books' normal is along cross(u, v); -1: against it
 };
+
+// The shapes that the chapter on quads names as additions, by the names that readers give them. A program that defines
+// a class of such a name in a file of its own keeps it.
+#ifndef TYNDALL_BOOK_OWN_tri
+struct tri : quad {
+  using quad::quad;
+  bool is_interior(double a, double b, hit_record&) const override { return 0 <= a && 0 <= b && a + b <= 1; }
+};
+#endif
+#ifndef TYNDALL_BOOK_OWN_triangle
+struct triangle : quad {
+  using quad::quad;
+  bool is_interior(double a, double b, hit_record&) const override { return 0 <= a && 0 <= b && a + b <= 1; }
+};
+#endif
+#ifndef TYNDALL_BOOK_OWN_ellipse
+struct ellipse : quad {
+  using quad::quad;
+  bool is_interior(double a, double b, hit_record&) const override { return a * a + b * b <= 1; }
+};
+#endif
+#ifndef TYNDALL_BOOK_OWN_disk
+struct disk : quad {
+  using quad::quad;
+  bool is_interior(double a, double b, hit_record&) const override { return a * a + b * b <= 1; }
+};
+#endif
+#ifndef TYNDALL_BOOK_OWN_annulus
+struct annulus : quad {
+  double inner;
+
+  annulus(const point3& center, const vec3& half_u, const vec3& half_v, double hole, tyndall_book::ref<material> m)
+      : quad(center, half_u, half_v, m), inner(hole) {}
+  bool is_interior(double a, double b, hit_record&) const override {
+    const double radius = std::sqrt(a * a + b * b);
+    return inner <= radius && radius <= 1;
+  }
+};
+#endif
 
 /// Editions 1 to 3: rectangles along the axes. The order of their sides is that of the books' uv coordinates.
 struct xy_rect : quad {
