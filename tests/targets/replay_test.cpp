@@ -122,14 +122,15 @@ TEST_CASE("replay: shows the other way at glass as a branch, with its part of th
   const double reflected = 4.0 / 9, passed = 1 - reflected;  // at each surface: ((5 - 1) / (5 + 1))^2
   REQUIRE(path.vertices.size() > 3);
   CHECK(path.vertices[2].met == Met::nothing);
-  CHECK(static_cast<double>(path.vertices[2].throughput.x) == doctest::Approx(passed * passed));
+  // At the back 4/9 of 5/9 would branch off, which is less than min_branch. So that is what the branch carries, if any.
+  CHECK(static_cast<double>(path.vertices[2].throughput.x) == doctest::Approx(passed - 0.25));
   const auto front = std::find_if(path.vertices.begin(), path.vertices.end(),
                                   [](const PathVertex& v) { return v.branch && v.before == 0; });
   REQUIRE(front != path.vertices.end());
   CHECK(front->met == Met::nothing);
   CHECK(static_cast<double>(front->throughput.x) == doctest::Approx(reflected));
   CHECK(static_cast<double>(front->radiance.x) == doctest::Approx(reflected));
-  CHECK(static_cast<double>(path.radiance.x) > passed * passed + reflected - 1e-6);
+  CHECK(static_cast<double>(path.radiance.x) == doctest::Approx(1));
 }
 
 TEST_CASE("replay: says what smoke has left of a path's light") {
