@@ -32,6 +32,13 @@ struct LoopAnswers {
     return std::fabs(a - b) <= (coarse ? 0.02 : 1e-6) * std::max(1.0, std::fabs(b));
   }
   bool takes_light() const { return light(shining, 0) > 0; }
+  /// The largest channel of the sky.
+  double brightest() const {
+    double largest = 0;
+    for (int pixel = up; pixel < mirrors; ++pixel)
+      for (int k = 0; k < 3; ++k) largest = std::max(largest, light(pixel, k));
+    return largest;
+  }
   void find_gamma();
   bool adds_up() const;
   vec3 sky(int pixel) const;

@@ -1,6 +1,7 @@
 #pragma once
 #include "random.h"
 
+#include <atomic>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -12,7 +13,14 @@ using std::make_shared;
 using std::shared_ptr;
 using std::sqrt;
 
+struct vec3;
+
 namespace tyndall_book {
+
+/// Whether a loop in main() is being followed: see loop.h.
+inline std::atomic<bool> follows_sums{false};
+/// Told before a vector is added to a sum.
+void take_sum(const vec3& sum, const vec3& added);
 
 /// A coordinate that serves readers who write v.x() and those who write v.x.
 struct coordinate {
@@ -51,10 +59,14 @@ struct vec3 {
   const vec3& operator+() const { return *this; }
   vec3 operator-() const { return vec3(-e[0], -e[1], -e[2]); }
   vec3& operator+=(const vec3& other) {
+    if (tyndall_book::follows_sums) tyndall_book::take_sum(*this, other);
     for (int k = 0; k < 3; ++k) e[k] += other.e[k];
     return *this;
   }
-  vec3& operator-=(const vec3& other) { return *this += -other; }
+  vec3& operator-=(const vec3& other) {
+    for (int k = 0; k < 3; ++k) e[k] -= other.e[k];
+    return *this;
+  }
   vec3& operator*=(const vec3& other) {
     for (int k = 0; k < 3; ++k) e[k] *= other.e[k];
     return *this;
@@ -101,7 +113,7 @@ struct color : vec3 {
 
 inline std::ostream& operator<<(std::ostream& out, const vec3& v) { return out << v[0] << ' ' << v[1] << ' ' << v[2]; }
 inline std::istream& operator>>(std::istream& in, vec3& v) { return in >> v[0] >> v[1] >> v[2]; }
-inline vec3 operator+(vec3 a, const vec3& b) { return a += b; }
+inline vec3 operator+(const vec3& a, const vec3& b) { return vec3(a[0] + b[0], a[1] + b[1], a[2] + b[2]); }
 inline vec3 operator-(vec3 a, const vec3& b) { return a -= b; }
 inline vec3 operator*(vec3 a, const vec3& b) { return a *= b; }
 inline vec3 operator/(vec3 a, const vec3& b) { return a /= b; }

@@ -4,6 +4,7 @@
 
 #include <cctype>
 #include <iostream>
+#include <mutex>
 #include <streambuf>
 #include <string>
 
@@ -30,14 +31,17 @@ class OutputSpy : public std::streambuf {
 
  protected:
   int_type overflow(int_type c) override {
+    const std::lock_guard<std::recursive_mutex> lock(mutex_);
     if (!traits_type::eq_int_type(c, traits_type::eof())) put(traits_type::to_char_type(c));
     return traits_type::not_eof(c);
   }
   std::streamsize xsputn(const char* text, std::streamsize size) override {
+    const std::lock_guard<std::recursive_mutex> lock(mutex_);
     for (std::streamsize k = 0; k < size; ++k) put(text[k]);
     return size;
   }
   int sync() override {
+    const std::lock_guard<std::recursive_mutex> lock(mutex_);
     const bool may_begin = token_ == "P" || token_ == "P3";
     if (!in_picture_ && !may_begin) send();
     return before_->pubsync();
@@ -84,6 +88,7 @@ class OutputSpy : public std::streambuf {
   }
 
   std::streambuf* before_;
+  std::recursive_mutex mutex_;  ///< threads of main() may write at once
   std::string token_;
   bool in_picture_ = false, in_comment_ = false;
   int header_ = 0, channel_ = 0;  ///< numbers read, of the header and of a pixel

@@ -57,6 +57,9 @@ struct checker_texture : texture {
 
 namespace tyndall_book {
 
+/// Told the size of the picture that main() writes: see loop.h.
+void take_size(int width, int height);
+
 /// Files by the bytes that stand for them: see stbi_load().
 inline std::map<const void*, std::string>& files_of_bytes() {
   static std::map<const void*, std::string> files;
@@ -138,12 +141,19 @@ TYNDALL_BOOK_HELPER unsigned char* stbi_load(const char* file, int* width, int* 
 }
 TYNDALL_BOOK_HELPER void stbi_image_free(void*) {}
 
-/// Pictures that main() writes by itself cannot be taken over: they may be anything.
-TYNDALL_BOOK_HELPER int stbi_write_png(const char*, int, int, int, const void*, int) {
+/// Pictures that main() writes by itself cannot be taken over, as they may be anything, unless they come out of a loop
+/// that has been followed.
+TYNDALL_BOOK_HELPER int stbi_write_png(const char*, int width, int height, int, const void*, int) {
+  tyndall_book::take_size(width, height);
   tyndall_book::refuse("main() writes its picture by stbi_write_png(): there are no pixels to take over");
 }
-TYNDALL_BOOK_HELPER int stbi_write_jpg(const char*, int, int, int, const void*, int) {
+TYNDALL_BOOK_HELPER int stbi_write_jpg(const char*, int width, int height, int, const void*, int) {
+  tyndall_book::take_size(width, height);
   tyndall_book::refuse("main() writes its picture by stbi_write_jpg(): there are no pixels to take over");
+}
+TYNDALL_BOOK_HELPER int stbi_write_bmp(const char*, int width, int height, int, const void*) {
+  tyndall_book::take_size(width, height);
+  tyndall_book::refuse("main() writes its picture by stbi_write_bmp(): there are no pixels to take over");
 }
 TYNDALL_BOOK_HELPER void stbi_flip_vertically_on_write(int) {}
 TYNDALL_BOOK_HELPER void stbi_set_flip_vertically_on_load(int flip) {
