@@ -42,6 +42,18 @@ bool is_without_effect(const std::string& name) {
   return std::regex_search(key, no_effect) && !std::regex_search(key, effect);
 }
 
+/// Whether a member function of a camera, by its name, prepares it for what its render() does anyway.
+bool is_preparation(const std::string& name) {
+  static const std::regex usual("(?:init|initiali[sz]e|setup|update|prepare)(?:camera)?");
+  return std::regex_match(key_of(name), usual);
+}
+
+/// Whether a member function of a list, by its name, adds an object.
+bool is_adding(const std::string& name) {
+  static const std::regex usual("(?:add|append|insert|push|pushback)(?:object|hittable|shape)?");
+  return std::regex_match(key_of(name), usual);
+}
+
 }  // namespace
 
 bool OwnNames::mend(const std::string& errors) {
@@ -84,17 +96,22 @@ bool OwnNames::add_member(const std::string& error) {
   if (ours == "color" || ours == "point3") ours = "vec3";
   if (ours == "camera" && is_without_effect(name))
     return add_text("TYNDALL_BOOK_CAMERA_MEMBERS", "tyndall_book::ignored " + name + ";");
+  if (ours == "camera" && is_preparation(name))
+    return add_text("TYNDALL_BOOK_CAMERA_MEMBERS", "void " + name + "() const {}");
   if (ours == "camera") {
     const std::string alias = alias_of_camera(name);
-    if (!alias.empty())
-      notes_.push_back("the camera's " + name + " is taken for " +
-                       alias.substr(alias.find('=') + 2, alias.size() - alias.find('=') - 3));
-    return add_text("TYNDALL_BOOK_CAMERA_MEMBERS", alias);
+    if (!add_text("TYNDALL_BOOK_CAMERA_MEMBERS", alias)) return false;
+    const std::size_t value = alias.find('=') + 2;
+    notes_.push_back("the camera's " + name + " is taken for " + alias.substr(value, alias.size() - value - 1));
+    return true;
   }
   if (ours == "hit_record" && is_pointer_to_material(name))
     return add_text("TYNDALL_BOOK_HIT_MEMBERS", "tyndall_book::ref<::material> " + name + ";") &&
            add_text("TYNDALL_BOOK_HIT_MATERIALS", "record." + name + " = &seen;");
   if (ours == "vec3") return add_text(vec3_members, function_of(ours, name));
+  if (ours == "hittable_list" && is_adding(name))
+    return add_text("TYNDALL_BOOK_HITTABLE_LIST_MEMBERS",
+                    "void " + name + "(tyndall_book::ref<hittable> object) { add(object); }");
   if (ours == "hittable_list") return add_text("TYNDALL_BOOK_HITTABLE_LIST_MEMBERS", function_of(ours, name));
   return false;
 }
@@ -107,8 +124,10 @@ bool OwnNames::add_text(const char* macro, const std::string& text) {
 
 std::string OwnNames::alias_of_camera(const std::string& name) const {
   for (const OwnHeader& header : layout_.replaced)
-    for (const Definition& one : header.book_classes)
-      if (book_class(one.name) == "camera") return camera_alias(one.text, name);
+    for (const Definition& one : header.book_classes) {
+      const std::string alias = book_class(one.name) == "camera" ? camera_alias(one.text, name) : "";
+      if (!alias.empty()) return alias;  // "class camera;" alone has none
+    }
   return "";
 }
 

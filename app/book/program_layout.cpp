@@ -1,6 +1,7 @@
 #include "app/book/program_layout.h"
 
 #include "app/book/camera_constructor.h"
+#include "app/book/namespaces.h"
 #include "app/book/project_headers.h"
 #include "app/book/scratch_folder.h"
 #include "app/book/source_text.h"
@@ -31,13 +32,6 @@ bool contains(const std::string_view (&list)[count], const std::string& name) {
 }
 
 bool is_book_class(const std::string& name) { return !book_class(name).empty(); }
-
-bool is_of_the_books(const Definition& one) {
-  if (!one.is_namespace) return is_book_class(one.name);
-  for (const auto& [name, base] : classes_of(one.text))
-    if (is_book_class(name)) return true;
-  return false;
-}
 
 /// Whether a header with another name does what one of the books' does.
 bool replaces_ours(const std::string& code) {
@@ -86,7 +80,8 @@ class Layouter {
       for (const std::string_view shape : {"tri", "triangle", "ellipse", "disk", "annulus"})
         if (name == shape) layout_.options.push_back("-DTYNDALL_BOOK_OWN_" + name);
     layout_.texts[our_headers] = "#pragma once\n" + camera_constructor_ + camera_defaults_ +
-                                 "#include <rtweekend.h>\n#include \"" + std::string(own_names) + "\"\n";
+                                 "#include <rtweekend.h>\n" + namespaces_ + "#include \"" + std::string(own_names) +
+                                 "\"\n";
     layout_.texts[own_names] = "";
     return std::move(layout_);
   }
@@ -172,7 +167,6 @@ class Layouter {
     for (const auto& [name, base] : classes)
       if (!is_book_class(name)) layout_.own_classes[name] = {base, shown};
     if (camera_constructor_.empty()) camera_constructor_ = camera_constructor(code);
-    if (camera_defaults_.empty()) camera_defaults_ = camera_defaults(code);
     if (has_name(code, "ray_color") && (classes.contains("camera") || classes.contains("Camera"))) {
       const auto sky = sky_of(code);
       layout_.sky = sky.value_or("");
@@ -183,14 +177,30 @@ class Layouter {
       const fs::path found = find(include, file, shown, found_as);
       if (!found.empty()) see(found, found_as);
     }
-    std::vector<Definition> definitions = definitions_of(code);
-    std::vector<Definition> of_books;
-    for (const Definition& one : definitions)
-      if (is_of_the_books(one)) of_books.push_back(one);
-    std::erase_if(definitions, [](const Definition& one) { return is_of_the_books(one); });
+    std::vector<Definition> definitions, of_books;
+    sort(definitions_of(code), definitions, of_books);
     layout_.replaced.push_back({shown, std::move(definitions), std::move(of_books)});
     const fs::path source = source_of(file);
     if (!source.empty()) see(source, beside(shown, source));
+  }
+
+  /// Tells what ours take the place of from the rest. Namespaces of the reader's with the books' names are opened.
+  void sort(const std::vector<Definition>& all, std::vector<Definition>& own, std::vector<Definition>& of_books) {
+    for (const Definition& one : all) {
+      if (one.is_namespace && is_of_the_books(one)) {
+        namespaces_ += namespace_of_ours(one);
+        std::vector<Definition> inside = members_of(one.text);
+        const auto open = static_cast<long>(one.text.find('{'));
+        const auto lines_above =
+            one.line - 1 + static_cast<std::size_t>(std::count(one.text.begin(), one.text.begin() + open, '\n'));
+        for (Definition& member : inside) member.line += lines_above;
+        sort(inside, own, of_books);
+        continue;
+      }
+      const bool is_of_books = is_of_the_books(one);
+      (is_of_books ? of_books : own).push_back(one);
+      if (is_of_books && camera_defaults_.empty()) camera_defaults_ = camera_defaults(one.text);
+    }
   }
 
   /// The source file that belongs to a header: where that has prototypes, it has the functions. Empty: there is none.
@@ -272,7 +282,7 @@ class Layouter {
   std::map<fs::path, std::string> copies_;
   std::set<fs::path> seen_;
   std::set<std::string> constants_;
-  std::string camera_constructor_, camera_defaults_;
+  std::string camera_constructor_, camera_defaults_, namespaces_;
   std::string all_text_, random_text_;  ///< of all files, and of replaced headers that draw random numbers
 };
 

@@ -103,4 +103,43 @@ complains "made/main.cc:8:" "no matching" "; Tyndall's headers stand in the plac
 # What is missing in ours and cannot be taken over.
 refused own/src/member "has no member named 'w'; Tyndall's headers stand in the place of yours" <<<'int main() { return vec3(1, 2, 3).w; }'
 
+# Namespaces that the books' names are in, a camera that is prepared before it renders, lists with other words for add(),
+# pointers of one owner, functions with a capital letter, and OpenMP.
+mkdir -p spaces
+cat >spaces/camera.h <<'END'
+#pragma once
+#include <memory>
+namespace studio { namespace parts {
+class vec3 { };
+using Colour = vec3;
+inline double dot(const vec3&, const vec3&);
+class Metal { };
+class Sphere { };
+class HittableList { public: void Append(std::unique_ptr<Sphere> one); };
+class Camera;
+class Camera {
+ public:
+  int image_width = 14;
+  vec3 v_up = vec3(0, 1, 0);
+  double fieldOfView = 30;
+  void Initialize();
+  void Render(const HittableList& list);
+};
+} }
+END
+program spaces/main <<'END'
+#include "camera.h"
+#include <omp.h>
+using namespace studio::parts;
+int main() {
+  studio::parts::HittableList w;
+  w.Append(std::make_unique<studio::parts::Sphere>(studio::parts::vec3(0, 0, -1), 0.5 * omp_get_max_threads(), new Metal(studio::parts::Colour(1, 1, 1), 0.0)));
+  hit_record record; ray out; color part; if (false) w.Hit(out, 0.0, 1.0, record) && record.mat->Scatter(out, record, part, out);
+  Camera c; c.v_up = vec3(1, 0, 0); c.Initialize(); c.Render(w);
+}
+END
+expect 0 "$tyndall" convert spaces/main.cc -o spaces.json
+same 'camera in a namespace' "$(json spaces.json image) $(json spaces.json camera)" '{"width": 14, "height": 14} {"vup": [1, 0, 0], "vfov": 30, "focus_distance": 10, "shutter": [0, 1]}'
+[ "$(grep -c "the camera's v_up is taken for vup" err)" = 1 ] || fail "told not once: $(cat err)"
+
 finish

@@ -19,12 +19,13 @@ TEST_CASE("camera: values that its members begin with, where these are plain num
 TEST_CASE("camera: members that are called nearly like one of the books'") {
   const std::string camera =
       "class camera { double ascpect_ratio; int sample_per_pix; int max_ray_depth = 5; vec3 v_up; "
-      "double hfov, blur; point3 lookto; color backgroundcolour; };";
+      "double hfov, blur; point3 lookto, focus_point; color backgroundcolour; };";
   CHECK(camera_alias(camera, "ascpect_ratio") == "double& ascpect_ratio = aspect_ratio;");
   CHECK(camera_alias(camera, "sample_per_pix") == "int& sample_per_pix = samples_per_pixel;");
   CHECK(camera_alias(camera, "max_ray_depth") == "int& max_ray_depth = max_depth;");
   CHECK(camera_alias(camera, "v_up") == "vec3& v_up = vup;");
+  CHECK(camera_alias(camera, "lookto") == "point3& lookto = lookat;");
   CHECK(camera_alias(camera, "backgroundcolour") == "tyndall_book::given_color& backgroundcolour = background;");
-  for (const char* other : {"hfov", "blur", "lookto", "vfov"}) CHECK(camera_alias(camera, other) == "");
+  for (const char* other : {"hfov", "blur", "focus_point", "vfov"}) CHECK(camera_alias(camera, other) == "");
   CHECK(camera_alias("class camera { double aspect_ratio, ascpect_ratio; };", "ascpect_ratio") == "");
 }

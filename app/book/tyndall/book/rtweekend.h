@@ -4,6 +4,7 @@
 /// 1 to 3, hands the scene to Tyndall. app/book/README.md says what works. C++17, no other files needed.
 #include "parts/loop.h"
 #include "parts/names.h"
+#include "parts/omp.h"
 
 // What the books' own headers include, and main() may rely on.
 #include <algorithm>

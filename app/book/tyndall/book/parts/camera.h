@@ -116,7 +116,9 @@ struct camera : tyndall_book::camera_values {
   }
 
   /// Called by loops in main(): see loop.h.
-  ray get_ray(double, double) const;
+  ray get_ray(double u, double v) const;
+  ray getRay(double u, double v) const { return get_ray(u, v); }  // as some readers spell it
+  ray GetRay(double u, double v) const { return get_ray(u, v); }
 
   /// Hands the scene over, or shows it. rest: lights of the third book, which are no part of the scene; a file's name,
   /// a number of threads of readers' own.

@@ -37,6 +37,14 @@ struct material {
   virtual bool scatter(const ray&, const hit_record&, color&, ray&, double&) const { return false; }
   virtual bool scatter(const ray&, const hit_record&, vec3&, ray&, float&) const { return false; }
   virtual double scattering_pdf(const ray&, const hit_record&, const ray&) const { return 0; }
+  template <class... Arguments>  // as some readers spell them
+  bool Scatter(const ray& in, Arguments&&... rest) const {
+    return scatter(in, std::forward<Arguments>(rest)...);
+  }
+  template <class... Arguments>
+  color Emitted(const Arguments&... arguments) const {
+    return emitted(arguments...);
+  }
 
   /// The material as the scene has it, a JSON object.
   virtual std::string tyndall_text(tyndall_book::scene_text&) const { tyndall_refuse(); }

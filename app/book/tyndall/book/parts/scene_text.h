@@ -13,7 +13,8 @@
 /// The scene as it becomes text: Tyndall's JSON (scene.schema.json describes it).
 namespace tyndall_book {
 
-/// A parameter for a pointer of any edition: shared_ptr, a raw pointer, which stays the reader's, a box by value, null.
+/// A parameter for a pointer of any edition: shared_ptr, unique_ptr, a raw pointer, which stays the reader's, a box by
+/// value, null.
 template <class T>
 struct ref : shared_ptr<T> {
   ref() = default;
@@ -22,6 +23,8 @@ struct ref : shared_ptr<T> {
   ref(U* raw) : shared_ptr<T>(raw, [](T*) {}) {}
   template <class U, class = std::enable_if_t<std::is_convertible<const U&, shared_ptr<T>>::value>, class = void>
   ref(const U& other) : shared_ptr<T>(other) {}
+  template <class U, class = std::enable_if_t<std::is_base_of<T, U>::value>>
+  ref(std::unique_ptr<U>&& other) : shared_ptr<T>(std::move(other)) {}
   operator T*() const { return this->get(); }
 };
 

@@ -20,6 +20,10 @@ struct hittable {
   virtual bool hit(const ray&, double, double, hit_record& record) const {
     return tyndall_book::probe_hit(*this, record);
   }
+  template <class... Arguments>  // as some readers spell it
+  bool Hit(const ray& r, Arguments&&... rest) const {
+    return hit(r, std::forward<Arguments>(rest)...);
+  }
   virtual aabb bounding_box() const { return aabb(); }
   virtual bool bounding_box(double, double, aabb&) const { return true; }
   virtual double pdf_value(const point3&, const vec3&) const { return 0; }
