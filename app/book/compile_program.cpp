@@ -88,7 +88,8 @@ std::string undefined_reference(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) {
     const std::size_t at = line.find("undefined reference to ");
     if (at != std::string::npos)
-      return line.substr(at) + " (if another source file defines it, name that, too: tyndall main.cc other.cc)";
+      return line.substr(at) +
+             " (if it is in another source file, name that, too: tyndall main.cc other.cc; libraries are not linked)";
   }
   return "";
 }

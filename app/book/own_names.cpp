@@ -145,7 +145,9 @@ std::string OwnNames::function_of(const std::string& ours, const std::string& na
   std::string text;
   const auto add_from = [&](const Definition& one) {
     for (const Definition& member : members_of(one.text))
-      if (member.name == name && member.text.find_first_of("#\"") == std::string::npos) text += member.text;
+      if (member.name == name && member.text.find('{') != std::string::npos &&  // no prototype
+          member.text.find_first_of("#\"") == std::string::npos)
+        text += member.text;
   };
   for (const OwnHeader& header : layout_.replaced) {
     for (const Definition& one : header.book_classes)

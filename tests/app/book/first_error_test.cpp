@@ -62,8 +62,8 @@ TEST_CASE("what ours may lack is told so, where they stand in the place of the r
 TEST_CASE("what the linker misses, and what nobody understands") {
   CHECK(first_error("/usr/bin/ld: /tmp/x.o: in function `main':\nmain.cc:(.text+0x9): undefined reference to `f()'\n",
                     layout()) ==
-        "src/main.cc: undefined reference to `f()' (if another source file defines it, name that, too: tyndall main.cc "
-        "other.cc)");
+        "src/main.cc: undefined reference to `f()' (if it is in another source file, name that, too: tyndall main.cc "
+        "other.cc; libraries are not linked)");
   CHECK(first_error("g++: out of luck\n", layout()) == "src/main.cc: cannot be compiled: g++: out of luck");
   CHECK(first_error("", layout()) == "src/main.cc: cannot be compiled: the compiler does not say why");
 }
