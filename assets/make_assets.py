@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Makes the assets that are computed: the scenes with random numbers and the planet's map.
+"""Makes the assets that are computed: the scenes with random numbers, the planet's map and the pictures of skies.
 
     python3 assets/make_assets.py            everything
-    python3 assets/make_assets.py cover      only what is named: cover, bouncing-spheres, next-week, planet
+    python3 assets/make_assets.py cover      only what is named: cover, bouncing-spheres, next-week, planet, skies
 
 Needs Python 3.8 and nothing else. Every run gives the same files: random numbers come from
 random.Random(seed).random(), whose sequence Python guarantees, and are rounded before they are written. All other
@@ -16,6 +16,7 @@ import sys
 from pathlib import Path
 
 from make_planet import planet_png
+from make_sky import bright_sun_hdr, clear_sky_hdr, hdr
 
 ASSETS = Path(__file__).resolve().parent
 SCENES = ASSETS / "scenes"
@@ -228,8 +229,18 @@ def make_planet():
     print(path.relative_to(ASSETS.parent))
 
 
+def make_skies():
+    """The skies of scenes, and those of assets/verify: one radiance, and one texel of 2^20 in a sky of 1."""
+    sunny = [[[float(2 ** 20 if (x, y) == (20, 9) else 1)] * 3 for x in range(64)] for y in range(32)]
+    verify = ASSETS / "verify"
+    for path, picture in ((TEXTURES / "clear-sky.hdr", clear_sky_hdr()), (TEXTURES / "bright-sun.hdr", bright_sun_hdr()),
+                          (verify / "even-sky.hdr", hdr([[[0.5] * 3] * 16] * 8)), (verify / "sun-sky.hdr", hdr(sunny))):
+        path.write_bytes(picture)
+        print(path.relative_to(ASSETS.parent))
+
+
 MAKERS = {"cover": make_cover, "bouncing-spheres": make_bouncing_spheres, "next-week": make_next_week,
-          "planet": make_planet}
+          "planet": make_planet, "skies": make_skies}
 
 
 def main(names):

@@ -6,6 +6,7 @@
 #include "core/trace/camera.h"
 #include "core/trace/flight.h"
 #include "core/trace/shade.h"
+#include "core/trace/sky.h"
 
 #include <algorithm>
 #include <atomic>
@@ -127,10 +128,14 @@ class BookPaths {
     }
     const bool goes_on = medium.happens     ? meet_medium(p, medium)
                          : hit.element >= 0 ? meet_surface(p, hit)
-                                            : find_light(p, background_radiance(s_.background, p.ray.direction));
+                                            : find_light(p, background(p.ray.direction));
     p.sampler.next_event();
     ++p.depth;
     return goes_on && max_component(p.throughput) > min_throughput;
+  }
+
+  Vec3f background(Vec3f direction) const {
+    return s_.has_sky() ? sky_towards(s_.sky, direction).radiance : background_radiance(s_.background, direction);
   }
 
   bool find_light(const BookPath& p, Vec3f radiance) {

@@ -173,6 +173,7 @@ std::string guide_text(const Report& report) {
   if (render.caustics == Caustics::scatter || render.integrator != Integrator::mis ||
       render.fresnel != FresnelKind::exact)
     return "none: a part of chains, which are off";
+  if (report.prepared->columns().sky.pixels) return "none: under a picture of the sky light is not guided";
   if (guide.light_paths == 0) return "none: no lamp, or nothing that is almost a mirror or glass beside something matt";
   const std::string variance = fmt::format(
       "by {} light paths, the light that chance alone would have to find has a "
@@ -195,6 +196,20 @@ std::string sharing_text(const Report& report) {
                                         gain.variance, gain.time);
   if (is_worthwhile(gain)) return "on: " + probe;
   return "none: " + probe + fmt::format("; it pays where the product is at most {}", worthwhile_product);
+}
+
+/// The background, and how integrators find the light of a picture.
+std::string background_text(const Report& report) {
+  const auto* sky = std::get_if<SkyPicture>(&report.loaded.scene.background);
+  if (!sky) return report.contents.background;
+  const std::string text = fmt::format("{} {} ({}x{})", report.contents.background, printable(sky->file),
+                                       sky->pixels->width, sky->pixels->height);
+  if (!report.prepared->columns().sky.is_sampled()) return text + ", found by chance";
+  return text +
+         fmt::format(
+             ", sampled as a light; as bright as if its light filled {:.2g} of all directions; by chance: through "
+             "and off glass and mirrors",
+             report.prepared->columns().sky.distribution->spread);
 }
 
 std::string bytes_text(std::size_t bytes) {
@@ -240,7 +255,7 @@ std::string table(const Report& report) {
   if (report.splitting_gain.measured) row("", gain_text(report.splitting_gain));
   row("sharing", sharing_text(report));
   if (report.reuse_gain.measured) row("", gain_text(report.reuse_gain));
-  row("background", c.background);
+  row("background", background_text(report));
   row("motion", c.motion ? "yes" : "no");
   row("defocus", c.defocus ? "yes" : "no");
   row("primitives", std::to_string(report.prepared->columns().primitives()) +

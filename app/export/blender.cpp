@@ -54,6 +54,10 @@ Json background(const Background& background) {
                  },
                  [](const Hemispheres& h) {
                    return Json{{"type", "hemispheres"}, {"low", json_of(h.down)}, {"high", json_of(h.up)}};
+                 },
+                 [](const SkyPicture& s) {
+                   return Json{
+                       {"type", "image"}, {"file", all_printable(s.file)}, {"degrees", s.rotate_y}, {"scale", s.scale}};
                  }},
       background);
 }

@@ -260,13 +260,24 @@ def add_camera():
 
 
 def add_background():
-    made = bpy.data.worlds.new("background")
-    bpy.context.scene.world = made
-    made.use_nodes = True
-    tree = new_tree(made.node_tree)
+    world_data = bpy.data.worlds.new("background")
+    bpy.context.scene.world = world_data
+    world_data.use_nodes = True
+    tree = new_tree(world_data.node_tree)
     sky = scene["background"]
-    colour = rgba(sky["low"])
-    if sky["type"] != "constant":
+    strength = sky.get("scale", 1.0)
+    if sky["type"] == "image":
+        # Blender's picture begins a quarter of a turn before ours.
+        angle = math.radians(-90.0 - sky["degrees"])
+        direction = node(tree, "ShaderNodeTexCoord").outputs["Generated"]
+        turned = node(tree, "ShaderNodeVectorRotate", [("Vector", direction), ("Angle", angle)], rotation_type="Z_AXIS")
+        made = node(tree, "ShaderNodeTexEnvironment", [("Vector", turned.outputs[0])], interpolation="Linear")
+        made.image = bpy.data.images.load(os.path.join(os.path.dirname(os.path.abspath(__file__)), sky["file"]))
+        made.image.colorspace_settings.name = "Linear"
+        colour = made.outputs["Color"]
+    else:
+        colour = rgba(sky["low"])
+    if sky["type"] in ("gradient", "hemispheres"):
         direction = node(tree, "ShaderNodeTexCoord").outputs["Generated"]
         height = node(tree, "ShaderNodeSeparateXYZ", [("Vector", direction)]).outputs["Z"]
         if sky["type"] == "gradient":
@@ -274,7 +285,7 @@ def add_background():
         else:
             height = math_node(tree, "GREATER_THAN", height, 0.0)
         colour = mixed(tree, height, sky["low"], sky["high"])
-    shader = node(tree, "ShaderNodeBackground", [("Color", colour), ("Strength", 1.0)])
+    shader = node(tree, "ShaderNodeBackground", [("Color", colour), ("Strength", strength)])
     output = tree.nodes.new("ShaderNodeOutputWorld")
     tree.links.new(output.inputs["Surface"], shader.outputs[0])
 

@@ -43,7 +43,8 @@ void fill_sky(const Scene& scene, ForeignFile& out) {
     const Vec3d colour =
         std::visit(Overloaded{[](const Vec3d& c) { return c; },
                               [&](const Gradient& g) { return g.bottom + (height + 1) / 2 * (g.top - g.bottom); },
-                              [&](const Hemispheres& h) { return height > 0 ? h.up : h.down; }},
+                              [&](const Hemispheres& h) { return height > 0 ? h.up : h.down; },
+                              [](const SkyPicture&) { return Vec3d{}; }},
                    scene.background);
     for (int x = 0; x < columns; ++x)
       for (const double c : {colour.x, colour.y, colour.z}) out.sky.push_back(static_cast<float>(c));
@@ -53,6 +54,11 @@ void fill_sky(const Scene& scene, ForeignFile& out) {
 std::string background(const Scene& scene, const std::string& file, ForeignFile& out) {
   if (const auto* colour = std::get_if<Vec3d>(&scene.background))
     return *colour == Vec3d{} ? "" : "  <emitter type=\"constant\">" + rgb("radiance", *colour) + "</emitter>\n";
+  if (const auto* sky = std::get_if<SkyPicture>(&scene.background))  // its pictures begin half a turn before ours
+    return fmt::format(
+        "  <emitter type=\"envmap\"><string name=\"filename\" value=\"{}\"/>{}<transform name=\"to_world\"><rotate "
+        "y=\"1\" angle=\"{}\"/></transform></emitter>\n",
+        in_xml(sky->file), number("scale", sky->scale), number_text(180 + sky->rotate_y));
   out.sky_name = beside(file, ".sky.pfm");
   fill_sky(scene, out);
   return "  <emitter type=\"envmap\"><string name=\"filename\" value=\"" + in_xml(out.sky_name) + "\"/></emitter>\n";

@@ -2,6 +2,8 @@
 #include "core/base/kinds.h"
 #include "core/base/text.h"
 #include "core/compile/columns.h"
+#include "core/compile/sky.h"
+#include "core/trace/sky.h"
 
 #include <fmt/core.h>
 
@@ -41,13 +43,40 @@ Vec3d direction_of(double x, double y) {
 
 Vec3d seen(const Gradient& g, Vec3d direction) { return g.bottom + (direction.y + 1) / 2 * (g.top - g.bottom); }
 Vec3d seen(const Hemispheres& h, Vec3d direction) { return direction.y > 0 ? h.up : h.down; }
+Vec3d seen(const SkyPicture&, Vec3d) { return {}; }  // see add_sky_pixels()
+
+/// A sky's picture, in the layout that pbrt reads. Each pixel is a mean over some of its area, so that a sun of one
+/// texel keeps its light.
+void add_sky_pixels(const SkyPicture& picture, int edge, ForeignFile& out) {
+  const SkyColumns columns = sky_columns(picture, false, nullptr);
+  const SkyView sky = view_of(columns);
+  constexpr int parts = 4;
+  for (int y = 0; y < edge; ++y)
+    for (int x = 0; x < edge; ++x) {
+      Vec3d sum;
+      for (int k = 0; k < parts * parts; ++k) {
+        const double column = x + (k % parts + 0.5) / parts, row = y + (k / parts + 0.5) / parts;
+        sum = sum + sky_towards<double>(sky, direction_of(column / edge, row / edge)).radiance;
+      }
+      for (const double c : {sum.x, sum.y, sum.z}) out.sky.push_back(static_cast<float>(c / (parts * parts)));
+    }
+}
+
+/// The square, in pixels, that has about as many as the sky's picture.
+int edge_of(const SkyPicture& sky) {
+  int edge = 512;
+  while (edge < sky.pixels->width && edge < 4096) edge *= 2;
+  return edge;
+}
 
 std::string background(const Scene& scene, const std::string& file, ForeignFile& out) {
   if (const auto* colour = std::get_if<Vec3d>(&scene.background))
     return *colour == Vec3d{} ? "" : "LightSource \"infinite\" " + rgb("L", *colour) + "\n";
-  constexpr int edge = 512;
+  const auto* picture = std::get_if<SkyPicture>(&scene.background);
+  const int edge = picture ? edge_of(*picture) : 512;
   out.sky_name = beside(file, ".sky.pfm"), out.sky_width = out.sky_height = edge;
-  for (int y = 0; y < edge; ++y)
+  if (picture) add_sky_pixels(*picture, edge, out);
+  for (int y = 0; y < edge && !picture; ++y)
     for (int x = 0; x < edge; ++x) {
       const Vec3d direction = direction_of((x + 0.5) / edge, (y + 0.5) / edge);
       const Vec3d colour = std::visit(

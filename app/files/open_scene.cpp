@@ -18,12 +18,11 @@ constexpr const char* expected_no_program =
 Scene name_textures_from(const std::filesystem::path& folder, Scene scene) {
   std::error_code error;
   const std::filesystem::path whole = std::filesystem::canonical(folder, error);
-  for (Texture& texture : scene.textures) {
-    auto* image = std::get_if<Image>(&texture.kind);
-    if (!image || error) continue;
-    const std::filesystem::path below = std::filesystem::path(image->file).lexically_relative(whole);
-    if (!below.empty() && *below.begin() != "..") image->file = below.string();
-  }
+  if (error) return scene;
+  each_picture(scene, [&](auto& picture) {
+    const std::filesystem::path below = std::filesystem::path(picture.file).lexically_relative(whole);
+    if (!below.empty() && *below.begin() != "..") picture.file = below.string();
+  });
   return scene;
 }
 

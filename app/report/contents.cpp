@@ -43,6 +43,7 @@ void count(const Scene& scene, const std::vector<Object>& objects, Contents& con
 std::string background_of(const Scene& scene) {
   if (std::holds_alternative<Gradient>(scene.background)) return Gradient::type;
   if (std::holds_alternative<Hemispheres>(scene.background)) return Hemispheres::type;
+  if (std::holds_alternative<SkyPicture>(scene.background)) return SkyPicture::type;
   return std::get<Vec3d>(scene.background) == Vec3d{} ? "none" : "constant";
 }
 

@@ -18,7 +18,7 @@ struct Contents {
   int lights = 0;                        ///< emitting primitives; a box has six
   bool motion = false;                   ///< something moves while the shutter is open
   bool defocus = false;
-  std::string background;  ///< "constant", "gradient", "hemispheres"; "none" if it is black
+  std::string background;  ///< "constant", "gradient", "hemispheres", "image"; "none" if it is black
 };
 
 Contents contents_of(const Scene& scene);

@@ -117,6 +117,7 @@ void Commands::act_on_document(const Request& request) {
       {Action::open, [](Commands& c, auto&) { c.dialog_ = open_dialog(); }},
       {Action::open_file,
        [](Commands& c, auto& r) { c.session_.references().open_dropped(std::filesystem::absolute(r.text)); }},
+      {Action::sky_of_file, [](Commands& c, auto& r) { c.session_.editor().set_sky(r.text); }},
       {Action::scene, [](Commands& c, auto& r) { c.session_.editor().open(r.text); }},
       {Action::save, [](Commands& c, auto&) { c.save(); }},
       {Action::save_as, [](Commands& c, auto&) { c.save_as(); }},
@@ -258,6 +259,9 @@ void Commands::draw(Ui& ui, const Rect& area) {
   if (shows_help_) draw_help(ui, shows_help_);
   if (session_.editor().offers_reload() && !has_question())
     dialog_ = changed_file_dialog(*session_.editor().document().origin);
+  if (!has_question())
+    if (const std::filesystem::path picture = session_.references().take_doubtful(); !picture.empty())
+      dialog_ = picture_dialog(picture);
   if (dialog_.kind == Dialog::Kind::halves && !session_.split()) dialog_.kind = Dialog::Kind::none;
   closing_.draw(ui, area, dialog_);
   if (auto answer = draw_dialog(ui, area, dialog_)) panels_.requests.push_back(std::move(*answer));

@@ -138,6 +138,15 @@ Dialog reference_dialog(bool has_reference) {
   return dialog;
 }
 
+Dialog picture_dialog(const std::filesystem::path& file) {
+  return {Dialog::Kind::other,
+          "What is " + file.filename().string() + "?",
+          "A sky lights the scene from all around; a reference is what the picture is compared with.",
+          {{"dialog.sky", "As sky", Request{Action::sky_of_file, 0, file.string()}},
+           {"dialog.reference", "As reference", Request{Action::open_reference, 0, file.string()}},
+           {"dialog.cancel", "Cancel"}}};
+}
+
 Dialog changed_file_dialog(const Origin& origin) {
   return {Dialog::Kind::changed_file,
           "Another program has changed " + origin.title + ".",

@@ -37,6 +37,8 @@ Dialog name_dialog(const std::filesystem::path& suggestion);
 Dialog loss_dialog(const Origin& origin, bool changed);
 Dialog replace_dialog(const std::filesystem::path& file);
 Dialog reference_dialog(bool has_reference);
+/// A picture was dropped that may be meant as either.
+Dialog picture_dialog(const std::filesystem::path& file);
 Dialog changed_file_dialog(const Origin& origin);
 /// method_a, method_b: how the halves of the split view are rendered.
 Dialog halves_dialog(const std::string& method_a, const std::string& method_b);

@@ -22,7 +22,7 @@ std::shared_ptr<const Scene::Data> data_of(LoadedScene loaded, std::shared_ptr<c
 /// The object that a text describes, as one of the scene's.
 std::vector<Object> read_object(const Scene::Data& data, const std::string& text) {
   const JsonDocument document = parse_json(text);
-  References names;
+  NameTables names;
   for (std::size_t i = 0; i < data.scene.textures.size(); ++i)
     names.textures.emplace(data.scene.textures[i].name, static_cast<int>(i));
   for (std::size_t i = 0; i < data.scene.materials.size(); ++i)

@@ -39,6 +39,7 @@ inline constexpr std::uint32_t guided_events = 0x40000006u;
 inline constexpr std::uint32_t guided_strategy = 0x40000007u;
 inline constexpr std::uint32_t guided_direction = 0x40000008u;  // and the next one
 inline constexpr std::uint32_t guided_path = 0x50000000u;       // the first of the events of a guided path
+inline constexpr std::uint32_t sky_place = 0x4000000au;         // and the next one
 }  // namespace dimension
 
 inline constexpr std::uint32_t golden_ratio = 0x9e3779b9u;  ///< 2^32 / φ, odd: spreads consecutive dimensions

@@ -157,6 +157,9 @@ BackgroundColumns background_columns(const Background& background) {
                                },
                                [](const Hemispheres& h) {
                                  return Columns{BackgroundKind::hemispheres, to_float(h.up), to_float(h.down)};
+                               },
+                               [](const SkyPicture&) {
+                                 return Columns{BackgroundKind::picture, {}, {}};
                                }},
                     background);
 }

@@ -3,6 +3,7 @@
 #include "core/compile/columns.h"
 #include "core/compile/flatten.h"
 #include "core/compile/lights.h"
+#include "core/compile/sky.h"
 #include "core/compile/specular_pairs.h"
 #include "core/compile/surroundings.h"
 #include "core/film/film.h"
@@ -111,7 +112,7 @@ std::vector<std::int32_t> choose_tree(const Flattened& flat, const Camera& camer
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int32_t>(i);
   if (flat.shapes.size() <= max_by_brute_force) {
     const auto bounding = std::stable_partition(order.begin(), order.end(), [&](std::int32_t i) {
-      return !bounds_scene(flat, static_cast<std::size_t>(i), camera);
+      return out.sky.pixels || !bounds_scene(flat, static_cast<std::size_t>(i), camera);  // the sky is behind walls
     });
     out.quads.bounding = static_cast<int>(order.end() - bounding);
     return order;
@@ -169,9 +170,9 @@ void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene*
 }
 
 KernelSet min_kernel(const RenderScene& s) {
-  if (s.features.triangles || s.features.disks) return KernelSet::everything;
+  if (s.features.triangles || s.features.disks || s.sky.pixels) return KernelSet::everything;
   const bool media_or_textures = s.features.media || s.features.textures;
-  if (!s.specular.sphere.empty()) return media_or_textures ? KernelSet::no_outlines : KernelSet::specular_paths_only;
+  if (!s.specular.sphere.empty()) return media_or_textures ? KernelSet::common_models : KernelSet::specular_paths_only;
   return media_or_textures ? KernelSet::no_specular_paths : KernelSet::no_media_no_textures;
 }
 
@@ -196,7 +197,8 @@ double brightest(const Scene& scene) {
   double maximum =
       std::visit(Overloaded{[](const Vec3d& colour) { return largest(colour); },
                             [](const Gradient& sky) { return std::max(largest(sky.bottom), largest(sky.top)); },
-                            [](const Hemispheres& sky) { return std::max(largest(sky.up), largest(sky.down)); }},
+                            [](const Hemispheres& sky) { return std::max(largest(sky.up), largest(sky.down)); },
+                            [](const SkyPicture& sky) { return sky.scale * static_cast<double>(sky.pixels->largest); }},
                  scene.background);
   for (const Material& m : scene.materials)
     if (traits_of(m.kind).emits) {
@@ -217,6 +219,7 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
   out.origin = median_center(flat, scene.camera);
   out.camera = camera_columns(scene.camera, scene.width, scene.height, out.origin);
   out.background = background_columns(scene.background);
+  out.sky = sky_columns(scene.background, samples_lights(scene.render.integrator), before ? &before->sky : nullptr);
   out.materials = material_columns(scene.materials);
   out.textures = texture_columns(scene.textures, out.origin);
   for (const TextureColumns& t : out.textures)
@@ -227,11 +230,11 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
   out.schlick = scene.render.fresnel == FresnelKind::schlick;
   out.sampler = scene.render.sampler;
   out.integrator = scene.render.integrator;
-  out.light_sampling = samples_lights(out.integrator) && out.lights.count() > 0;
+  out.light_sampling = samples_lights(out.integrator) && (out.lights.count() > 0 || out.sky.is_sampled());
   if (out.integrator == Integrator::mis) out.near = find_near_lights(out);
   if (out.integrator == Integrator::mis && !out.schlick && scene.render.caustics == Caustics::chains) {
     out.specular = find_specular_pairs(flat, scene, out);
-    out.may_guide_paths = out.light_sampling;
+    out.may_guide_paths = out.light_sampling && !out.sky.pixels;
     out.splits_paths = needs_trait<&BsdfTraits::smooth_boundary>(out.features);
   }
   out.objects = std::move(flat.objects);
@@ -250,8 +253,8 @@ const char* name_of(KernelSet set) {
   switch (set) {
     case KernelSet::everything:
       return "everything";
-    case KernelSet::no_outlines:
-      return "no triangles, no disks";
+    case KernelSet::common_models:
+      return "no triangles, disks, sky picture or guide";
     case KernelSet::specular_paths_only:
       return "chains, no fog, no textures";
     case KernelSet::no_specular_paths:
@@ -271,6 +274,8 @@ std::size_t bytes_of(const RenderScene& s) {
   if (s.bvh)
     bytes += sizeof(BvhNode) * s.bvh->nodes.size() + sizeof(BvhLeaf) * s.bvh->leaves.size() +
              (sizeof(BvhInput) + 4) * s.bvh->input.size();
+  if (s.sky.pixels) bytes += sizeof(float) * s.sky.pixels->rgb.size();
+  if (s.sky.distribution) bytes += sizeof(std::int32_t) * s.sky.distribution->column_ends.size();
   for (const TextureColumns& t : s.textures)
     if (t.pixels) bytes += sizeof(float) * t.pixels->rgb.size();
   return bytes;

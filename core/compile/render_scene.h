@@ -99,10 +99,41 @@ struct CameraColumns {
   CameraSurface surface;
 };
 
-enum class BackgroundKind { constant, gradient, hemispheres };
+enum class BackgroundKind { constant, gradient, hemispheres, picture };
 struct BackgroundColumns {
   BackgroundKind kind = BackgroundKind::constant;
-  Vec3f a, b;  ///< constant: a; gradient: bottom, top; hemispheres: up, down
+  Vec3f a, b;  ///< constant: a; gradient: bottom, top; hemispheres: up, down; picture: see SkyColumns
+};
+
+/// By what light sampling draws directions to the sky's picture: cells of about equal height and width, of which each
+/// is drawn with a probability that is a whole number of `units`. See core/trace/sky.h.
+struct SkyDistribution {
+  static constexpr std::int32_t units = 1 << 24;  ///< as many values as a random number has
+  int rows = 0;                                   ///< of cells, from the top; 0: the sky is black
+  int rows_per_texel = 2;                         ///< even, so that no cell reaches beyond the middle of a texel
+  std::vector<std::int32_t> row_ends;             ///< rows + 1: where the units of each row begin
+  std::vector<std::int32_t> column_ends;          ///< width + 1 for each row: where those of each of its cells begin
+  float to_unit = 1;                              ///< power of two that brings the largest component to about 1
+  double irradiance = 0;  ///< integral of the largest component over all directions, without the sky's scale
+  /// Fraction of all directions that a sky of one radiance would fill that has the same integrals of the largest
+  /// component and of its square: 1 if all directions are as bright, near that of the sun if it gives most of the
+  /// light.
+  double spread = 1;
+};
+/// Luminance (Rec.709) of a sky's texel, in units in which the brightest is about 1.
+template <class F>
+TYNDALL_INLINE F sky_luminance(Vec3<F> rgb, F to_unit) {
+  return to_unit * rgb.x * F(0.2126f) + to_unit * rgb.y * F(0.7152f) + to_unit * rgb.z * F(0.0722f);
+}
+
+/// The picture of the sky.
+struct SkyColumns {
+  std::shared_ptr<const Image::Pixels> pixels;          ///< the scene's own, which kernels read; null: there is none
+  std::shared_ptr<const SkyDistribution> distribution;  ///< null: no light is sampled
+  float cos = 1, sin = 0;                               ///< of the sky's turn about y
+  float scale = 1;                                      ///< factor on the picture's radiance
+  float irradiance = 0;                                 ///< that of the distribution, times the scale
+  bool is_sampled() const { return distribution && distribution->rows > 0 && irradiance > 0; }
 };
 
 /// Primitives of one kind, in the order of the tree's leaves. `element`: a primitive's first element, named by hits.
@@ -254,8 +285,8 @@ struct SpecularPairs {
 /// The variants of the kernels, by the models that they leave out. A scene without these models gives the same picture
 /// with the variant, bit by bit.
 ///
-/// Only `everything` has triangles and disks.
-enum class KernelSet { everything, no_outlines, specular_paths_only, no_specular_paths, no_media_no_textures };
+/// Only `everything` has triangles, disks, a picture of the sky and guided light.
+enum class KernelSet { everything, common_models, specular_paths_only, no_specular_paths, no_media_no_textures };
 inline constexpr int kernel_sets = 5;
 const char* name_of(KernelSet set);
 
@@ -264,6 +295,7 @@ struct RenderScene {
   Vec3d origin;  ///< world position of (0, 0, 0): the component-wise median of the shapes' centres
   CameraColumns camera;
   BackgroundColumns background;
+  SkyColumns sky;
   Spheres spheres, moving_spheres;
   Flats quads, boxes, outlined;    ///< outlined: triangles and disks
   std::shared_ptr<const Bvh> bvh;  ///< null: few primitives, all are tested
@@ -281,7 +313,7 @@ struct RenderScene {
   bool schlick = false;
   SamplerKind sampler = SamplerKind::sobol;
   Integrator integrator = Integrator::mis;
-  bool light_sampling = false;  ///< the integrator sends shadow rays to lights, and the scene has lights
+  bool light_sampling = false;  ///< the integrator sends shadow rays to lights, and the scene has lights or a sky
   double film_quantum = 1;
   SceneFeatures features;
   KernelSet kernel = KernelSet::everything;  ///< the least that this scene needs

@@ -25,8 +25,7 @@ void strip(Scene& scene) {
   scene.display = {};
   scene.animation.reset();
   scene.render.spp.reset();
-  for (Texture& texture : scene.textures)
-    if (Image* image = std::get_if<Image>(&texture.kind)) image->file.clear();  // its pixels are compared
+  each_picture(scene, [](auto& picture) { picture.file.clear(); });  // its pixels are compared
 }
 
 constexpr const char *caustics_pointer = "/render/caustics", *sharing_pointer = "/render/sharing";

@@ -74,6 +74,22 @@ PictureFile read_texture(const std::filesystem::path& file) {
   return read_picture(file);
 }
 
+PictureFile read_sky(const std::filesystem::path& name) {
+  constexpr std::size_t max_pixels = (std::size_t(1) << 31) / 3;  // kernels count floats by 32 bits
+  const auto file = picture_name(name).file;
+  const ImageKind kind = image_kind(read_bytes(file, kind_size));
+  if (kind != ImageKind::pfm && kind != ImageKind::hdr && kind != ImageKind::exr && kind != ImageKind::unknown)
+    cannot_read(file, "found 8 or 16 bits a number, expected radiance in floating point (HDR, EXR, PFM)");
+  PictureFile picture = read_picture(name);
+  const LinearImage& image = picture.image;
+  if (image.frame && !(image.frame->data == image.frame->display))
+    cannot_read(file, "found a data window that is not the display window, expected pixels of the whole sky");
+  if (image.rgb.size() >= 3 * max_pixels)
+    cannot_read(file, "found " + std::to_string(image.rgb.size() / 3) + " pixels, expected fewer than " +
+                          std::to_string(max_pixels));
+  return picture;
+}
+
 LinearImage read_image(const std::filesystem::path& file) { return read_picture(file).image; }
 
 std::optional<std::string> read_embedded_scene(const std::filesystem::path& file) {

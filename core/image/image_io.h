@@ -49,6 +49,8 @@ PictureName picture_name(const std::filesystem::path& name);
 PictureFile read_picture(const std::filesystem::path& name, PpmCurve ppm = PpmCurve::srgb);
 /// The same for a texture: floating-point pixels, which may be brighter than white, are refused.
 PictureFile read_texture(const std::filesystem::path& file);
+/// The same for a picture of the sky: floating-point pixels of the whole display window; all else is refused.
+PictureFile read_sky(const std::filesystem::path& name);
 /// The light of read_picture() alone.
 LinearImage read_image(const std::filesystem::path& name);
 /// The film in an EXR that Tyndall wrote; nothing if it holds none.

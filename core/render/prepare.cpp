@@ -114,6 +114,17 @@ bool is_bulb(const Thing& light, const Thing& thing, Vec3d camera) {
          light.sphere.radius < sphere.radius && length(camera - sphere.center) > sphere.radius;
 }
 
+/// chance_of_caustics() of the light of the sky's picture, which specular paths never compute.
+double chance_of_sky_caustics(const Scene& scene, const RenderScene& compiled) {
+  if (!compiled.sky.is_sampled()) return 1;
+  double minimum = 1;
+  const Flattened flat = flatten(scene);
+  if (list_receivers(scene, flat).empty()) return 1;
+  for (const Thing& thing : list_things(scene, flat).smooth)
+    minimum = std::min(minimum, compiled.sky.distribution->spread + fraction_of_directions(thing.fuzz, 1));
+  return minimum;
+}
+
 }  // namespace
 
 double chance_of_caustics(const Scene& scene, const IsFound& is_found) {
@@ -198,8 +209,10 @@ PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, RenderScene col
 }
 
 double PreparedScene::caustic_chance() const {
-  std::call_once(caustic_chance_found_,
-                 [this] { caustic_chance_ = chance_of_caustics(*scene_, columns_, guide_.get()); });
+  std::call_once(caustic_chance_found_, [this] {
+    caustic_chance_ =
+        std::min(chance_of_caustics(*scene_, columns_, guide_.get()), chance_of_sky_caustics(*scene_, columns_));
+  });
   return caustic_chance_;
 }
 

@@ -86,6 +86,13 @@ void check_background(const Place& at, const Background& background) {
   std::visit(Overloaded{[&](const Vec3d& radiance) { check_value(at, colour_meaning("radiance"), radiance); },
                         [&](const auto& sky) { check_fields(at, sky); }},
              background);
+  const auto* sky = std::get_if<SkyPicture>(&background);
+  if (sky && (!sky->pixels || sky->pixels->width < 1 || sky->pixels->height < 1))
+    fail({at, "file"}, "no picture", "a picture of the sky of at least one pixel");
+  if (sky && !std::isfinite(static_cast<float>(sky->scale * static_cast<double>(sky->pixels->largest))))
+    fail({at, "scale"}, number_text(sky->scale),
+         "a number that keeps the picture's largest, " + number_text(static_cast<double>(sky->pixels->largest)) +
+             ", within single precision");
 }
 
 void check_colour(const Place& at, const Meaning& meaning, const ColourOrTexture& colour, const Scene& scene) {

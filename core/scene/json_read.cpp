@@ -3,8 +3,11 @@
 #include "core/image/image_io.h"
 #include "core/scene/check.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <system_error>
+#include <utility>
 
 namespace tyndall {
 namespace {
@@ -36,25 +39,16 @@ void read_camera(const JsonValue& json, const Place& at, Camera& camera) {
   read_shutter(object, at, camera);
 }
 
-/// The kinds of background but the plain colour.
-template <class... Kinds>
-std::variant<Kinds...> without_colour(const std::variant<Vec3d, Kinds...>*);
-using Sky = decltype(without_colour(static_cast<const Background*>(nullptr)));
-
-void read_background(const JsonValue& json, const Place& at, Background& background) {
-  if (const auto* object = std::get_if<JsonObject>(&json.value)) {
-    Sky sky;
-    const std::string_view type = type_at(*object, at, type_names<Sky>);
-    const bool known = read_kind(
-        type, sky, [&]<class Kind>(Kind& kind) { read_fields(*object, at, fields_of<Kind>(), {"type"}, kind); });
-    if (!known) fail_type(at, type, type_names<Sky>());
-    std::visit([&](const auto& kind) { background = kind; }, sky);
-  } else if (std::holds_alternative<JsonArray>(json.value)) {
-    read_value(json, at, colour_meaning("radiance"), background.emplace<Vec3d>());
-  } else {
-    fail(at, describe(json),
-         "an array of 3 numbers (radiance, linear RGB) or an object of type \"gradient\" or \"hemispheres\"");
-  }
+/// Refuses a sky with a pixel that is no radiance.
+void check_sky(const LinearImage& image, const std::string& file, const Place& at) {
+  const auto wrong = std::find_if_not(image.rgb.begin(), image.rgb.end(),
+                                      [](float value) { return value >= 0 && std::isfinite(value); });
+  if (wrong == image.rgb.end()) return;
+  const auto pixel = static_cast<int>((wrong - image.rgb.begin()) / 3);
+  fail(at,
+       number_text(static_cast<double>(*wrong)) + " in pixel (" + std::to_string(pixel % image.width) + ", " +
+           std::to_string(pixel / image.width) + ") of " + in_quotes(file),
+       "radiance of the whole sky, finite and >= 0");
 }
 
 /// Loads each picture once, however many textures use it.
@@ -63,55 +57,92 @@ class PictureShelf {
   explicit PictureShelf(const std::filesystem::path& folder) : folder_(folder) {}
   /// Has the pictures of a scene.
   explicit PictureShelf(const Scene& scene) {
-    for (const Texture& texture : scene.textures)
-      if (const auto* image = std::get_if<Image>(&texture.kind)) shelf_[image->file] = image->pixels;
+    each_picture(scene, [&]<class Picture>(const Picture& picture) {
+      shelf_[{picture.file, std::is_same_v<Picture, SkyPicture>}] = picture.pixels;
+    });
   }
 
-  std::shared_ptr<const Image::Pixels> get(const std::string& file, const Place& at) {
+  /// The picture of a texture or, with is_sky, of a sky.
+  std::shared_ptr<const Image::Pixels> get(const std::string& file, const Place& at, bool is_sky) {
     const std::filesystem::path path = folder_ / file;
-    auto& pixels = shelf_[path];
+    auto& pixels = shelf_[{path, is_sky}];
     if (pixels) return pixels;
     std::error_code error;
-    const bool exists = file.find('\0') == file.npos && std::filesystem::exists(picture_name(path).file, error);
+    const PictureName named = picture_name(path);
+    const bool exists = file.find('\0') == file.npos && std::filesystem::exists(named.file, error);
     if (!exists) fail(at, "no file " + in_quotes(path.string()), "an image, relative to the scene file");
-    if (const auto& layer = picture_name(path).layer)
-      fail(at, "layer " + in_quotes(*layer) + " of " + in_quotes(picture_name(path).file.string()),
+    if (named.layer && !is_sky)
+      fail(at, "layer " + in_quotes(*named.layer) + " of " + in_quotes(named.file.string()),
            "an image of 8 or 16 bits, such as PNG or JPEG, which has no layers");
-    if (!std::filesystem::is_regular_file(path, error))
+    if (!std::filesystem::is_regular_file(named.file, error))
       fail(at, in_quotes(path.string()) + ", which is no file", "an image");
     try {
-      PictureFile read = read_texture(path);
+      PictureFile read = is_sky ? read_sky(path) : tyndall::read_texture(path);
       LinearImage& image = read.image;
-      pixels = std::make_shared<const Image::Pixels>(
-          Image::Pixels{image.width, image.height, std::move(image.rgb), read.has_alpha, std::move(read.remarks)});
+      if (is_sky) check_sky(image, file, at);
+      const float largest = is_sky ? *std::max_element(image.rgb.begin(), image.rgb.end()) : 1.0f;
+      pixels = std::make_shared<const Image::Pixels>(Image::Pixels{image.width, image.height, std::move(image.rgb),
+                                                                   read.has_alpha, std::move(read.remarks), largest});
     } catch (const ImageFileError& why) {
       fail(at, "a file that cannot be read (" + std::string(why.what()) + ")",
-           "an image of 8 or 16 bits, such as PNG or JPEG");
+           is_sky ? "a picture of the sky in floating point (HDR, EXR or PFM)"
+                  : "an image of 8 or 16 bits, such as PNG or JPEG");
     }
     return pixels;
   }
 
  private:
   std::filesystem::path folder_;
-  std::map<std::filesystem::path, std::shared_ptr<const Image::Pixels>> shelf_;
+  std::map<std::pair<std::filesystem::path, bool>, std::shared_ptr<const Image::Pixels>> shelf_;
 };
 
-void read_image(const JsonObject& object, const Place& at, PictureShelf& shelf, Image& image) {
-  allow_keys(object, at, {"type", "file"});
+/// Reads the file of an Image or of a SkyPicture.
+template <class Picture>
+void read_file(const JsonObject& object, const Place& at, PictureShelf& shelf, Picture& picture) {
   const std::string expected = "the path of an image, relative to the scene file";
-  image.file = string_at(member_at(object, at, "file", expected), {at, "file"}, expected);
-  if (image.file.empty()) fail({at, "file"}, "\"\"", expected);
-  image.pixels = shelf.get(image.file, {at, "file"});
+  picture.file = string_at(member_at(object, at, "file", expected), {at, "file"}, expected);
+  if (picture.file.empty()) fail({at, "file"}, "\"\"", expected);
+  picture.pixels = shelf.get(picture.file, {at, "file"}, std::is_same_v<Picture, SkyPicture>);
+}
+
+/// The kinds of background but the plain colour.
+template <class... Kinds>
+std::variant<Kinds...> without_colour(const std::variant<Vec3d, Kinds...>*);
+using Sky = decltype(without_colour(static_cast<const Background*>(nullptr)));
+
+void read_background(const JsonValue& json, const Place& at, PictureShelf& shelf, Background& background) {
+  if (const auto* object = std::get_if<JsonObject>(&json.value)) {
+    Sky sky;
+    const std::string_view type = type_at(*object, at, type_names<Sky>);
+    const bool known = read_kind(type, sky, [&]<class Kind>(Kind& kind) {
+      if constexpr (std::is_same_v<Kind, SkyPicture>) {
+        read_fields(*object, at, fields_of<Kind>(), {"type", "file"}, kind);
+        read_file(*object, at, shelf, kind);
+      } else {
+        read_fields(*object, at, fields_of<Kind>(), {"type"}, kind);
+      }
+    });
+    if (!known) fail_type(at, type, type_names<Sky>());
+    std::visit([&](const auto& kind) { background = kind; }, sky);
+  } else if (std::holds_alternative<JsonArray>(json.value)) {
+    read_value(json, at, colour_meaning("radiance"), background.emplace<Vec3d>());
+  } else {
+    fail(at, describe(json),
+         "an array of 3 numbers (radiance, linear RGB) or an object of type \"gradient\", \"hemispheres\" or "
+         "\"image\"");
+  }
 }
 
 void read_texture(const JsonValue& json, const Place& at, PictureShelf& shelf, Texture& texture) {
   const JsonObject& object = object_at(json, at, "an object that describes a texture");
   const std::string_view type = type_at(object, at, type_names<TextureKinds<double>>);
   const bool known = read_kind(type, texture.kind, [&]<class T>(T& kind) {
-    if constexpr (std::is_same_v<T, Image>)
-      read_image(object, at, shelf, kind);
-    else
+    if constexpr (std::is_same_v<T, Image>) {
+      allow_keys(object, at, {"type", "file"});
+      read_file(object, at, shelf, kind);
+    } else {
       read_fields(object, at, fields_of<T>(), {"type"}, kind);
+    }
   });
   if (!known) fail_type(at, type, type_names<TextureKinds<double>>());
 }
@@ -168,12 +199,13 @@ Scene scene_from(const JsonValue& json, PictureShelf shelf) {
     scene.name = string_at(*name, {at, "name"}, "a text (the scene's name)");
   part("image", "an object with \"width\" and \"height\"", image_fields(), scene);
   section("camera", read_camera, scene.camera);
-  section("background", read_background, scene.background);
+  if (const JsonValue* background = find(root, "background"))
+    read_background(*background, {at, "background"}, shelf, scene.background);
   part("render", "an object with the render settings", fields_of<RenderSettings>(), scene.render);
   part("display", "an object with the display settings", fields_of<Display>(), scene.display);
   if (const JsonValue* animation = find(root, "animation"))
     scene.animation = read_animation(*animation, {at, "animation"});
-  References references;
+  NameTables references;
   references.textures = read_named(
       root, at, "textures", "an object of textures by name", scene.textures,
       [&](const auto& value, const Place& here, Texture& texture) { read_texture(value, here, shelf, texture); });
@@ -187,6 +219,11 @@ Scene scene_from(const JsonValue& json, PictureShelf shelf) {
 }
 
 }  // namespace
+
+std::shared_ptr<const Image::Pixels> read_sky_pixels(const std::string& file, const std::filesystem::path& folder,
+                                                     const Place& at) {
+  return PictureShelf(folder).get(file, at, true);
+}
 
 Scene scene_with_pictures(const JsonValue& root, const Scene& pictures) {
   return scene_from(root, PictureShelf(pictures));

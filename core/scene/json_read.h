@@ -2,6 +2,8 @@
 #include "core/scene/animation.h"
 #include "core/scene/json_values.h"
 
+#include <filesystem>
+#include <memory>
 #include <string_view>
 #include <unordered_map>
 
@@ -12,7 +14,7 @@ namespace tyndall {
 /// Index of each texture or material by its name. The names must outlive it.
 using NameTable = std::unordered_map<std::string_view, int>;
 
-struct References {
+struct NameTables {
   NameTable textures, materials;
 };
 
@@ -32,6 +34,10 @@ Animation read_animation(const JsonValue& json, const Place& at);
 /// The scene of a document whose image files were read before: they are taken from a scene that has the same ones.
 Scene scene_with_pictures(const JsonValue& root, const Scene& pictures);
 
-std::vector<Object> read_objects(const JsonValue& json, const Place& at, const References& references);
+/// The picture of a sky. file: as the scene names it, from the folder.
+std::shared_ptr<const Image::Pixels> read_sky_pixels(const std::string& file, const std::filesystem::path& folder,
+                                                     const Place& at);
+
+std::vector<Object> read_objects(const JsonValue& json, const Place& at, const NameTables& references);
 
 }  // namespace tyndall

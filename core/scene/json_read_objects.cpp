@@ -43,7 +43,7 @@ void read_name_of(const JsonObject& object, const Place& at, std::string& name) 
   if (const JsonValue* json = find(object, "name")) name = string_at(*json, {at, "name"}, "a text (the object's name)");
 }
 
-bool read_solid(const JsonObject& json, const Place& at, std::string_view type, const References& references,
+bool read_solid(const JsonObject& json, const Place& at, std::string_view type, const NameTables& references,
                 Object& object) {
   Solid3d solid;
   const bool known = read_kind(type, solid.shape, [&]<class T>(T& shape) {
@@ -71,7 +71,7 @@ void read_boundary(const JsonObject& medium, const Place& at, Volume& volume) {
   volume.boundary_transform = read_transform(object, here);
 }
 
-Volume read_volume(const JsonObject& json, const Place& at, const References& references) {
+Volume read_volume(const JsonObject& json, const Place& at, const NameTables& references) {
   allow_keys(json, at, fields_of<Medium<>>(), {"name", "type", "boundary", "albedo", "transform"});
   Volume volume;
   read_boundary(json, at, volume);
@@ -80,7 +80,7 @@ Volume read_volume(const JsonObject& json, const Place& at, const References& re
   return volume;
 }
 
-Group read_group(const JsonObject& json, const Place& at, const References& references) {
+Group read_group(const JsonObject& json, const Place& at, const NameTables& references) {
   allow_keys(json, at, {"name", "type", "transform", "objects"});
   return {read_objects(member_at(json, at, "objects", "a list of objects"), {at, "objects"}, references)};
 }
@@ -91,7 +91,7 @@ std::vector<std::string_view> object_types() {
   return types;
 }
 
-void read_object(const JsonValue& json, const Place& at, const References& references, Object& object) {
+void read_object(const JsonValue& json, const Place& at, const NameTables& references, Object& object) {
   const JsonObject& members = object_at(json, at, "an object of the scene: { \"type\": …, … }");
   const std::string_view type = type_at(members, at, object_types);
   if (type == Medium<>::type) {
@@ -135,7 +135,7 @@ ColourOrTexture read_colour(const JsonObject& object, const Place& at, const cha
   return colour;
 }
 
-std::vector<Object> read_objects(const JsonValue& json, const Place& at, const References& references) {
+std::vector<Object> read_objects(const JsonValue& json, const Place& at, const NameTables& references) {
   const JsonArray& array = array_at(json, at, "a list of objects");
   std::vector<Object> objects(array.size());
   for (std::size_t i = 0; i < array.size(); ++i) read_object(array[i], {at, i}, references, objects[i]);

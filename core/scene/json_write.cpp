@@ -41,6 +41,7 @@ JsonValue background_json(const Background& background) {
                                []<class Sky>(const Sky& sky) {
                                  JsonObject out;
                                  put(out, "type", Sky::type);
+                                 if constexpr (std::is_same_v<Sky, SkyPicture>) put(out, "file", sky.file);
                                  put_fields(out, sky);
                                  return JsonValue{std::move(out)};
                                }},

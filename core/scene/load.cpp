@@ -4,6 +4,7 @@
 #include "core/image/image_io.h"
 #include "core/image/image_io_file.h"
 #include "core/scene/frames.h"
+#include "core/scene/json_read.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/place.h"
 
@@ -125,8 +126,8 @@ void read_text_of(LoadedScene& loaded, const std::vector<Override>& overrides) {
   } catch (const ParseError& error) {
     throw SceneError(loaded.name, error.where, error.found, error.expected);
   }
-  for (const Texture& texture : loaded.scene.textures)
-    if (const auto* image = std::get_if<Image>(&texture.kind)) loaded.files.push_back(loaded.folder / image->file);
+  each_picture(loaded.scene,
+               [&](const auto& picture) { loaded.files.push_back(picture_name(loaded.folder / picture.file).file); });
 }
 
 BuiltIn built_in(const std::string& name, const fs::path& path) {
@@ -210,16 +211,34 @@ LoadedScene load_scene_text(const std::string& text, const std::string& name, co
   return loaded;
 }
 
+SkyPicture sky_of_file(const fs::path& file, const fs::path& folder) {
+  std::error_code error;
+  const fs::path whole = fs::weakly_canonical(fs::absolute(file, error), error);
+  const fs::path below = whole.lexically_relative(fs::weakly_canonical(fs::absolute(folder, error), error));
+  const bool inside = !below.empty() && *below.begin() != "..";
+  const Place top, background{top, "background"};
+  SkyPicture sky;
+  sky.file = (inside ? below : whole).generic_string();
+  try {
+    sky.pixels = read_sky_pixels(sky.file, folder, {background, "file"});
+  } catch (const ParseError& wrong) {
+    throw SceneError(file.string(), wrong.where, wrong.found, wrong.expected);
+  }
+  return sky;
+}
+
 std::vector<fs::path> files_of_scene(const fs::path& file) {
   std::vector<fs::path> files{file};
   try {
     const JsonDocument json = parse_json(read_file(file.string()));
+    const auto add = [&](const JsonValue* picture) {
+      if (const std::string name = text_of(find(picture, "file")); !name.empty())
+        files.push_back(picture_name(file.parent_path() / name).file);
+    };
     const JsonValue* named = find(&json.root, "textures");
-    const auto* textures = named ? std::get_if<JsonObject>(&named->value) : nullptr;
-    if (!textures) return files;
-    for (const JsonMember& texture : *textures)
-      if (const std::string name = text_of(find(&texture.value, "file")); !name.empty())
-        files.push_back(file.parent_path() / name);
+    if (const auto* textures = named ? std::get_if<JsonObject>(&named->value) : nullptr)
+      for (const JsonMember& texture : *textures) add(&texture.value);
+    add(find(&json.root, "background"));
   } catch (const SceneError&) {  // it cannot be read
   } catch (const ParseError&) {  // it is not JSON
   }
@@ -228,10 +247,11 @@ std::vector<fs::path> files_of_scene(const fs::path& file) {
 
 std::vector<std::string> texture_remarks(const Scene& scene) {
   std::vector<std::string> remarks;
-  for (const Texture& texture : scene.textures)
-    if (const auto* image = std::get_if<Image>(&texture.kind); image && image->pixels)
-      for (const std::string& remark : image->pixels->remarks)
-        if (std::find(remarks.begin(), remarks.end(), remark) == remarks.end()) remarks.push_back(remark);
+  each_picture(scene, [&](const auto& picture) {
+    if (!picture.pixels) return;
+    for (const std::string& remark : picture.pixels->remarks)
+      if (std::find(remarks.begin(), remarks.end(), remark) == remarks.end()) remarks.push_back(remark);
+  });
   return remarks;
 }
 
@@ -239,14 +259,13 @@ Scene move_textures(Scene scene, const fs::path& from, const fs::path& to) {
   std::error_code error;
   const fs::path target = fs::weakly_canonical(fs::absolute(to, error), error);
   if (target == fs::weakly_canonical(fs::absolute(from, error), error)) return scene;
-  for (Texture& texture : scene.textures) {
-    auto* image = std::get_if<Image>(&texture.kind);
-    if (!image || fs::path(image->file).is_absolute()) continue;
-    const fs::path file = fs::weakly_canonical(fs::absolute(from / image->file, error), error);
+  each_picture(scene, [&](auto& picture) {
+    if (fs::path(picture.file).is_absolute()) return;
+    const fs::path file = fs::weakly_canonical(fs::absolute(from / picture.file, error), error);
     const fs::path relative = file.lexically_relative(target);
     const std::string text = (relative.empty() ? file : relative).generic_string();
-    image->file = is_utf8(text) ? text : all_printable(text);
-  }
+    picture.file = is_utf8(text) ? text : all_printable(text);
+  });
   return scene;
 }
 

@@ -28,11 +28,15 @@ LoadedScene load_scene(const std::string& what, const std::vector<Override>& ove
 LoadedScene load_scene_text(const std::string& text, const std::string& name, const std::filesystem::path& folder,
                             const std::vector<Override>& overrides = {});
 
-/// What reading a scene file depends on: the file itself and the textures that it names, whether or not they are there
-/// and can be read. For those who wait until a broken one is mended.
+/// The sky of a picture file. folder: that of the scene, from which the file is named if it lies in it. Throws
+/// SceneError.
+SkyPicture sky_of_file(const std::filesystem::path& file, const std::filesystem::path& folder);
+
+/// What reading a scene file depends on: the file itself and the pictures that it names for textures and sky, whether
+/// or not they are there and can be read. For those who wait until a broken one is mended.
 std::vector<std::filesystem::path> files_of_scene(const std::filesystem::path& file);
 
-/// What a user should know of how the pictures of the scene's textures were read: a line each, each once.
+/// What a user should know of how the pictures of the scene's textures and sky were read: a line each, each once.
 std::vector<std::string> texture_remarks(const Scene& scene);
 
 struct BuiltIn {
@@ -49,9 +53,9 @@ std::vector<BuiltIn> built_in_scenes();
 /// the program, or beside the library that holds this code; empty if there is none.
 std::filesystem::path assets_folder();
 
-/// The scene with its relative texture files respelt so that a scene file in folder `to` finds what one in folder
-/// `from` found. Names of folders between the two that are not UTF-8, which JSON cannot hold, are written printably:
-/// there it will be told that the texture is missing.
+/// The scene with the relative files of its textures and sky respelt so that a scene file in folder `to` finds what one
+/// in folder `from` found. Names of folders between the two that are not UTF-8, which JSON cannot hold, are written
+/// printably: there it will be told that the texture is missing.
 Scene move_textures(Scene scene, const std::filesystem::path& from, const std::filesystem::path& to);
 
 }  // namespace tyndall

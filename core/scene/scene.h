@@ -109,7 +109,28 @@ inline constexpr auto fields(const Hemispheres*) {
   return std::tuple{Field{"up", &Hemispheres::up, at_least(0), Slider{0, 2}, "", "radiance where y > 0", true},
                     Field{"down", &Hemispheres::down, at_least(0), Slider{0, 2}, "", "radiance where y <= 0", true}};
 }
-using Background = std::variant<Vec3d, Gradient, Hemispheres>;
+/// A picture of the whole sky by longitude (across) and latitude (down), infinitely far away. As seen from within: the
+/// middle of the picture lies towards -z, the middle of its right half towards +x, its first row around +y. Integrators
+/// nee and mis sample it as a light (core/trace/sky.h).
+struct SkyPicture {
+  static constexpr const char* type = "image";
+  static constexpr const char* about =
+      "A picture of the whole sky by longitude and latitude, bilinear: its middle is towards -z, its top towards +y, "
+      "and +x is to the right of -z. It is a light, which nee and mis sample.";
+  std::string file;  ///< as written in the scene file
+  double rotate_y = 0, scale = 1;
+  std::shared_ptr<const Image::Pixels> pixels;  ///< shared by copies of the scene; never null after reading
+  bool operator==(const SkyPicture& other) const {
+    return file == other.file && rotate_y == other.rotate_y && scale == other.scale &&
+           (pixels == other.pixels || (pixels && other.pixels && *pixels == *other.pixels));
+  }
+};
+inline constexpr auto fields(const SkyPicture*) {
+  return std::tuple{
+      Field{"rotate_y", &SkyPicture::rotate_y, any_number(), Slider{-180, 180}, "°", "turn about the y axis"},
+      Field{"scale", &SkyPicture::scale, at_least(0), Slider{0.01, 100, true}, "", "factor on the picture's radiance"}};
+}
+using Background = std::variant<Vec3d, Gradient, Hemispheres, SkyPicture>;
 
 struct Scene {
   std::string name;
@@ -124,6 +145,15 @@ struct Scene {
   std::vector<Object> objects;
   bool operator==(const Scene&) const = default;
 };
+
+/// Calls visit(picture) for each picture file that the scene names: Image of its textures, SkyPicture of its sky. Both
+/// have members `file` and `pixels`.
+template <class Visit>
+void each_picture(auto& scene, const Visit& visit) {
+  for (auto& texture : scene.textures)
+    if (auto* image = std::get_if<Image>(&texture.kind)) visit(*image);
+  if (auto* sky = std::get_if<SkyPicture>(&scene.background)) visit(*sky);
+}
 
 /// The picture's size: the keys of "image".
 inline constexpr auto image_fields() {

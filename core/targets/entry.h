@@ -182,8 +182,8 @@ static Kernels with_kernel_sets(Kernels full) {
     full.render_alone[static_cast<int>(set)] = alone, full.render_reusing[static_cast<int>(set)] = reusing;
   };
   using enum KernelSet;
-  const RenderTile reusing = render_tile_entry<F, no_outlines, true>;
-  give(no_outlines, render_tile_entry<F, no_outlines, false>, reusing);
+  const RenderTile reusing = render_tile_entry<F, common_models, true>;
+  give(common_models, render_tile_entry<F, common_models, false>, reusing);
   give(specular_paths_only, render_tile_entry<F, specular_paths_only, false>, reusing);
   give(no_specular_paths, render_tile_entry<F, no_specular_paths, false>,
        render_tile_entry<F, no_specular_paths, true>);

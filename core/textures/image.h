@@ -20,9 +20,10 @@ struct Image {
       "media.";
   struct Pixels {
     int width = 0, height = 0;
-    std::vector<float> rgb;              ///< 3·width·height linear numbers in [0, 1], top row first
+    std::vector<float> rgb;              ///< 3·width·height linear numbers, top row first; in [0, 1] but for skies
     bool has_alpha = false;              ///< some pixel of the file is not opaque, which is not looked at
     std::vector<std::string> remarks{};  ///< what a user should know of how the file was read, a line each
+    float largest = 1;                   ///< of these numbers, or more
     bool operator==(const Pixels&) const = default;
   };
   std::string file;                      ///< as written in the scene file

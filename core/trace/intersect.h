@@ -126,10 +126,11 @@ TYNDALL_INLINE MaskOf<F> blocked_towards(const auto& s, const Ray<F>& ray, F dis
   return less_equal(IntOf<F>(0), best.element);
 }
 
-/// blocked_towards() for shadow rays to lights. aim: the light's element.
+/// blocked_towards() for shadow rays to lights. aim: the light's element; -1 towards the sky.
 template <class F>
 TYNDALL_INLINE MaskOf<F> blocked(const auto& s, const Ray<F>& ray, F distance, IntOf<F> aim, MaskOf<F> active) {
-  return blocked_towards(s, ray, distance, aim, s.lights.count == 1 ? s.lights.element[0] : -1, active);
+  return blocked_towards(s, ray, distance, aim, s.lights.count == 1 && !s.samples_sky() ? s.lights.element[0] : -1,
+                         active);
 }
 
 // Non-inlined versions for code that seldom runs: each inlined copy takes seconds to compile. They take rays by value,

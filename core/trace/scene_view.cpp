@@ -75,7 +75,28 @@ SpecularView view_of(const SpecularPairs& c) {
   return v;
 }
 
+int largest_power_of_two(int up_to) {
+  int power = 1;
+  while (power <= up_to / 2) power *= 2;
+  return power;
+}
+
 }  // namespace
+
+SkyView view_of(const SkyColumns& s) {
+  SkyView v{};
+  if (!s.pixels) return v;
+  v.texels = s.pixels->rgb.data(), v.width = s.pixels->width, v.height = s.pixels->height;
+  v.cos = s.cos, v.sin = s.sin, v.scale = s.scale, v.irradiance = s.irradiance;
+  v.sampled = s.is_sampled();
+  v.rows_per_texel = 2, v.rows = 2 * v.height, v.to_unit = 1;
+  if (!v.sampled) return v;
+  const SkyDistribution& d = *s.distribution;
+  v.rows = d.rows, v.rows_per_texel = d.rows_per_texel, v.to_unit = d.to_unit;
+  v.row_step = largest_power_of_two(d.rows), v.column_step = largest_power_of_two(v.width);
+  v.row_ends = d.row_ends.data(), v.column_ends = d.column_ends.data();
+  return v;
+}
 
 std::vector<TextureView> texture_views(const RenderScene& scene) {
   std::vector<TextureView> views;
@@ -88,6 +109,7 @@ SceneView view_of(const RenderScene& s, const std::vector<TextureView>& textures
   v.width = s.width, v.height = s.height;
   v.camera = s.camera;
   v.background = s.background;
+  v.sky = view_of(s.sky);
   v.spheres = view_of(s.spheres), v.moving_spheres = view_of(s.moving_spheres);
   v.quads = view_of(s.quads), v.boxes = view_of(s.boxes), v.outlined = view_of(s.outlined);
   v.nodes = s.bvh ? s.bvh->nodes.data() : nullptr;

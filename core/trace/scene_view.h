@@ -45,6 +45,15 @@ struct LightView {
   LightTreeView tree;
 };
 
+struct SkyView {
+  const float* texels = nullptr;  ///< null: the background is no picture
+  int width, height;
+  bool sampled = false;                             ///< as a light
+  int rows, rows_per_texel, row_step, column_step;  ///< steps: the largest powers of two up to rows and width
+  const std::int32_t *row_ends, *column_ends;
+  float cos, sin, scale, irradiance, to_unit;
+};
+
 struct SpecularView {
   int pairs = 0, spheres = 0, first_mirror = 0, first_slab = 0;
   bool shells, has_overlaps;  ///< whether some sphere is a shell; is overlapped
@@ -68,6 +77,7 @@ struct SceneView {
   int width, height;
   CameraColumns camera;
   BackgroundColumns background;
+  SkyView sky;
   SphereView spheres, moving_spheres;
   FlatView quads, boxes, outlined;
   const BvhNode* nodes;  ///< null: there is no tree, and every primitive is tested
@@ -110,6 +120,8 @@ struct SceneView {
   TYNDALL_INLINE bool has_lights_in_media() const { return near_count > 0; }
   TYNDALL_INLINE bool has_specular_paths() const { return specular.pairs > 0; }
   TYNDALL_INLINE bool has_guide() const { return guide.lobes > 0; }
+  TYNDALL_INLINE bool has_sky() const { return sky.texels != nullptr; }
+  TYNDALL_INLINE bool samples_sky() const { return sky.sampled; }
   TYNDALL_INLINE bool has_lights() const { return lights.count > 0; }
   TYNDALL_INLINE bool has_reuse() const { return reuses_paths; }
   TYNDALL_INLINE bool has_splitting() const { return splits_paths; }
@@ -117,25 +129,28 @@ struct SceneView {
   TYNDALL_INLINE bool has_outlined_lights() const { return lights.inner != nullptr; }
 };
 
-/// The view of kernels without triangles, disks and guides: has_...() is a constant false for them, so that the compiler
-/// drops their code.
-struct SceneViewWithoutOutlines : SceneView {
+/// The view of kernels without triangles, disks, guides and a picture of the sky: has_...() is a constant false for
+/// them, so that the compiler drops their code.
+struct CommonSceneView : SceneView {
   TYNDALL_INLINE static constexpr bool has_guide() { return false; }
+  TYNDALL_INLINE static constexpr bool has_sky() { return false; }
+  TYNDALL_INLINE static constexpr bool samples_sky() { return false; }
   TYNDALL_INLINE static constexpr bool has_outlined() { return false; }
   TYNDALL_INLINE static constexpr bool has_outlined_lights() { return false; }
 };
 
 /// A kernel's view as functions that are not inlined take it: one copy of them serves all kernels of a file.
 TYNDALL_INLINE const SceneView& shared_view(const SceneView& s) { return s; }
-TYNDALL_INLINE const SceneViewWithoutOutlines& shared_view(const SceneViewWithoutOutlines& s) { return s; }
+TYNDALL_INLINE const CommonSceneView& shared_view(const CommonSceneView& s) { return s; }
 
 /// The view of a kernel that leaves models out. reuse: whether the kernel reuses second vertices between pixels
 /// (core/reuse). The kernel with every model reads SceneView itself.
 template <KernelSet set, bool reuse>
-requires(set != KernelSet::everything) struct SceneViewFor : SceneViewWithoutOutlines {
+requires(set != KernelSet::everything) struct SceneViewFor : CommonSceneView {
   static constexpr bool media_and_textures =
       set != KernelSet::no_media_no_textures && set != KernelSet::specular_paths_only;
-  static constexpr bool solves_specular_paths = set == KernelSet::no_outlines || set == KernelSet::specular_paths_only;
+  static constexpr bool solves_specular_paths =
+      set == KernelSet::common_models || set == KernelSet::specular_paths_only;
   TYNDALL_INLINE bool has_media() const { return media_and_textures && features.media; }
   TYNDALL_INLINE bool has_textures() const { return media_and_textures && features.textures; }
   TYNDALL_INLINE bool has_image_textures() const { return media_and_textures && features.image_textures; }
@@ -144,6 +159,9 @@ requires(set != KernelSet::everything) struct SceneViewFor : SceneViewWithoutOut
   TYNDALL_INLINE static constexpr bool has_reuse() { return reuse; }
   TYNDALL_INLINE bool has_splitting() const { return (!reuse || solves_specular_paths) && splits_paths; }
 };
+
+/// The sky's picture as kernels read it. It points into the columns.
+SkyView view_of(const SkyColumns& sky);
 
 /// The textures of a scene as kernels read them. They point into `scene`.
 std::vector<TextureView> texture_views(const RenderScene& scene);

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/trace/lights.h"
+#include "core/trace/sky.h"
 #include "core/transport/paths.h"
 
 /// Direct light: by shadow rays to lights, and by paths that hit a light.
@@ -67,6 +68,18 @@ TYNDALL_INLINE IntOf<F> shadow_ray_from(const auto& s, const Event<F>& e, Vec3<F
   }
 }
 
+/// Radiance of a sampled direction to a light or to the sky.
+template <class F>
+TYNDALL_INLINE Vec3<F> radiance_of_sample(const auto& s, IntOf<F> light, Vec3<F> point, const LightSample<F>& sample,
+                                          const SkySample<F>& sky, MaskOf<F> lanes) {
+  const IntOf<F> element = element_of_light<F>(s, light);
+  if (!s.samples_sky()) return light_radiance(s, element, point_at(point, sample.distance, sample.direction), lanes);
+  const auto far = is_sky<F>(light), near = mask_and_not(lanes, far);
+  if (!any(near)) return sky.radiance;
+  const Vec3<F> place = point_at(point, select(far, F(0.0f), sample.distance), sample.direction);
+  return select(far, sky.radiance, light_radiance(s, select(far, IntOf<F>(0), element), place, near));
+}
+
 /// Radiance that arrives at an event straight from a light, times throughput and albedo: estimated by one shadow ray to
 /// one light. With integrator mis it is weighted by the power heuristic (E. Veach, Robust Monte Carlo Methods for Light
 /// Transport Simulation, 1997, section 9.2) against two other ways to sample the same path. Let r be the pdf of
@@ -77,7 +90,9 @@ template <class F>
 TYNDALL_INLINE Vec3<F> direct_light(const auto& s, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes,
                                     const LightQuery<F>& query, std::uint32_t& shadow_rays) {
   const LightChoice<F>& choice = query.choice;
-  const LightSample<F> sample = sample_light(s, choice.light, e.point, p.ray.time, query.u);
+  SkySample<F> sky;
+  const LightSample<F> sample =
+      sample_light_or_sky(s, choice.light, {e.point, {}, p.ray.time, {}}, p.sampler, query.u, sky);
   BsdfValue<F> scattered{F(0.0f), F(0.0f)};
   if (any(e.surface)) scattered = eval_any(s, e.at.material, e.kind, e.surface, e.incident, sample.direction);
   if (s.has_media() && any(e.medium)) {
@@ -85,23 +100,24 @@ TYNDALL_INLINE Vec3<F> direct_light(const auto& s, const Paths<F>& p, const Even
     scattered = {select(e.medium, phase, scattered.value), select(e.medium, phase, scattered.pdf)};
   }
   const F chosen = sample.pdf * choice.probability;
+  const IntOf<F> light = s.samples_sky() ? select(is_sky<F>(choice.light), IntOf<F>(0), choice.light) : choice.light;
   const auto useful = mask_and(lanes, mask_and(less(F(0.0f), scattered.value), less(F(0.0f), chosen)));
   if (!any(useful)) return zero3<F>();
   shadow_rays += static_cast<std::uint32_t>(__builtin_popcount(bits(useful)));
   const Ray<F> ray{e.point, sample.direction, p.ray.time, shadow_ray_from(s, e, sample.direction)};
-  const IntOf<F> element = s.lights.count == 1 ? IntOf<F>(s.lights.element[0])
-                                               : lookup_int<F>(s.lights.element, s.lights.count, choice.light);
+  const IntOf<F> element = element_of_light<F>(s, choice.light);
   const auto arrives = mask_and_not(useful, blocked(s, ray, sample.distance, element, useful));
   if (!any(arrives)) return zero3<F>();
   const F safe = select(useful, chosen, F(1.0f)), ratio = scattered.pdf / safe;
   F weight = scattered.value / safe;
   if (s.integrator == Integrator::mis) {
-    const F odds = s.has_lights_in_media() ? by_angle_odds(s, query.flight, choice.light, choice.probability) : F(0.0f);
+    F odds = s.has_lights_in_media() ? by_angle_odds(s, query.flight, light, choice.probability) : F(0.0f);
+    if (s.samples_sky()) odds = select(is_sky<F>(choice.light), F(0.0f), odds);
     weight = weight / mul_add(ratio, ratio, F(1.0f) + odds);
     if (query.by_angle) weight = weight * sqrt(odds);
   }
   if (s.has_media()) weight = weight * pass_media(s, ray, sample.distance, arrives);
-  const Vec3<F> radiance = light_radiance(s, element, point_at(e.point, sample.distance, sample.direction), arrives);
+  const Vec3<F> radiance = radiance_of_sample(s, choice.light, e.point, sample, sky, arrives);
   return select(arrives, weight * (p.throughput * e.colour * radiance), zero3<F>());
 }
 
@@ -113,12 +129,30 @@ TYNDALL_INLINE F found_light_weight(const auto& s, const Paths<F>& p, IntOf<F> e
   if (s.integrator != Integrator::mis) return select(could, F(0.0f), F(1.0f));
   const IntOf<F> light = lookup_int<F>(s.light_of, s.element_count, element);
   const IntOf<F> safe = select(less(light, IntOf<F>(0)), IntOf<F>(0), light);
-  const F chosen = light_pdf(s, safe, p.ray.origin, p.ray.time, p.ray.direction, distance);
+  const F chosen = beside_sky(s, p.ray.origin, light_pdf(s, safe, p.ray.origin, p.ray.time, p.ray.direction, distance));
   const F ratio = p.pdf / max(chosen, F(1e-30f));
   F others = F(1.0f);
   if (s.has_lights_in_media())
-    others = others + by_angle_odds(s, p.flight, safe, choice_probability(s.lights, p.ray.origin, safe));
+    others = others + by_angle_odds(s, p.flight, safe,
+                                    beside_sky(s, p.ray.origin, choice_probability(s.lights, p.ray.origin, safe)));
   return select(could, F(1.0f) - others / mul_add(ratio, ratio, others), F(1.0f));
+}
+
+/// Radiance of the background in the direction of rays that have escaped, weighed against light sampling where that
+/// could have drawn the direction.
+template <class F>
+TYNDALL_INLINE Vec3<F> found_background(const auto& s, const Paths<F>& p, MaskOf<F> escaped) {
+  if (!s.has_sky()) return background_radiance(s.background, p.ray.direction);
+  const SkySample<F> sky = sky_towards(s.sky, p.ray.direction);
+  const auto could = mask_and(escaped, less(F(0.0f), p.pdf));
+  if (!s.samples_sky() || !any(could)) return sky.radiance;
+  F weight = F(0.0f);
+  if (s.integrator == Integrator::mis) {
+    const F chosen = sky.pdf * sky_probability<F>(s, p.ray.origin);
+    const F ratio = min(p.pdf / max(chosen, F(1e-30f)), F(1e15f)), square = ratio * ratio;
+    weight = square / (F(1.0f) + square);
+  }
+  return select(could, weight, F(1.0f)) * sky.radiance;
 }
 
 }  // namespace tyndall

@@ -81,7 +81,7 @@ template <class F>
   e.point = point_at(p.ray.origin, near.flight.distance, p.ray.direction);
   e.from = near.from, e.g = near.g;
   e.colour = s.has_textures() ? textured<F>(s, near.albedo, near.texture, e.medium, e.point, nullptr) : near.albedo;
-  const LightQuery<F> query{{near.light, choice_probability(s.lights, e.point, near.light)},
+  const LightQuery<F> query{{near.light, beside_sky(s, e.point, choice_probability(s.lights, e.point, near.light))},
                             p.sampler.next_2d(dimension::near_point),
                             near.flight,
                             true};

@@ -60,8 +60,7 @@ TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, 
 
   // ---- emission: of the background, and of lights that the paths have hit
   if (s.features.background && any(escaped))
-    p.radiance =
-        select(escaped, p.radiance + p.throughput * background_radiance(s.background, p.ray.direction), p.radiance);
+    p.radiance = select(escaped, p.radiance + p.throughput * found_background(s, p, escaped), p.radiance);
   if (any(e.surface)) add_emission(s, p, hit, e, recorder);
 
   // ---- the event, and the light of small lights in media that the path has passed
@@ -84,7 +83,7 @@ TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, 
 
   // ---- direct light: one light and one shadow ray, and specular paths
   if (s.light_sampling && any(scattering)) {
-    const LightQuery<F> query{choose_light(s.lights, e.point, p.sampler.next_1d(dimension::light_choice)),
+    const LightQuery<F> query{choose_light_or_sky(s, e.point, p.sampler.next_1d(dimension::light_choice)),
                               p.sampler.next_2d(dimension::light_point), p.flight, false};
     const Vec3<F> light = direct_light(s, p, e, scattering, query, shadow_rays);
     p.radiance = p.radiance + (s.has_guide() ? weigh_beside_guide(s, p, e, light) : light);

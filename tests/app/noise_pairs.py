@@ -70,6 +70,8 @@ def brighter(scene):
     for key in ("bottom", "top", "up", "down"):
         if isinstance(sky, dict) and key in sky:
             sky[key] = [1.005 * v for v in sky[key]]
+    if isinstance(sky, dict) and sky["type"] == "image":
+        sky["scale"] = 1.005 * sky.get("scale", 1)
     return True
 
 

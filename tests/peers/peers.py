@@ -39,6 +39,7 @@ SCENES = {
     "hollow-glass": ["--size", "400x225"],
     "stress-caustic-glass": ["--size", "400x225"],
     "stress-dense-fog": ["--size", "256x256"],
+    "sky-spheres": ["--size", "256x144", "--set", "/materials/brushed/fuzz=0"],
 }
 
 
@@ -158,8 +159,8 @@ def measure(options, scene, folder):
         here = folder / peer
         here.mkdir()
         try:
-            run([options.tyndall, "convert", scene, "--set", f"/image/width={width}", "--set", f"/image/height={height}",
-                 "-o", here / f"scene{ending}"])
+            run([options.tyndall, "convert", scene, *settings[2:], "--set", f"/image/width={width}",
+                 "--set", f"/image/height={height}", "-o", here / f"scene{ending}"])
             results[peer] = points(options, here / f"scene{ending}", here, reference)
         except RuntimeError as error:
             print(f"{scene}: {peer}: {error}", file=sys.stderr)
@@ -171,6 +172,7 @@ AGREE = {
     "cornell-box": [], "cornell-smoke": [], "earth": [], "checkered-spheres": [],
     "hollow-glass": ["--set", "/materials/gold/fuzz=0"],
     "defocus": ["--set", "/materials/gold/fuzz=0"],
+    "sky-spheres": ["--set", "/materials/brushed/fuzz=0"],
     str(HERE / "conventions.json"): [],
 }
 

@@ -1,6 +1,7 @@
 #include "core/scene/check.h"
 #include "tests/support/mixed_scene.h"
 #include "tests/support/probe.h"
+#include "tests/support/skies.h"
 
 #include <doctest/doctest.h>
 
@@ -220,6 +221,7 @@ TEST_CASE("sliders: of shapes, textures and the sky") {
   };
   try_sky(Gradient{});
   try_sky(Hemispheres{});
+  try_sky(uniform_sky(4, 2, 0.02f));
   CHECK(pictures > 300);
 }
 

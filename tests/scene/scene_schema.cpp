@@ -141,10 +141,23 @@ JsonValue textures(const std::variant<Kinds...>*) {
   return object({{"oneOf", list({one(static_cast<const Kinds*>(nullptr))...})}});
 }
 
+template <class Sky>
+JsonValue sky() {
+  if constexpr (std::is_same_v<Sky, SkyPicture>)
+    return kind<Sky>({text("file")},
+                     {{"file", object({{"type", text("string")},
+                                       {"minLength", {1.0}},
+                                       {"description", text("Path of a picture in floating point (HDR, EXR, PFM), "
+                                                            "relative to the scene file.")}})}});
+  else
+    return kind<Sky>();
+}
+
 template <class... Skies>
 JsonValue background(const std::variant<Vec3d, Skies...>*) {
-  return object({{"description", text("Radiance of rays that hit nothing: a colour, or a rule for the direction.")},
-                 {"oneOf", list({object({{"$ref", reference("radiance")}}), kind<Skies>()...})}});
+  const char* about = "Radiance of rays that hit nothing: a colour, a rule for the direction, or a picture.";
+  return object(
+      {{"description", text(about)}, {"oneOf", list({object({{"$ref", reference("radiance")}}), sky<Skies>()...})}});
 }
 
 template <class... Moves>

@@ -116,7 +116,7 @@ TEST_CASE("specular paths: the solid angle that a light fills off a mirror spher
   const double traced = 2 * pi * one_minus_cos * hits / rays;
   SpecularSphere<double> b = sphere_of<double>(1, 0);
   b.mirror = true;
-  const SceneViewWithoutOutlines s{};
+  const CommonSceneView s{};
   LightColumns<double> light{};
   light.kind = Lights::sphere, light.corner = lamp, light.length_u = light_radius;
   double sum = 0;

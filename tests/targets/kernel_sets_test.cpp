@@ -73,7 +73,7 @@ TEST_CASE("kernel sets: a scene gets the least that holds its models") {
   CHECK(compile(load_scene("earth").scene).kernel == KernelSet::no_specular_paths);
   CHECK(compile(load_scene("stress-light-in-fog").scene).kernel == KernelSet::no_specular_paths);
   CHECK(compile(load_scene("stress-caustic-glass").scene).kernel == KernelSet::specular_paths_only);
-  CHECK(compile(load_scene("stress-caustic-shell").scene).kernel == KernelSet::no_outlines);
+  CHECK(compile(load_scene("stress-caustic-shell").scene).kernel == KernelSet::common_models);
   for (const auto& shape : {Solid3d{Triangle<>{}, 0}, Solid3d{Disk<>{}, 0}}) {
     Scene scene = load_scene("cornell-box").scene;
     scene.objects.push_back({"", shape, {}});

@@ -77,6 +77,11 @@ bool shows_no_scene(const fs::path& name) {
   return image_kind(read_bytes(file, kind_size)) != ImageKind::unknown && !read_embedded_scene(file);
 }
 
+bool may_be_sky(const fs::path& name) {
+  const ImageKind kind = image_kind(read_bytes(picture_name(name).file, kind_size));
+  return kind == ImageKind::hdr || kind == ImageKind::exr;
+}
+
 std::optional<Reference> rendered_reference(const ReferenceOrder& order,
                                             const std::function<bool(std::uint32_t spp)>& progress) {
   Scene scene = order.scene;

@@ -30,6 +30,8 @@ Reference read_reference(const std::filesystem::path& name, const Document& docu
 
 /// Whether this is an image that holds no scene, or a layer of one.
 bool shows_no_scene(const std::filesystem::path& name);
+/// Whether it is of a kind that pictures of skies are of: HDR or EXR.
+bool may_be_sky(const std::filesystem::path& name);
 
 /// How a reference is rendered.
 struct ReferenceOrder {

@@ -17,7 +17,10 @@ void References::open(const std::filesystem::path& file) {
 
 void References::open_dropped(const std::filesystem::path& file) {
   editor_.read_in_background([this, file, document = editor_.document()]() -> JobQueue::Result {
-    if (shows_no_scene(file)) return read(file, document);
+    if (shows_no_scene(file)) {
+      if (document.origin->is_picture || !may_be_sky(file)) return read(file, document);
+      return [this, file] { doubtful_ = file; };
+    }
     return [this, file] { editor_.open(file.string()); };
   });
 }

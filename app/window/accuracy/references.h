@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <utility>
 
 /// How references come into the window: from files, and from the screen.
 namespace tyndall {
@@ -22,8 +23,10 @@ class References {
   /// Reads an image of the document, in the background.
   void open(const std::filesystem::path& file);
   /// Takes a file that was dropped on the window, in the background: an image without a scene in it becomes the
-  /// reference, all else is opened as a scene.
+  /// reference, all else is opened as a scene. About one that may be a sky the user has to be asked.
   void open_dropped(const std::filesystem::path& file);
+  /// The picture that may be a sky or a reference; empty: there is none. Asked for once.
+  std::filesystem::path take_doubtful() { return std::exchange(doubtful_, {}); }
   void set(std::shared_ptr<const Reference> reference);
   void drop();
   /// Renders one in the background, instead of one that is being rendered. Errors are true when it is there, not
@@ -45,10 +48,11 @@ class References {
   std::atomic<std::uint64_t> order_ = 0;     ///< counts up; what is rendered for an older number stops
   std::atomic<std::uint32_t> rendered_ = 0;  ///< samples a pixel so far
   std::uint32_t told_ = 0;                   ///< of these, in the newest message
-  Scene scene_;                              ///< what the picture on the screen was when this began
-  std::string doing_;                        ///< "rendering a reference with another seed"
-  std::uint32_t wanted_ = 0;                 ///< samples a pixel of it
-  JobQueue rendering_;                       // declared last, because it uses the others
+  std::filesystem::path doubtful_;
+  Scene scene_;               ///< what the picture on the screen was when this began
+  std::string doing_;         ///< "rendering a reference with another seed"
+  std::uint32_t wanted_ = 0;  ///< samples a pixel of it
+  JobQueue rendering_;        // declared last, because it uses the others
 };
 
 }  // namespace tyndall

@@ -76,7 +76,8 @@ enum class Action {
   discard_unsaved,   ///< closes the window
   open_reference,    ///< text: its file
   render_reference,  ///< in the background
-  drop_reference
+  drop_reference,
+  sky_of_file  ///< text: its file
 };
 
 /// Whether the action adds an object.

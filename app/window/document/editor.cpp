@@ -114,6 +114,19 @@ void Editor::show(Document next, bool own_file, const OpenedFilm& film) {
   if (film.film) events_.film_opened(film.film);
 }
 
+void Editor::set_sky(const std::filesystem::path& file) {
+  read_in_background([this, file, folder = document().origin->folder]() -> JobQueue::Result {
+    return [this, folder, sky = sky_of_file(file, folder)] {
+      if (document().origin->folder != folder) return;  // another scene was opened in the meantime
+      Scene changed = scene();
+      changed.background = sky;
+      edit(std::move(changed), 0);
+      watch();
+      messages_.say("the sky is " + sky.file + "; Ctrl + Z takes it away");
+    };
+  });
+}
+
 void Editor::read_in_background(const std::function<JobQueue::Result()>& read) {
   jobs_.run([this, read]() -> JobQueue::Result {
     try {

@@ -71,6 +71,8 @@ class Editor {
   void open(const std::string& what);
   /// Reads the film of the first scene, if that was opened from an image, in the background.
   void open_film(const LoadedScene& scene);
+  /// Makes a picture file the scene's sky, in the background; it can be undone.
+  void set_sky(const std::filesystem::path& file);
   /// Writes the scene to its own file, or to another one, and says how it went. An existing file is replaced: see
   /// file_differs(). Returns whether it was written.
   bool save(const std::filesystem::path& file);

@@ -52,29 +52,22 @@ void History::set_origin(const std::shared_ptr<const Origin>& origin) {
 
 namespace {
 
-/// By the texture's file: the picture that it holds now.
+/// By the name of a texture's or sky's file: the picture that it holds now.
 using Pictures = std::map<std::string, std::shared_ptr<const Image::Pixels>>;
-
-/// Calls set(image) for each texture of the scene that is a picture.
-template <class Set>
-void each_image(auto& scene, const Set& set) {
-  for (auto& texture : scene.textures)
-    if (auto* image = std::get_if<Image>(&texture.kind)) set(*image);
-}
 
 }  // namespace
 
 bool History::take_pictures(const Scene& read) {
   const std::shared_ptr<const Origin> before = current().origin;
   Pictures changed, now;
-  each_image(read, [&](const Image& image) { now[image.file] = image.pixels; });
-  each_image(before->saved, [&](const Image& image) {
+  each_picture(read, [&](const auto& image) { now[image.file] = image.pixels; });
+  each_picture(before->saved, [&](const auto& image) {
     const auto found = now.find(image.file);
     if (found != now.end() && !(*found->second == *image.pixels)) changed.insert(*found);
   });
   if (changed.empty()) return false;
   const auto take = [&](Scene& scene) {
-    each_image(scene, [&](Image& image) {
+    each_picture(scene, [&](auto& image) {
       if (const auto found = changed.find(image.file); found != changed.end()) image.pixels = found->second;
     });
   };

@@ -5,6 +5,7 @@
 #include "core/base/fnv1a.h"
 #include "core/base/text.h"
 #include "core/files/film_files.h"
+#include "core/image/image_io.h"
 #include "core/image/image_io_file.h"
 #include "core/targets/kernels.h"
 
@@ -99,8 +100,8 @@ std::vector<fs::path> watched_files(const Document& document) {
   if (origin.what.empty()) return files;
   if (!origin.file.empty()) files.push_back(origin.file);
   files.insert(files.end(), origin.sources.begin(), origin.sources.end());
-  for (const Texture& texture : document.scene.textures)
-    if (const auto* image = std::get_if<Image>(&texture.kind)) files.push_back(origin.folder / image->file);
+  each_picture(document.scene,
+               [&](const auto& picture) { files.push_back(picture_name(origin.folder / picture.file).file); });
   return files;
 }
 

@@ -170,10 +170,12 @@ void set_background_kind(Background& background, int kind, BackgroundMemory& mem
     background = *known;
     return;
   }
-  const auto [up, down] = std::visit(Overloaded{[](const Vec3d& colour) { return std::pair(colour, colour); },
-                                                [](const Gradient& sky) { return std::pair(sky.top, sky.bottom); },
-                                                [](const Hemispheres& sky) { return std::pair(sky.up, sky.down); }},
-                                     before);
+  const auto [up, down] =
+      std::visit(Overloaded{[](const Vec3d& colour) { return std::pair(colour, colour); },
+                            [](const Gradient& sky) { return std::pair(sky.top, sky.bottom); },
+                            [](const Hemispheres& sky) { return std::pair(sky.up, sky.down); },
+                            [](const SkyPicture&) { return std::pair(Gradient().top, Gradient().bottom); }},
+                 before);
   if (kind == place_in<Vec3d, Background>) background = up;
   if (kind == place_in<Gradient, Background>) background = Gradient{down, up};
   if (kind == place_in<Hemispheres, Background>) background = Hemispheres{up, down};

@@ -225,6 +225,11 @@ std::vector<RowEntry> all_rows() {
   add(rows, "Background", {"colour"}, with_kind("colour"));
   add(rows, "Background", names<Gradient>(), with_kind(Gradient::type));
   add(rows, "Background", names<Hemispheres>(), with_kind(Hemispheres::type));
+  const std::string no_sky = "drop a picture of the sky on the window first";
+  rows.push_back(
+      {"Background", label_of_row("file"), "sky picture, hdr, environment map, environment texture", no_sky});
+  rows.push_back({"Background", label_of_row("rotate_y"), "sky rotation, rotate sky, rotate environment", no_sky});
+  rows.push_back({"Background", label_of_row("scale"), "sky strength, environment strength", no_sky});
   add(rows, "Window", {"theme", "text"});
   return rows;
 }
@@ -239,6 +244,7 @@ bool shows(const Background& background, const std::string& label) {
   };
   if (std::holds_alternative<Gradient>(background)) return among(names<Gradient>());
   if (std::holds_alternative<Hemispheres>(background)) return among(names<Hemispheres>());
+  if (std::holds_alternative<SkyPicture>(background)) return among({"file", "rotate_y", "scale"});
   return among({"colour"});
 }
 

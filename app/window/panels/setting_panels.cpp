@@ -37,10 +37,14 @@ void focus_row(Ui& ui, Scene& scene, const Camera& saved) {
   if (*shown.focus_distance != before) scene.camera.focus_distance = shown.focus_distance;
 }
 
-/// What a background can be, by the kind's place in the variant.
+/// What a background can be, by the kind's place in the variant. A picture can be chosen once there has been one.
 template <class... Skies>
-std::vector<Choice> sky_choices(const std::variant<Vec3d, Skies...>&) {
-  return {{"colour"}, {Skies::type}...};
+std::vector<Choice> sky_choices(const std::variant<Vec3d, Skies...>& background, const BackgroundMemory& seen) {
+  std::vector<Choice> choices{{"colour"}, {Skies::type}...};
+  constexpr auto picture = static_cast<std::size_t>(place_in<SkyPicture, Background>);
+  if (background.index() != picture && !seen[picture])
+    choices[picture].missing = "drop an .hdr or .exr of the sky on the window first";
+  return choices;
 }
 
 std::string fraction_cut_off(const Frame* frame) {
@@ -204,7 +208,7 @@ void background_panel(Ui& ui, PanelState& state) {
   Background& background = state.scene.background;
   const Background& saved = state.model.saved->background;
   int kind = static_cast<int>(background.index());
-  if (choice_row(ui, {"kind", "Kind", {}, {}, "", "", ""}, sky_choices(background), kind))
+  if (choice_row(ui, {"kind", "Kind", {}, {}, "", "", ""}, sky_choices(background, state.backgrounds), kind))
     set_background_kind(background, kind, state.backgrounds);
   std::visit(Overloaded{[&](Vec3d& constant) {
                           Meaning radiance = colour_meaning("radiance");
@@ -213,7 +217,11 @@ void background_panel(Ui& ui, PanelState& state) {
                           if (const Vec3d* original = std::get_if<Vec3d>(&saved)) row.original = *original;
                           colour_row(ui, row, constant);
                         },
-                        [&](auto& sky) { field_rows(ui, sky, same_kind(sky, &saved)); }},
+                        [&](auto& sky) {
+                          if constexpr (std::is_same_v<std::decay_t<decltype(sky)>, SkyPicture>)
+                            text_row(ui, {"file", "Picture", {}, {}, "", sky.file, ""}, sky.file);
+                          field_rows(ui, sky, same_kind(sky, &saved));
+                        }},
              background);
 }
 

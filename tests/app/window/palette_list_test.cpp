@@ -2,6 +2,7 @@
 
 #include "app/window/menus/row_list.h"
 #include "tests/app/window/panels/column.h"
+#include "tests/support/skies.h"
 
 #include <algorithm>
 #include <sstream>
@@ -167,7 +168,8 @@ TEST_CASE("the rows of each kind of background are reached") {
   for (const auto& [background, label] : {std::pair<Background, const char*>{Gradient{}, "Top"},
                                           {Gradient{}, "Bottom"},
                                           {Hemispheres{}, "Above"},
-                                          {Hemispheres{}, "Below"}}) {
+                                          {Hemispheres{}, "Below"},
+                                          {uniform_sky(1, 1, 1), "Turn"}}) {
     column.state.scene.background = background;
     column.go(row_named(label, "Background"));
     CHECK(column.problem.empty());

@@ -56,6 +56,33 @@ TEST_CASE("references from files: read in the background, refused with a reason,
   CHECK_FALSE(opened.session->accuracy().is_true());
 }
 
+TEST_CASE("a dropped HDR is asked about once: as sky it is the background, which can be undone, or a reference") {
+  OpenedSession opened("dropped_sky");
+  REQUIRE(opened.finishes());
+  write_hdr("sky.hdr", {8, 8, std::vector<float>(192, 1.0f)});
+  Session& session = *opened.session;
+  session.references().open_dropped(fs::absolute("sky.hdr"));
+  fs::path asked;
+  REQUIRE(opened.comes_true([&] { return !(asked = session.references().take_doubtful()).empty(); }));
+  CHECK(asked == fs::absolute("sky.hdr"));
+  CHECK(session.references().take_doubtful().empty());
+  CHECK_FALSE(session.accuracy().reference());
+  const Background before = session.editor().scene().background;
+  session.editor().set_sky(asked);
+  const auto sky = [&] { return std::get_if<SkyPicture>(&session.editor().scene().background); };
+  REQUIRE(opened.comes_true([&] { return sky() != nullptr; }));
+  CHECK(sky()->file == "sky.hdr");
+  CHECK(sky()->pixels->width == 8);
+  session.editor().undo();
+  CHECK(session.editor().scene().background == before);
+  session.references().open(asked);
+  REQUIRE(opened.comes_true([&] { return session.accuracy().reference() != nullptr; }));
+  write_pfm("wrong.pfm", {8, 8, std::vector<float>(192, -1.0f)});
+  session.editor().set_sky("wrong.pfm");
+  REQUIRE(opened.comes_true([&] { return session.messages().current().error; }));
+  CHECK(session.messages().current().text.find("found -1 in pixel (0, 0)") != std::string::npos);
+}
+
 TEST_CASE("a split view keeps the settings on its left, and follows edits of the scene with both") {
   OpenedSession opened("split");
   REQUIRE(opened.finishes());

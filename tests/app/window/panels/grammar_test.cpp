@@ -156,6 +156,8 @@ TEST_CASE("a background keeps its colours when its kind changes, and has its own
   column.click("background.kind.colour");
   column.click("background.kind.gradient");
   CHECK(column.state.scene.background == Background(Gradient{{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}}));
+  column.click("background.kind.image");  // there has been no picture yet
+  CHECK(std::holds_alternative<Gradient>(column.state.scene.background));
 }
 
 TEST_CASE("a name is typed where it is shown, or by the key for it; Esc leaves it") {
