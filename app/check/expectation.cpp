@@ -236,10 +236,8 @@ BookModel Expectation::model_of(const std::vector<BookSample>& samples, int max_
     const int region = large_.of_pixel[at / 3];
     if (region < 0) continue;
     const auto ratio = static_cast<float>(std::min(1.0, ratios[3 * static_cast<std::size_t>(region) + at % 3]));
-    // No pixel is brighter than white. Its light is the reference's: the mean of a few samples may be above 1 by
-    // chance.
-    const float light = reference_[at] + model.mean[at] - base_.mean[at];
-    model.excess[at] = std::max(model.excess[at] * ratio, light - 1);
+    const float light = reference_[at] + model.mean[at] - base_.mean[at];  // means of a few samples are too noisy
+    model.excess[at] = std::max(model.excess[at] * ratio, light - 1);      // no pixel is brighter than white
   }
   return model;
 }
