@@ -8,7 +8,7 @@
 
 #include <cstdlib>
 
-namespace tyndall::test::session_programs_test {
+namespace tyndall::test::session_programs_slow_test {
 using test::OpenedSession;
 namespace fs = std::filesystem;
 
@@ -145,4 +145,4 @@ TEST_CASE("no other program is compiled: dropped, from the list of recent files,
   REQUIRE(opened.comes_true([&] { return MarkedCompiler::was_called(); }));
 }
 
-}  // namespace tyndall::test::session_programs_test
+}  // namespace tyndall::test::session_programs_slow_test
