@@ -73,8 +73,8 @@ double direct_light_at(const SceneView& s, Vec3d point, double size) {
   double sum = 0;
   for (int k = 0; k < s.lights.count; ++k) {
     const auto at = [&](const float* column) { return static_cast<double>(column[k]); };
-    const Vec3d way = Vec3d{at(s.lights.center[0]), at(s.lights.center[1]), at(s.lights.center[2])} - point;
-    sum += at(s.lights.power) * 0.25 / std::max(dot(way, way), size * size);
+    const Vec3d to_light = Vec3d{at(s.lights.center[0]), at(s.lights.center[1]), at(s.lights.center[2])} - point;
+    sum += at(s.lights.power) * 0.25 / std::max(dot(to_light, to_light), size * size);
   }
   return std::max(sum, 1e-30);
 }

@@ -42,13 +42,13 @@ double squared_distance(Vec3d a, Vec3d b) { return dot(a - b, a - b); }
 /// The light's direction of flight at a point, by a landing's wave front. Returns false at a focus.
 bool predict(const Landing& l, Vec3d point, Vec3d& flight) {
   const Vec3d offset = point - l.point, other = cross(l.flight, l.axis);
-  const double along = dot(offset, l.flight), p = dot(offset, l.axis), q = dot(offset, other);
+  const double ahead = dot(offset, l.flight), p = dot(offset, l.axis), q = dot(offset, other);
   const Symmetric& b = l.curvature;
   const double spread = b.xx * b.yy - b.xy * b.xy;
-  const double determinant = (1 + along * b.xx) * (1 + along * b.yy) - along * along * b.xy * b.xy;
+  const double determinant = (1 + ahead * b.xx) * (1 + ahead * b.yy) - ahead * ahead * b.xy * b.xy;
   if (std::abs(determinant) < 1e-3) return false;
-  const double xx = (b.xx + along * spread) / determinant, xy = b.xy / determinant,
-               yy = (b.yy + along * spread) / determinant;
+  const double xx = (b.xx + ahead * spread) / determinant, xy = b.xy / determinant,
+               yy = (b.yy + ahead * spread) / determinant;
   const Vec3d v = l.flight + (xx * p + xy * q) * l.axis + (xy * p + yy * q) * other;
   flight = (1 / std::sqrt(dot(v, v))) * v;
   return true;

@@ -14,11 +14,11 @@ void fill(const SceneView& scene, Guide& guide) {
   std::vector<Thing> things = list_things(scene);
   if (things.empty()) return;
   LightPaths paths(scene, std::move(things));
-  paths.trace_evenly(paths_to_decide);
+  paths.trace_pairs(paths_to_decide);
   guide.expected_variance = expected_variance(scene, paths);
   guide.light_paths = paths.traced();
   if (!(guide.expected_variance >= worthwhile_variance)) return;
-  paths.trace_evenly(paths_in_all / 2 - paths_to_decide);
+  paths.trace_pairs(paths_in_all / 2 - paths_to_decide);
   paths.trace_copies(paths_in_all / 2);
   guide.light_paths = paths.traced();
   guide.thing_of = paths.thing_of();

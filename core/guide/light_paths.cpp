@@ -14,10 +14,10 @@ namespace tyndall {
 namespace {
 
 constexpr double min_reflected = 0.15;  // probability with which a light path is reflected, or refracted, at least
-constexpr double turn = 1e-5;           // of nearby rays, radian
-constexpr double move = 1e-3;           // of nearby rays, in radii of their light
+constexpr double angle_step = 1e-5;     // of nearby rays, radian
+constexpr double move_step = 1e-3;      // of nearby rays, in radii of their light
 constexpr double focus = 1e-11;         // area of a wave front per steradian, over the flight's squared length
-constexpr double turned_apart = 2;      // copies are turned by up to this times the distance between light paths
+constexpr double copy_spread = 2;       // copies are rotated by up to this times the distance between light paths
 
 double at(const float* column, int i) { return static_cast<double>(column[i]); }
 
@@ -28,7 +28,7 @@ SinCos<double> random_angle(double u) {
 }
 
 double squared_length(Vec3d v) { return dot(v, v); }
-Vec3d unit_vector(Vec3d v) { return (1 / std::sqrt(squared_length(v))) * v; }
+Vec3d normalized(Vec3d v) { return (1 / std::sqrt(squared_length(v))) * v; }
 
 /// A ray that meets a surface, as its neighbours do.
 struct MetSurface {
@@ -50,7 +50,7 @@ bool follow(const MetSurface& m, Vec3d& origin, Vec3d& direction) {
     if (!(discriminant > 0)) return false;
     t = m.far ? middle + std::sqrt(discriminant) : middle - std::sqrt(discriminant);
     origin = origin + t * direction;
-    normal = unit_vector(origin - m.center);
+    normal = normalized(origin - m.center);
     if (m.inverted) normal = -normal;
   } else {
     t = dot(m.point - origin, normal) / dot(direction, normal);
@@ -65,7 +65,7 @@ bool follow(const MetSurface& m, Vec3d& origin, Vec3d& direction) {
   const double eta = exiting ? 1 / m.index : m.index, cosine = -dot(direction, facing);
   const double squared = eta * eta - 1 + cosine * cosine;
   if (!(squared > 0)) return false;
-  direction = unit_vector(direction + (cosine - std::sqrt(squared)) * facing);
+  direction = normalized(direction + (cosine - std::sqrt(squared)) * facing);
   return true;
 }
 
@@ -89,26 +89,26 @@ void add_square(Matrix m, double scale, Symmetric& to) {
 
 /// Transmittance of the media along a ray, by the kernels' polynomials.
 double transmitted(const SceneView& s, const Ray<double>& ray, double distance) {
-  const auto narrow = [](Vec3d v) {
+  const auto to_float = [](Vec3d v) {
     return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
   };
-  const Ray<float> same{narrow(ray.origin), narrow(ray.direction), static_cast<float>(ray.time), ray.from};
+  const Ray<float> same{to_float(ray.origin), to_float(ray.direction), static_cast<float>(ray.time), ray.from};
   return static_cast<double>(pass_media<float>(s, same, static_cast<float>(distance), true));
 }
 
 struct ChangedPair {
-  Matrix place, turn;
+  Matrix place, direction;
 };
 
 /// The changes of place and direction, in the plane across a flight at `point`, of two rays near it, as columns. They
-/// are those of rays turned or moved by `step`, divided by that.
+/// are those of rays rotated or moved by `step`, divided by that.
 ChangedPair changes_of(const Vec3d (&origin)[2], const Vec3d (&direction)[2], Vec3d point, Vec3d d, double step) {
   const Basis<double> b = basis_around(d);
   double change[2][4];
   for (int i = 0; i < 2; ++i) {
     const double slope = 1 / dot(direction[i], d);
-    const Vec3d turned = slope * direction[i], off = origin[i] + dot(point - origin[i], d) * turned - point;
-    const double values[4] = {dot(off, b.s), dot(off, b.t), dot(turned, b.s), dot(turned, b.t)};
+    const Vec3d flight = slope * direction[i], off = origin[i] + dot(point - origin[i], d) * flight - point;
+    const double values[4] = {dot(off, b.s), dot(off, b.t), dot(flight, b.s), dot(flight, b.t)};
     for (int c = 0; c < 4; ++c) change[i][c] = values[c] / step;
   }
   return {{change[0][0], change[1][0], change[0][1], change[1][1]},
@@ -136,7 +136,7 @@ Vec3d LightPaths::direction_in_cone(Vec3d axis, double one_minus_cos) {
   const double z = 1 - next() * one_minus_cos, r = std::sqrt(std::max(1 - z * z, 0.0));
   const SinCos<double> a = random_angle(next());
   const Basis<double> b = basis_around(axis);
-  return unit_vector(z * axis + (r * a.cos) * b.s + (r * a.sin) * b.t);
+  return normalized(z * axis + (r * a.cos) * b.s + (r * a.sin) * b.t);
 }
 
 Vec3d LightPaths::middle_of(int light, double time) const {
@@ -159,14 +159,14 @@ bool LightPaths::aim(int light, int index, Start& start) {
     const Vec3d to_center = thing.center + start.time * thing.motion - middle;
     const double squared = dot(to_center, to_center), sine2 = thing.radius * thing.radius / squared;
     const double one_minus_cos = sine2 < 1 ? sine2 / (1 + std::sqrt(1 - sine2)) : 2;
-    start.direction = direction_in_cone(squared > 0 ? unit_vector(to_center) : Vec3d{0, 0, 1}, one_minus_cos);
+    start.direction = direction_in_cone(squared > 0 ? normalized(to_center) : Vec3d{0, 0, 1}, one_minus_cos);
     start.solid_angle = 2 * pi * one_minus_cos;
   } else {
     const double a = next(), b = next();
-    const Vec3d way = thing.corner + a * thing.u + b * thing.v - middle;
-    const double squared = dot(way, way);
+    const Vec3d to_thing = thing.corner + a * thing.u + b * thing.v - middle;
+    const double squared = dot(to_thing, to_thing);
     if (!(squared > 0)) return false;
-    start.direction = unit_vector(way);
+    start.direction = normalized(to_thing);
     start.solid_angle = std::min(std::abs(dot(start.direction, cross(thing.u, thing.v))) / squared, 4 * pi);
   }
   const double intensity = at(l.power, light);  // radiance times area
@@ -189,9 +189,9 @@ void LightPaths::begin(const Start& start) {
   const bool behind = !round && dot(d, columns.normal) < 0;
   f.from = 4 * l.element[start.light] + static_cast<std::int32_t>(behind ? Side::inward : Side::outward);
   const Basis<double> b = basis_around(d);
-  const Vec3d directions[] = {d, unit_vector(d + turn * b.s), unit_vector(d + turn * b.t)};
+  const Vec3d directions[] = {d, normalized(d + angle_step * b.s), normalized(d + angle_step * b.t)};
   for (const Vec3d& direction : directions) f.rays.push_back({middle + skip * direction, direction});
-  for (const Vec3d& moved : {b.s, b.t}) f.rays.push_back({middle + move * f.light_radius * moved + skip * d, d});
+  for (const Vec3d& moved : {b.s, b.t}) f.rays.push_back({middle + move_step * f.light_radius * moved + skip * d, d});
 }
 
 void LightPaths::trace(const Start& start, const OrderedEvents<double>* wanted) {
@@ -258,7 +258,8 @@ bool LightPaths::meet(std::int32_t element, double t, const OrderedEvents<double
   if (thing.fuzz > 0) {
     const NearbyRay own = f.rays[0];
     const Basis<double> b = basis_around(own.direction);
-    for (const Vec3d& turned : {b.s, b.t}) f.rays.push_back({own.origin, unit_vector(own.direction + turn * turned)});
+    for (const Vec3d& across : {b.s, b.t})
+      f.rays.push_back({own.origin, normalized(own.direction + angle_step * across)});
     f.fuzz.push_back(thing.fuzz);
   }
   f.from = 4 * element + (inside == m.reflects ? 1 : 0);
@@ -293,13 +294,13 @@ void LightPaths::land(Vec3d point, const OrderedEvents<double>* wanted) {
     return changes_of({f.rays[k].origin, f.rays[k + 1].origin}, {f.rays[k].direction, f.rays[k + 1].direction}, point,
                       d, step);
   };
-  const ChangedPair turned = pair(1, turn), moved = pair(3, move * f.light_radius);
-  if (std::abs(determinant(turned.place)) < focus * f.length * f.length) return;
-  const Matrix front = turned.turn * inverse(turned.place);
-  add_square(moved.turn - front * moved.place, f.light_radius * f.light_radius / 4, l.variance);
+  const ChangedPair rotated = pair(1, angle_step), moved = pair(3, move_step * f.light_radius);
+  if (std::abs(determinant(rotated.place)) < focus * f.length * f.length) return;
+  const Matrix front = rotated.direction * inverse(rotated.place);
+  add_square(moved.direction - front * moved.place, f.light_radius * f.light_radius / 4, l.variance);
   for (std::size_t k = 0; k < f.fuzz.size(); ++k) {
-    const ChangedPair blurred = pair(5 + 2 * k, turn);
-    add_square(blurred.turn - front * blurred.place, f.fuzz[k] * f.fuzz[k] / 5, l.variance);
+    const ChangedPair blurred = pair(5 + 2 * k, angle_step);
+    add_square(blurred.direction - front * blurred.place, f.fuzz[k] * f.fuzz[k] / 5, l.variance);
   }
   l.point = point, l.flight = d, l.axis = basis_around(d).s;
   l.curvature = {front.a, 0.5 * (front.b + front.c), front.d};
@@ -308,7 +309,7 @@ void LightPaths::land(Vec3d point, const OrderedEvents<double>* wanted) {
   landings_.push_back(l), starts_.push_back(f.start);
 }
 
-void LightPaths::trace_evenly(int count) {
+void LightPaths::trace_pairs(int count) {
   const int lights = std::min(scene_.lights.count, max_guide_lights), things = static_cast<int>(things_.size());
   const int each = std::max(count / std::max(lights * things, 1), 1);
   paths_of_pair_ += each;
@@ -327,10 +328,10 @@ void LightPaths::copy(const std::vector<std::size_t>& landed, int count) {
   for (int i = 0; i < count; ++i) {
     Start start = starts_[landed[static_cast<std::size_t>(next() * static_cast<double>(landed.size()))]];
     const double apart = std::sqrt(start.solid_angle / pi / std::max(paths_of_pair_, 1.0));
-    const double r = turned_apart * apart * std::sqrt(next());
+    const double r = copy_spread * apart * std::sqrt(next());
     const SinCos<double> a = random_angle(next());
     const Basis<double> b = basis_around(start.direction);
-    start.direction = unit_vector(start.direction + (r * a.cos) * b.s + (r * a.sin) * b.t);
+    start.direction = normalized(start.direction + (r * a.cos) * b.s + (r * a.sin) * b.t);
     trace(start, &events);
   }
   double old_sum = 0, new_sum = 0;

@@ -31,8 +31,8 @@ class LightPaths {
   LightPaths(const SceneView& scene, std::vector<Thing> things);
 
   /// Traces about `count` paths, spread evenly over pairs of a light and a thing.
-  void trace_evenly(int count);
-  /// Traces about `count` copies of the paths that have landed, turned a little, and spreads them over sequences of
+  void trace_pairs(int count);
+  /// Traces about `count` copies of the paths that have landed, rotated a little, and spreads them over sequences of
   /// events by the roots of their powers.
   void trace_copies(int count);
 
@@ -54,8 +54,8 @@ class LightPaths {
     Vec3d origin, direction;
     bool lost = false;
   };
-  /// A light path on its way. The first ray is the path itself; then two turned at the light, two moved on the light,
-  /// and two turned at each fuzzy reflection.
+  /// A light path on its way. The first ray is the path itself; then two rotated at the light, two moved on the light,
+  /// and two rotated at each fuzzy reflection.
   struct Flight {
     Start start;
     std::vector<NearbyRay> rays;

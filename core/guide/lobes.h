@@ -100,22 +100,22 @@ TYNDALL_INLINE SeenLobe<F> see_lobe(const GuideView& g, IntOf<F> sequence, Vec3<
   const Vec3<F> offset = point - vector(lobe_point), flight = vector(lobe_flight), axis = vector(lobe_axis);
   const Vec3<F> other = cross(flight, axis);
   const F b11 = at(lobe_curvature), b12 = at(lobe_curvature + 1), b22 = at(lobe_curvature + 2);
-  const F along = dot(offset, flight), p = dot(offset, axis), q = dot(offset, other);
+  const F ahead = dot(offset, flight), p = dot(offset, axis), q = dot(offset, other);
   const F one = F(1.0f), spread = b11 * b22 - b12 * b12;
-  const F determinant = (one + along * b11) * (one + along * b22) - along * along * b12 * b12;
+  const F determinant = (one + ahead * b11) * (one + ahead * b22) - ahead * ahead * b12 * b12;
   const F scale = one / select(less(abs(determinant), F(1e-3f)), one, determinant);
-  const F c11 = scale * (b11 + along * spread), c12 = scale * b12, c22 = scale * (b22 + along * spread);
+  const F c11 = scale * (b11 + ahead * spread), c12 = scale * b12, c22 = scale * (b22 + ahead * spread);
   const Vec3<F> light =
       point_at(point_at(flight, c11 * p + c12 * q, axis), c12 * p + c22 * q, other);  // its flight, not unit
   SeenLobe<F> seen;
   seen.center = -normalize(light);
-  // The axes turned by the least rotation that takes the flight's reverse into the centre.
+  // The axes rotated by the least rotation that takes the flight's reverse into the centre.
   const Vec3<F> both = seen.center - flight;
   const F cosine = one - dot(flight, seen.center);
   seen.exists = mask_and(less_equal(F(1e-3f), abs(determinant)), less(F(1e-3f), cosine));
-  const F turn = F(-1.0f) / max(cosine, F(1e-3f));
-  seen.u = point_at(axis, turn * dot(axis, seen.center), both);
-  seen.v = point_at(other, turn * dot(other, seen.center), both);
+  const F rotation = F(-1.0f) / max(cosine, F(1e-3f));
+  seen.u = point_at(axis, rotation * dot(axis, seen.center), both);
+  seen.v = point_at(other, rotation * dot(other, seen.center), both);
   const F far = dot(offset, offset) * at(lobe_inverse_size2);
   const F error = mul_add(at(lobe_error), F(0.05f) + far, F(min_lobe_variance));
   seen.length_u = F(lobe_widening) * sqrt(at(lobe_variance) + error);

@@ -52,8 +52,8 @@ void complete(const SceneView& s, Thing& thing) {
   const double area = thing.is_sphere ? pi * thing.radius * thing.radius : std::sqrt(dot(edges, edges));
   for (int k = 0; k < std::min(s.lights.count, max_guide_lights); ++k) {
     const Vec3d light{at(s.lights.center[0], k), at(s.lights.center[1], k), at(s.lights.center[2], k)};
-    const Vec3d way = middle - light;
-    thing.worth += at(s.lights.power, k) * std::min(area / std::max(dot(way, way), 1e-30), 4 * pi);
+    const Vec3d to_middle = middle - light;
+    thing.worth += at(s.lights.power, k) * std::min(area / std::max(dot(to_middle, to_middle), 1e-30), 4 * pi);
   }
   if (s.specular.pairs == 0) return;
   const std::int32_t object = s.specular.sphere_of[thing.element] >> 1;
@@ -73,13 +73,18 @@ void list_spheres(const SceneView& s, const SphereView& spheres, bool moving, st
   }
 }
 
+/// Whether some material of the scene has a trait.
+template <auto trait>
+bool has_any(const SceneView& s) {
+  return needs_trait<trait>(s.features);
+}
+
 }  // namespace
 
 std::vector<Thing> list_things(const SceneView& s) {
   std::vector<Thing> things;
-  const SceneFeatures& f = s.features;
-  const bool some = needs_trait<&BsdfTraits::glossy>(f) || needs_trait<&BsdfTraits::smooth_boundary>(f);
-  if (!some || s.lights.count == 0 || !needs_trait<&BsdfTraits::diffuse>(f)) return things;
+  const bool some = has_any<&BsdfTraits::glossy>(s) || has_any<&BsdfTraits::smooth_boundary>(s);
+  if (!some || s.lights.count == 0 || !has_any<&BsdfTraits::diffuse>(s)) return things;
   list_spheres(s, s.spheres, false, things);
   list_spheres(s, s.moving_spheres, true, things);
   for (int i = 0; i < s.quads.count; ++i)

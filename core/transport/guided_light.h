@@ -60,12 +60,12 @@ TYNDALL_INLINE MaskOf<F> scatter_guided(const SceneView& s, GuidedPath<F>& g, co
   if (any(glass)) {
     const Boundary<F> b = boundary_any(s, e.at.material, e.incident);
     const BsdfSample<F> out = leave_boundary(b, e.incident, reflects);
-    const F share = select(reflects, b.reflected, F(1.0f) - b.reflected);
+    const F fraction = select(reflects, b.reflected, F(1.0f) - b.reflected);
     p.ray.direction = select(glass, out.direction, p.ray.direction), p.pdf = select(glass, F(one_direction), p.pdf);
     p.ray.from = select(mask_and_not(glass, reflects), through_surface<F>(e.from), p.ray.from);
-    p.throughput = select(glass, share * p.throughput, p.throughput);
-    g.reflectance = select(glass, share * g.reflectance, g.reflectance);
-    goes_on = mask_and_not(goes_on, mask_and_not(glass, less(F(0.0f), share)));
+    p.throughput = select(glass, fraction * p.throughput, p.throughput);
+    g.reflectance = select(glass, fraction * g.reflectance, g.reflectance);
+    goes_on = mask_and_not(goes_on, mask_and_not(glass, less(F(0.0f), fraction)));
   }
   return goes_on;
 }
@@ -148,8 +148,8 @@ TYNDALL_INLINE void extend_guide_trail(const auto& s, Paths<F>& p, const Event<F
     const auto glass = mask_and(met, has_trait<&BsdfTraits::smooth_boundary>(s, e.kind));
     if (any(glass)) {
       const F reflected = boundary_any(s, e.at.material, e.incident).reflected;
-      const F share = select(transmitted, F(1.0f) - reflected, reflected);
-      p.guide.pdf = select(glass, share * p.guide.pdf, p.guide.pdf);
+      const F fraction = select(transmitted, F(1.0f) - reflected, reflected);
+      p.guide.pdf = select(glass, fraction * p.guide.pdf, p.guide.pdf);
     }
   }
   restart_trail(p.guide, diffuse, e.medium, e.point, p.ray.direction, p.pdf);

@@ -31,7 +31,7 @@ stats = json.load(open(sys.argv[1]))
 assert list(stats) == """scene width height spp samples rays shadow_rays seconds_render seconds_total seconds_build
 mrays_per_s msamples_per_s threads isa lanes kernel_features integrator sampler fresnel relative_error_estimate
 rejected_samples truncated_paths peak_memory_bytes image_hash version
-truncated_throughput first_rejected adaptive least_spp most_spp rare_bright_paths caustics denoised denoised_relative_error_estimate seconds_denoise denoised_hash sharing threads_from split_events""".split(), list(stats)
+truncated_throughput first_rejected adaptive least_spp most_spp rare_bright_paths caustics denoised denoised_relative_error_estimate seconds_denoise denoised_hash sharing threads_from guide_ms guide_lobes split_events""".split(), list(stats)
 assert (stats["scene"], stats["width"], stats["height"]) == ("cornell-box", 40, 30)
 assert stats["spp"] == 4 and stats["samples"] == 4 * 40 * 30
 assert stats["split_events"] == 0  # no glass
