@@ -8,7 +8,10 @@
 namespace tyndall {
 namespace {
 
-constexpr int paths_to_decide = 1000, paths_in_all = 4000;
+// Many paths are traced, because rare sequences of events are found by few of them, and few landings of each sequence
+// are kept, because lobes take more time than paths.
+constexpr int paths_to_decide = 1000, paths_to_find = 32000, copies = 3000;
+constexpr std::size_t max_found = 250;
 
 void fill(const SceneView& scene, Guide& guide) {
   std::vector<Thing> things = list_things(scene);
@@ -18,8 +21,9 @@ void fill(const SceneView& scene, Guide& guide) {
   guide.expected_variance = expected_variance(scene, paths);
   guide.light_paths = paths.traced();
   if (!(guide.expected_variance >= worthwhile_variance)) return;
-  paths.trace_pairs(paths_in_all / 2 - paths_to_decide);
-  paths.trace_copies(paths_in_all / 2);
+  paths.trace_pairs(paths_to_find - paths_to_decide);
+  paths.thin_out(max_found);
+  paths.trace_copies(copies);
   guide.light_paths = paths.traced();
   guide.thing_of = paths.thing_of();
   make_cells(scene, paths, guide);

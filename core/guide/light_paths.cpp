@@ -344,10 +344,30 @@ void LightPaths::copy(const std::vector<std::size_t>& landed, int count) {
   for (std::size_t i = before; i < landings_.size(); ++i) landings_[i].weight *= (1 - kept) * old_sum / new_sum;
 }
 
-void LightPaths::trace_copies(int count) {
+std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>> LightPaths::by_events() const {
   std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>> sequences;
   for (std::size_t i = 0; i < landings_.size(); ++i)
     sequences[{landings_[i].events.high, landings_[i].events.low}].push_back(i);
+  return sequences;
+}
+
+void LightPaths::thin_out(std::size_t most) {
+  std::vector<std::size_t> kept;
+  for (const auto& [events, landed] : by_events()) {
+    const std::size_t step = (landed.size() + most - 1) / most;
+    double all = 0, sum = 0;
+    for (const std::size_t i : landed) all += landings_[i].weight;
+    for (std::size_t j = 0; j < landed.size(); j += step) sum += landings_[landed[j]].weight;
+    for (std::size_t j = 0; j < landed.size(); j += step)
+      landings_[landed[j]].weight *= all / sum, kept.push_back(landed[j]);
+  }
+  std::sort(kept.begin(), kept.end());
+  for (std::size_t k = 0; k < kept.size(); ++k) landings_[k] = landings_[kept[k]], starts_[k] = starts_[kept[k]];
+  landings_.resize(kept.size()), starts_.resize(kept.size());
+}
+
+void LightPaths::trace_copies(int count) {
+  const auto sequences = by_events();
   const auto root_of = [&](const std::vector<std::size_t>& landed) {
     double sum = 0;
     for (const std::size_t i : landed) sum += landings_[i].weight;

@@ -2,6 +2,8 @@
 #include "core/guide/things.h"
 
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 /// Light paths from the middles of lights over near-specular surfaces to diffuse ones. They are traced in double, with
@@ -32,6 +34,8 @@ class LightPaths {
 
   /// Traces about `count` paths, spread evenly over pairs of a light and a thing.
   void trace_pairs(int count);
+  /// Keeps about `most` of the landings after each sequence of events, evenly chosen, with their power.
+  void thin_out(std::size_t most);
   /// Traces about `count` copies of the paths that have landed, rotated a little, and spreads them over sequences of
   /// events by the roots of their powers.
   void trace_copies(int count);
@@ -76,6 +80,7 @@ class LightPaths {
   bool name_events(const OrderedEvents<double>* wanted, Landing& landing) const;
   void land(Vec3d point, const OrderedEvents<double>* wanted);
   void copy(const std::vector<std::size_t>& landed, int count);
+  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>> by_events() const;  ///< indices of landings
 
   const SceneView& scene_;
   std::vector<Thing> things_;
