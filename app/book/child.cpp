@@ -87,9 +87,9 @@ struct ProcessStart {
   std::string folder;
 };
 
-std::vector<char*> pointers(std::vector<std::string>& words) {
+std::vector<char*> pointers(std::vector<std::string>& arguments) {
   std::vector<char*> all;
-  for (std::string& word : words) all.push_back(word.data());
+  for (std::string& word : arguments) all.push_back(word.data());
   all.push_back(nullptr);
   return all;
 }

@@ -72,8 +72,8 @@ bool is_about_ours(const std::string& message, const ProgramLayout& layout) {
   for (const OwnHeader& header : layout.replaced)
     for (const Definition& one : header.definitions)
       if (one.name == quoted_name(message)) return true;
-  for (const char* words : {"no member named", "no matching"})
-    if (!layout.replaced.empty() && message.find(words) != std::string::npos) return true;
+  for (const char* phrase : {"no member named", "no matching"})
+    if (!layout.replaced.empty() && message.find(phrase) != std::string::npos) return true;
   return false;
 }
 
@@ -98,9 +98,9 @@ std::string undefined_reference(const std::vector<std::string>& lines) {
 std::vector<std::vector<std::string>> compilers(const std::string& wanted) {
   if (!wanted.empty()) return {{wanted}};
   const char* chosen = std::getenv("CXX");
-  std::istringstream words(chosen ? chosen : "");
+  std::istringstream chosen_words(chosen ? chosen : "");
   std::vector<std::string> command;
-  for (std::string word; words >> word;) command.push_back(word);
+  for (std::string word; chosen_words >> word;) command.push_back(word);
   if (!command.empty()) return {command};
   return {{"c++"}, {"g++"}, {"clang++"}};
 }

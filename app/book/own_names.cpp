@@ -16,11 +16,11 @@ constexpr const char* vec3_members = "TYNDALL_BOOK_VEC3_MEMBERS";
 
 /// Whether a message of GCC's or Clang's is about a name that is declared nowhere.
 bool is_about_missing_name(const std::string& message) {
-  for (const char* words :
+  for (const char* phrase :
        {"was not declared", "has not been declared", "does not name a type", "is not a class",
         "there are no arguments to", "undeclared identifier", "unknown type name", "no template named",
         "expected class name", "expected class-name", "expected type-specifier"})
-    if (message.find(words) != std::string::npos) return true;
+    if (message.find(phrase) != std::string::npos) return true;
   return false;
 }
 

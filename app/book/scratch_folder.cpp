@@ -45,7 +45,7 @@ void ScratchFolder::write(const fs::path& name, const std::string& text) const {
 
 void write_text(const fs::path& file, const std::string& text) {
   std::error_code error;
-  fs::create_directories(file.parent_path(), error);
+  if (file.has_parent_path()) fs::create_directories(file.parent_path(), error);
   errno = 0;
   std::ofstream out(file, std::ios::binary);
   out << text << std::flush;

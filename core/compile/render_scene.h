@@ -106,14 +106,14 @@ struct BackgroundColumns {
 };
 
 /// By what light sampling draws directions to the sky's picture: cells of about equal height and width, of which each
-/// is drawn with a probability that is a whole number of `units`. See core/trace/sky.h.
+/// is drawn with a probability that is a whole number of `draws`. See core/trace/sky.h.
 struct SkyDistribution {
-  static constexpr std::int32_t units = 1 << 24;  ///< as many values as a random number has
+  static constexpr std::int32_t draws = 1 << 24;  ///< as many values as a random number has
   int rows = 0;                                   ///< of cells, from the top; 0: the sky is black
   int rows_per_texel = 2;                         ///< even, so that no cell reaches beyond the middle of a texel
-  std::vector<std::int32_t> row_ends;             ///< rows + 1: where the units of each row begin
+  std::vector<std::int32_t> row_ends;             ///< rows + 1: where the draws of each row begin
   std::vector<std::int32_t> column_ends;          ///< width + 1 for each row: where those of each of its cells begin
-  float to_unit = 1;                              ///< power of two that brings the largest component to about 1
+  float to_one = 1;                               ///< power of two that brings the largest component to about 1
   double irradiance = 0;  ///< integral of the largest component over all directions, without the sky's scale
   /// Fraction of all directions that a sky of one radiance would fill that has the same integrals of the largest
   /// component and of its square: 1 if all directions are as bright, near that of the sun if it gives most of the
@@ -122,8 +122,8 @@ struct SkyDistribution {
 };
 /// Luminance (Rec.709) of a sky's texel, in units in which the brightest is about 1.
 template <class F>
-TYNDALL_INLINE F sky_luminance(Vec3<F> rgb, F to_unit) {
-  return to_unit * rgb.x * F(0.2126f) + to_unit * rgb.y * F(0.7152f) + to_unit * rgb.z * F(0.0722f);
+TYNDALL_INLINE F sky_luminance(Vec3<F> rgb, F to_one) {
+  return to_one * rgb.x * F(0.2126f) + to_one * rgb.y * F(0.7152f) + to_one * rgb.z * F(0.0722f);
 }
 
 /// The picture of the sky.

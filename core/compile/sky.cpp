@@ -10,26 +10,26 @@ namespace {
 
 constexpr int min_rows = 128;  // so that few rows of texels still follow the sine of the polar angle
 
-/// Shares SkyDistribution::units among cells in proportion to their weights. Returns where each cell's units begin, and
-/// behind the last cell where all end. A cell of positive weight gets at least one unit, so that it can be drawn; the
+/// Shares SkyDistribution::draws among cells in proportion to their weights. Returns where each cell's draws begin, and
+/// behind the last cell where all end. A cell of positive weight gets at least one draw, so that it can be drawn; the
 /// rest of the division goes to the largest one.
 void append_ends(const std::vector<double>& weights, std::vector<std::int32_t>& out) {
   double total = 0;
   std::int64_t lit = 0;
   for (const double w : weights) total += w, lit += w > 0 ? 1 : 0;
-  std::vector<std::int64_t> units(weights.size(), 0);
-  std::int64_t rest = SkyDistribution::units;
+  std::vector<std::int64_t> counts(weights.size(), 0);
+  std::int64_t rest = SkyDistribution::draws;
   for (std::size_t i = 0; i < weights.size(); ++i) {
     if (!(weights[i] > 0)) continue;
-    const double even = std::floor(weights[i] / total * static_cast<double>(SkyDistribution::units - lit));
-    units[i] = 1 + static_cast<std::int64_t>(even);
-    rest -= units[i];
+    const double even = std::floor(weights[i] / total * static_cast<double>(SkyDistribution::draws - lit));
+    counts[i] = 1 + static_cast<std::int64_t>(even);
+    rest -= counts[i];
   }
   if (lit > 0)
-    units[static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin())] += rest;
+    counts[static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin())] += rest;
   std::int64_t end = 0;
   out.push_back(0);
-  for (const std::int64_t own : units) out.push_back(static_cast<std::int32_t>(end += own));
+  for (const std::int64_t own : counts) out.push_back(static_cast<std::int32_t>(end += own));
 }
 
 double sine_of_row(int row, int rows) {
@@ -49,7 +49,7 @@ class DistributionBuilder {
     if (!(largest > 0)) return {};
     int exponent = 0;
     std::frexp(largest, &exponent);
-    out_.to_unit = std::ldexp(1.0f, -std::clamp(exponent, -126, 126));
+    out_.to_one = std::ldexp(1.0f, -std::clamp(exponent, -126, 126));
     std::vector<double> rows, columns(static_cast<std::size_t>(pixels_.width));
     out_.column_ends.reserve(static_cast<std::size_t>(out_.rows) * (columns.size() + 1));
     for (int row = 0; row < out_.rows; ++row) {
@@ -71,7 +71,7 @@ class DistributionBuilder {
   }
   double luminance(int x, int y) const {
     const float* rgb = texel(x, y);
-    return static_cast<double>(sky_luminance(Vec3f{rgb[0], rgb[1], rgb[2]}, out_.to_unit));
+    return static_cast<double>(sky_luminance(Vec3f{rgb[0], rgb[1], rgb[2]}, out_.to_one));
   }
 
   /// The mean luminance of each cell of a row: that in its middle, because luminance is bilinear in it.
@@ -96,14 +96,14 @@ class DistributionBuilder {
       double row = 0, row_squares = 0;
       for (int x = 0; x < pixels_.width; ++x) {
         const float* rgb = texel(x, y);
-        const double own = static_cast<double>(out_.to_unit) * static_cast<double>(std::max({rgb[0], rgb[1], rgb[2]}));
+        const double own = static_cast<double>(out_.to_one) * static_cast<double>(std::max({rgb[0], rgb[1], rgb[2]}));
         row += own, row_squares += own * own;
       }
       const double sine = sine_of_row(y, pixels_.height);
       sum += row * sine, squares += row_squares * sine;
     }
     const double texel_angle = 2 * pi * pi / pixels_.width / pixels_.height;  // times the sine, in steradians
-    out_.irradiance = sum * texel_angle / static_cast<double>(out_.to_unit);
+    out_.irradiance = sum * texel_angle / static_cast<double>(out_.to_one);
     out_.spread = std::min(1.0, sum * sum * texel_angle / (squares * 4 * pi));
   }
 
@@ -118,8 +118,8 @@ SkyColumns sky_columns(const Background& background, bool is_sampled, const SkyC
   const auto* sky = std::get_if<SkyPicture>(&background);
   if (!sky) return out;
   out.pixels = sky->pixels;
-  const double turn = sky->rotate_y * (pi / 180);
-  out.cos = static_cast<float>(std::cos(turn)), out.sin = static_cast<float>(std::sin(turn));
+  const double rotation = sky->rotate_y * (pi / 180);
+  out.cos = static_cast<float>(std::cos(rotation)), out.sin = static_cast<float>(std::sin(rotation));
   out.scale = static_cast<float>(sky->scale);
   if (!is_sampled) return out;
   const bool kept = before && before->distribution && before->pixels == out.pixels;

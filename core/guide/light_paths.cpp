@@ -351,10 +351,12 @@ std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>> LightP
   return sequences;
 }
 
-void LightPaths::thin_out(std::size_t most) {
+void LightPaths::thin_out(std::size_t count) {
   std::vector<std::size_t> kept;
-  for (const auto& [events, landed] : by_events()) {
-    const std::size_t step = (landed.size() + most - 1) / most;
+  const auto sequences = by_events();
+  const std::size_t each = std::max<std::size_t>(count / std::max<std::size_t>(sequences.size(), 1), 10);
+  for (const auto& [events, landed] : sequences) {
+    const std::size_t step = (landed.size() + each - 1) / each;
     double all = 0, sum = 0;
     for (const std::size_t i : landed) all += landings_[i].weight;
     for (std::size_t j = 0; j < landed.size(); j += step) sum += landings_[landed[j]].weight;

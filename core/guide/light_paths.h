@@ -34,8 +34,9 @@ class LightPaths {
 
   /// Traces about `count` paths, spread evenly over pairs of a light and a thing.
   void trace_pairs(int count);
-  /// Keeps about `most` of the landings after each sequence of events, evenly chosen, with their power.
-  void thin_out(std::size_t most);
+  /// Keeps about `count` landings, evenly chosen, with their power: as many of each sequence of events, where there are
+  /// so many, but at least 10.
+  void thin_out(std::size_t count);
   /// Traces about `count` copies of the paths that have landed, rotated a little, and spreads them over sequences of
   /// events by the roots of their powers.
   void trace_copies(int count);

@@ -89,10 +89,10 @@ SkyView view_of(const SkyColumns& s) {
   v.texels = s.pixels->rgb.data(), v.width = s.pixels->width, v.height = s.pixels->height;
   v.cos = s.cos, v.sin = s.sin, v.scale = s.scale, v.irradiance = s.irradiance;
   v.sampled = s.is_sampled();
-  v.rows_per_texel = 2, v.rows = 2 * v.height, v.to_unit = 1;
+  v.rows_per_texel = 2, v.rows = 2 * v.height, v.to_one = 1;
   if (!v.sampled) return v;
   const SkyDistribution& d = *s.distribution;
-  v.rows = d.rows, v.rows_per_texel = d.rows_per_texel, v.to_unit = d.to_unit;
+  v.rows = d.rows, v.rows_per_texel = d.rows_per_texel, v.to_one = d.to_one;
   v.row_step = largest_power_of_two(d.rows), v.column_step = largest_power_of_two(v.width);
   v.row_ends = d.row_ends.data(), v.column_ends = d.column_ends.data();
   return v;

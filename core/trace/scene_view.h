@@ -51,7 +51,7 @@ struct SkyView {
   bool sampled = false;                             ///< as a light
   int rows, rows_per_texel, row_step, column_step;  ///< steps: the largest powers of two up to rows and width
   const std::int32_t *row_ends, *column_ends;
-  float cos, sin, scale, irradiance, to_unit;
+  float cos, sin, scale, irradiance, to_one;
 };
 
 struct SpecularView {

@@ -61,12 +61,12 @@ TYNDALL_INLINE SkySample<F> sky_in_cell(const SkyView& sky, const SkyCell<F>& ce
   out.pdf = F(0.0f);
   if (!sky.sampled) return out;
   const auto part = [](const std::int32_t* ends, I at) __attribute__((always_inline)) {
-    return from_int<F>(gather_int<F>(ends, at + I(1)) - gather_int<F>(ends, at)) * F(1.0f / SkyDistribution::units);
+    return from_int<F>(gather_int<F>(ends, at + I(1)) - gather_int<F>(ends, at)) * F(1.0f / SkyDistribution::draws);
   };
   const F probability = part(sky.row_ends, cell.row) * part(sky.column_ends, cell.row * I(sky.width + 1) + cell.column);
-  const F unit = splat<F>(sky.to_unit), own = sky_luminance(colour, unit);
-  const F mean = F(0.25f) * (sky_luminance(cell.above_left, unit) + sky_luminance(cell.above_right, unit) +
-                             sky_luminance(cell.below_left, unit) + sky_luminance(cell.below_right, unit));
+  const F scale = splat<F>(sky.to_one), own = sky_luminance(colour, scale);
+  const F mean = F(0.25f) * (sky_luminance(cell.above_left, scale) + sky_luminance(cell.above_right, scale) +
+                             sky_luminance(cell.below_left, scale) + sky_luminance(cell.below_right, scale));
   const F cells =
       splat<F>(static_cast<float>(sky.width) * static_cast<float>(sky.rows) * static_cast<float>(0.5 / (pi * pi)));
   const F pdf = cells * probability * (own / max(mean, F(1e-37f))) / max(sine, F(1e-12f));
@@ -94,13 +94,13 @@ TYNDALL_INLINE SkySample<F> sky_towards(const SkyView& sky, Vec3<F> direction) {
   return out;
 }
 
-/// The cell, and the place in it, in [0, 1], that a random number k of SkyDistribution::units values chooses. step: the
+/// The cell, and the place in it, in [0, 1], that a random number k of SkyDistribution::draws values chooses. step: the
 /// largest power of two up to `count`. jitter: the place within the step of the random number.
 template <class F>
 TYNDALL_INLINE void choose_cell(const std::int32_t* ends, IntOf<F> base, int count, int step, F u, F jitter,
                                 IntOf<F>& cell, F& place) {
   using I = IntOf<F>;
-  const I k = to_int(u * F(static_cast<float>(SkyDistribution::units)));
+  const I k = to_int(u * F(static_cast<float>(SkyDistribution::draws)));
   cell = I(0);
   for (; step > 0; step /= 2) {
     const I further = cell + I(step), probe = select(less(further, I(count)), further, I(count));
@@ -128,9 +128,9 @@ TYNDALL_INLINE SkySample<F> sample_sky(const SkyView& sky, const Sampler<F>& sam
   choose_cell<F>(sky.column_ends, row * I(sky.width + 1), sky.width, sky.column_step, u.x,
                  sampler.independent_1d(dimension::sky_place + 1), column, x);
   const SkyCell<F> cell = load_sky_cell<F>(sky, row, column);
-  const F unit = splat<F>(sky.to_unit);
-  const F al = sky_luminance(cell.above_left, unit), ar = sky_luminance(cell.above_right, unit),
-          bl = sky_luminance(cell.below_left, unit), br = sky_luminance(cell.below_right, unit);
+  const F scale = splat<F>(sky.to_one);
+  const F al = sky_luminance(cell.above_left, scale), ar = sky_luminance(cell.above_right, scale),
+          bl = sky_luminance(cell.below_left, scale), br = sky_luminance(cell.below_right, scale);
   const F t = draw_linear(y, al + ar, bl + br);
   const F s = draw_linear(x, mul_add(t, bl - al, al), mul_add(t, br - ar, ar));
   const F from_left = (from_int<F>(column) + s + F(0.5f)) * splat<F>(1 / static_cast<float>(sky.width));
@@ -138,9 +138,9 @@ TYNDALL_INLINE SkySample<F> sample_sky(const SkyView& sky, const Sampler<F>& sam
   const SinCos<F> polar =
       sin_cos_2pi(F(0.5f) * min((from_int<F>(row) + t) * splat<F>(1 / static_cast<float>(sky.rows)), F(1.0f)));
   SkySample<F> out = sky_in_cell(sky, cell, s, t, max(polar.sin, F(0.0f)));
-  const F across = -polar.sin * around.sin, along = polar.sin * around.cos;  // x and z before the sky's turn
+  const F across = -polar.sin * around.sin, ahead = polar.sin * around.cos;  // x and z before the sky's turn
   const F c = splat<F>(sky.cos), si = splat<F>(sky.sin);
-  out.direction = {mul_add(c, across, si * along), polar.cos, mul_add(c, along, -(si * across))};
+  out.direction = {mul_add(c, across, si * ahead), polar.cos, mul_add(c, ahead, -(si * across))};
   return out;
 }
 
@@ -163,8 +163,8 @@ TYNDALL_INLINE F sky_probability(const auto& s, Vec3<F> point) {
   if (l.count <= max_lights_by_contribution) {
     others = total_worth(l, point);
   } else {
-    const Vec3<F> way = splat<F>(Vec3f{l.tree.center[0][0], l.tree.center[1][0], l.tree.center[2][0]}) - point;
-    others = splat<F>(l.tree.power[0]) / max(dot(way, way), splat<F>(l.tree.reach2[0]));
+    const Vec3<F> to_root = splat<F>(Vec3f{l.tree.center[0][0], l.tree.center[1][0], l.tree.center[2][0]}) - point;
+    others = splat<F>(l.tree.power[0]) / max(dot(to_root, to_root), splat<F>(l.tree.reach2[0]));
   }
   const F own = splat<F>(s.sky.irradiance);
   return min(max(own / max(own + others, F(1e-37f)), F(min_sky)), F(1 - min_sky));

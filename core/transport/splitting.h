@@ -32,10 +32,10 @@ TYNDALL_INLINE MaskOf<F> split_at_glass(const auto& s, Paths<F>& p, const Event<
   const auto none = less(one, zero);
   if (!s.has_splitting()) return none;
   const auto at_glass = mask_and(mask_and(on, e.surface), has_trait<&BsdfTraits::smooth_boundary>(s, e.kind));
-  const F most = max_component(carried);
+  const F brightest = max_component(carried);
   static_assert(min_branch >= min_carried);
   auto lanes = mask_and(mask_and(at_glass, mask_from_bits<F>(p.straight)), less(p.depth, IntOf<F>(max_splits)));
-  lanes = mask_and(lanes, less_equal(F(min_branch + min_carried), most));
+  lanes = mask_and(lanes, less_equal(F(min_branch + min_carried), brightest));
   if (s.has_specular_paths()) lanes = mask_and_not(lanes, p.route.is_set());
   if (!any(lanes)) return none;
   const Boundary<F> b = boundary_any(s, e.at.material, e.incident);
@@ -43,7 +43,7 @@ TYNDALL_INLINE MaskOf<F> split_at_glass(const auto& s, Paths<F>& p, const Event<
   const auto reflects = less(F(0.5f), b.reflected);
   // By the same number scatter() has chosen a way: paths that do not split here go the way of more light already.
   const F u = p.sampler.next_1d(dimension::lobe), past_lesser = select(reflects, F(1.0f - 0x1p-24f) - u, u);
-  const F probability = min(lesser * (F(1 / min_branch) * most), one);
+  const F probability = min(lesser * (F(1 / min_branch) * brightest), one);
   const auto splits = mask_and(lanes, less(past_lesser, probability));
   if (!any(splits)) return none;
   const F part = lesser / max(probability, F(1e-30f));

@@ -120,9 +120,9 @@ TEST_CASE("sky: the dark texels beside a sun of a million times their radiance a
   const SkyDistribution& d = *viewed.columns.distribution;
   const std::size_t stride = 65, row = 9 * 2;
   for (int x = 0; x < 64; ++x) CHECK(d.column_ends[row * stride + x] < d.column_ends[row * stride + x + 1]);
-  CHECK(d.column_ends[row * stride + 64] == SkyDistribution::units);
+  CHECK(d.column_ends[row * stride + 64] == SkyDistribution::draws);
   CHECK(d.row_ends[0] == 0);
-  CHECK(d.row_ends.back() == SkyDistribution::units);
+  CHECK(d.row_ends.back() == SkyDistribution::draws);
   CHECK(d.spread < 1e-3);
   CHECK(ViewedSky(uniform_sky(16, 8, 5)).columns.distribution->spread == doctest::Approx(1).epsilon(0.02));
 }

@@ -101,7 +101,7 @@ TEST_CASE("cases: every one of the table that comes with Tyndall has a scene tha
   }
   for (const auto& entry : std::filesystem::directory_iterator(assets_folder() / "verify")) {
     CAPTURE(entry.path().string());
-    if (entry.path().filename() == "cases.json") continue;
+    if (entry.path().filename() == "cases.json" || entry.path().extension() == ".hdr") continue;  // no scenes
     CHECK(used.count(entry.path().filename()) == 1);
     CHECK_NOTHROW(load_scene(entry.path().string()));
   }

@@ -52,7 +52,7 @@ struct probe_material : material {
 
 inline bool LoopProbe::take_hit(const hittable& world, hit_record& record) {
   constexpr long limit = 5000;  // of calls within each other: the stack has room for as many
-  if (!is_asked() || known_ == pixel_count) return false;
+  if (!is_probing_thread() || known_ == pixel_count) return false;
   check_progress();
   if (!world_) world_ = &world;
   if (world_ != &world) refuse("ray_color() in main() asks several objects for hits: Tyndall takes over one world");
@@ -109,7 +109,7 @@ inline void LoopProbe::take_pixel(const vec3& mean, bool coarse, std::ostream* o
   if (done_) return;
   if (is_known_ || known_ == pixel_count) return hand_over(out);
   if (by_sums_) return follow_words();
-  if (rays_ > 0 && asked_thread_.load() != std::this_thread::get_id()) return;
+  if (rays_ > 0 && probing_thread_.load() != std::this_thread::get_id()) return;
   empty_pixels_ = empty_pixels_ || (rays_ == 0 && hits_ == 0);
   if (rays_ == 0 && hits_ == 0) return;
   if (counts_) return forget_pixel();  // it says where pixels end, so that nothing needs to be counted

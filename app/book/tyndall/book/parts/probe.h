@@ -42,7 +42,7 @@ class LoopProbe {
   double reflected();
 
  private:
-  bool is_asked();
+  bool is_probing_thread();
   void check_time();
   void check_progress();
   void check_pixel();
@@ -61,7 +61,7 @@ class LoopProbe {
   camera_values camera_;
   const camera* seen_camera_ = nullptr;
   const hittable* world_ = nullptr;
-  std::atomic<std::thread::id> asked_thread_{};
+  std::atomic<std::thread::id> probing_thread_{};
   std::clock_t begin_ = 0;
   std::chrono::steady_clock::time_point wall_begin_;
   int known_ = 0;                                           ///< pixels
@@ -86,11 +86,11 @@ class LoopProbe {
 
 /// Whether the thread is the one that is asked. Others wait until all is known, and so does it from then on go on by
 /// itself.
-inline bool LoopProbe::is_asked() {
+inline bool LoopProbe::is_probing_thread() {
   if (is_known_) return false;
   std::thread::id nobody{};
   const std::thread::id self = std::this_thread::get_id();
-  if (asked_thread_.compare_exchange_strong(nobody, self) || nobody == self) return true;
+  if (probing_thread_.compare_exchange_strong(nobody, self) || nobody == self) return true;
   constexpr std::chrono::seconds patience(10);
   const auto begin = std::chrono::steady_clock::now();
   while (!is_known_ && std::chrono::steady_clock::now() - begin < patience)
@@ -126,7 +126,7 @@ inline void LoopProbe::check_time() {
 }
 
 inline ray LoopProbe::take_ray(const camera& cam, double u, double v) {
-  if (!is_asked()) {
+  if (!is_probing_thread()) {
     check_time();
     return ray(cam.lookfrom, direction_of(up), cam.shutter_open);
   }
@@ -147,7 +147,7 @@ inline ray LoopProbe::take_ray(const camera& cam, double u, double v) {
 }
 
 inline void LoopProbe::take_sum(const vec3& sum, const vec3& added) {
-  if (is_known_ || rays_ == 0 || asked_thread_.load() != std::this_thread::get_id()) return;
+  if (is_known_ || rays_ == 0 || probing_thread_.load() != std::this_thread::get_id()) return;
   sums_.take(sum, added);
 }
 
