@@ -13,7 +13,8 @@ namespace tyndall::test::memory_test {
 
 namespace {
 
-const std::string text = R"({"tyndall": 1, "image": {"width": 16, "height": 12},
+// Without chains: to make a guide for each refused request would take a minute.
+const std::string text = R"({"tyndall": 1, "image": {"width": 16, "height": 12}, "render": {"caustics": "scatter"},
   "camera": {"look_from": [0, 1, 4], "look_at": [0, 0.5, 0]},
   "materials": {"white": {"type": "lambertian", "albedo": [0.7, 0.7, 0.7]},
                 "lamp": {"type": "light", "radiance": [5, 5, 5]},
