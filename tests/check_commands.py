@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Fails when a page of the project (*.md) or a text of --help shows a command that does not work.
 
-Usage: check_commands.py TYNDALL SCRATCH ROOT   TYNDALL: the program; SCRATCH: a folder to work in; ROOT: of the sources
+Usage: check_commands.py TYNDALL SCRATCH ROOT [PAGE]
+TYNDALL: the program; SCRATCH: a folder to work in; ROOT: of the sources; PAGE: the only page to check
 
 Commands are the lines of blocks that are fenced as "sh", the pieces of code in the text that begin with "tyndall" or
 "./run", and the examples of "tyndall COMMAND --help". They run in the order in which a page shows them, in a folder of the
@@ -203,16 +204,16 @@ class Commands:
             yield f"{option} is no option of any command"
 
 
-def check(tyndall, scratch, root):
+def check(tyndall, scratch, root, only=None):
     commands = Commands(tyndall, scratch, root)
     problems = []
-    for page in list_pages(root):
+    for page in [only] if only else list_pages(root):
         name, text = str(page.relative_to(root)), page.read_text(encoding="utf-8")
         problems += [f"{name}: {problem}" for problem in commands.unknown_options(text)]
         commands.start_page(scratch, name)
         for command in commands_of(text):
             problems += [f"{name}: {command}: {problem}" for problem in commands.check(command)]
-    for name, text in commands.help.items():
+    for name, text in {} if only else commands.help.items():
         commands.start_page(scratch, "help-" + name)
         for example in re.findall(r"^  (tyndall .*)$", text, re.MULTILINE):
             problems += [f"tyndall {name} --help: {example}: {problem}" for problem in commands.check(example)]
