@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Looking closer: the inspector and the path that makes a pixel noisy, zoom, a rectangle that is refined first, legends,
-# false colour, the histogram. (What tone curves show: what_is_saved.sh.)
+# false colour, the histogram. (What tone curves show: what_is_saved_slow.sh.)
 . "$(dirname "$0")/_lib.sh"
 
 picture_is_wide() { # PIXELS
