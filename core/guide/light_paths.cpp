@@ -17,6 +17,7 @@ constexpr double min_reflected = 0.15;  // probability with which a light path i
 constexpr double angle_step = 1e-5;     // of nearby rays, radian
 constexpr double move_step = 1e-3;      // of nearby rays, in radii of their light
 constexpr double focus = 1e-11;         // area of a wave front per steradian, over the flight's squared length
+constexpr std::size_t min_kept = 10;    // landings of each sequence, where there are so many
 constexpr double copy_spread = 2;       // copies are rotated by up to this times the distance between light paths
 
 double at(const float* column, int i) { return static_cast<double>(column[i]); }
@@ -344,24 +345,29 @@ void LightPaths::copy(const std::vector<std::size_t>& landed, int count) {
   for (std::size_t i = before; i < landings_.size(); ++i) landings_[i].weight *= (1 - kept) * old_sum / new_sum;
 }
 
-std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>> LightPaths::by_events() const {
-  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>> sequences;
-  for (std::size_t i = 0; i < landings_.size(); ++i)
-    sequences[{landings_[i].events.high, landings_[i].events.low}].push_back(i);
-  return sequences;
+std::vector<LightPaths::SequenceLandings> LightPaths::by_events() const {
+  std::map<std::pair<std::int32_t, std::int32_t>, SequenceLandings> sequences;
+  for (std::size_t i = 0; i < landings_.size(); ++i) {
+    SequenceLandings& sequence = sequences[{landings_[i].events.high, landings_[i].events.low}];
+    sequence.landed.push_back(i), sequence.power += landings_[i].weight;
+  }
+  std::vector<SequenceLandings> list;
+  double roots = 0;
+  for (auto& [events, sequence] : sequences) roots += std::sqrt(sequence.power), list.push_back(std::move(sequence));
+  for (SequenceLandings& sequence : list) sequence.fraction = std::sqrt(sequence.power) / roots;
+  return list;
 }
 
 void LightPaths::thin_out(std::size_t count) {
   std::vector<std::size_t> kept;
-  const auto sequences = by_events();
-  const std::size_t each = std::max<std::size_t>(count / std::max<std::size_t>(sequences.size(), 1), 10);
-  for (const auto& [events, landed] : sequences) {
-    const std::size_t step = (landed.size() + each - 1) / each;
-    double all = 0, sum = 0;
-    for (const std::size_t i : landed) all += landings_[i].weight;
-    for (std::size_t j = 0; j < landed.size(); j += step) sum += landings_[landed[j]].weight;
+  for (const SequenceLandings& sequence : by_events()) {
+    const std::vector<std::size_t>& landed = sequence.landed;
+    const auto wanted = static_cast<std::size_t>(sequence.fraction * static_cast<double>(count));
+    const std::size_t most = std::max(wanted, min_kept), step = (landed.size() + most - 1) / most;
+    double power = 0;
+    for (std::size_t j = 0; j < landed.size(); j += step) power += landings_[landed[j]].weight;
     for (std::size_t j = 0; j < landed.size(); j += step)
-      landings_[landed[j]].weight *= all / sum, kept.push_back(landed[j]);
+      landings_[landed[j]].weight *= sequence.power / power, kept.push_back(landed[j]);
   }
   std::sort(kept.begin(), kept.end());
   for (std::size_t k = 0; k < kept.size(); ++k) landings_[k] = landings_[kept[k]], starts_[k] = starts_[kept[k]];
@@ -369,15 +375,8 @@ void LightPaths::thin_out(std::size_t count) {
 }
 
 void LightPaths::trace_copies(int count) {
-  const auto sequences = by_events();
-  const auto root_of = [&](const std::vector<std::size_t>& landed) {
-    double sum = 0;
-    for (const std::size_t i : landed) sum += landings_[i].weight;
-    return std::sqrt(sum);
-  };
-  double total = 0;
-  for (const auto& [events, landed] : sequences) total += root_of(landed);
-  for (const auto& [events, landed] : sequences) copy(landed, static_cast<int>(count * root_of(landed) / total));
+  for (const SequenceLandings& sequence : by_events())
+    copy(sequence.landed, static_cast<int>(count * sequence.fraction));
 }
 
 }  // namespace tyndall

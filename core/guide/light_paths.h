@@ -2,8 +2,6 @@
 #include "core/guide/things.h"
 
 #include <cstdint>
-#include <map>
-#include <utility>
 #include <vector>
 
 /// Light paths from the middles of lights over near-specular surfaces to diffuse ones. They are traced in double, with
@@ -34,8 +32,8 @@ class LightPaths {
 
   /// Traces about `count` paths, spread evenly over pairs of a light and a thing.
   void trace_pairs(int count);
-  /// Keeps about `count` landings, evenly chosen, with their power: as many of each sequence of events, where there are
-  /// so many, but at least 10.
+  /// Keeps about `count` landings, evenly chosen, with their power, and spreads them over sequences of events as
+  /// trace_copies() does, with at least ten of each sequence that has so many.
   void thin_out(std::size_t count);
   /// Traces about `count` copies of the paths that have landed, rotated a little, and spreads them over sequences of
   /// events by the roots of their powers.
@@ -54,6 +52,12 @@ class LightPaths {
     double power = 0;        ///< sent into it, by the radiance in this direction
     int light = 0, thing = 0;
     double time = 0;
+  };
+  /// The landings after one sequence of events.
+  struct SequenceLandings {
+    std::vector<std::size_t> landed;  ///< their indices
+    double power = 0;                 ///< sum of their weights
+    double fraction = 0;              ///< root of the power, over the sum of these roots of all sequences
   };
   struct NearbyRay {
     Vec3d origin, direction;
@@ -81,7 +85,7 @@ class LightPaths {
   bool name_events(const OrderedEvents<double>* wanted, Landing& landing) const;
   void land(Vec3d point, const OrderedEvents<double>* wanted);
   void copy(const std::vector<std::size_t>& landed, int count);
-  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>> by_events() const;  ///< indices of landings
+  std::vector<SequenceLandings> by_events() const;
 
   const SceneView& scene_;
   std::vector<Thing> things_;
