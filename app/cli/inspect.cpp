@@ -115,7 +115,7 @@ std::string named(const Report& report, const std::vector<std::int32_t>& element
   return text + (elements.size() > maximum ? ", ..." : "");
 }
 
-/// Why a scene has neither chains nor splitting; null: its settings allow both.
+/// Why a scene has no chains, and so neither splitting nor a guide; null: its settings allow them.
 const char* no_caustics_text(const RenderSettings& render) {
   if (render.caustics == Caustics::scatter) return "none: caustics are left to scattering";
   if (render.integrator != Integrator::mis) return "none: they are a part of integrator mis";
@@ -169,10 +169,7 @@ std::string splitting_text(const Report& report) {
 /// Whether light is guided over several near-specular surfaces.
 std::string guide_text(const Report& report) {
   const Guide& guide = report.prepared->guide();
-  const RenderSettings& render = report.loaded.scene.render;
-  if (render.caustics == Caustics::scatter || render.integrator != Integrator::mis ||
-      render.fresnel != FresnelKind::exact)
-    return "none: a part of chains, which are off";
+  if (no_caustics_text(report.loaded.scene.render)) return "none: a part of chains, which are off";
   if (report.prepared->columns().sky.pixels) return "none: under a picture of the sky light is not guided";
   if (guide.light_paths == 0) return "none: no lamp, or nothing that is almost a mirror or glass beside something matt";
   const std::string variance = fmt::format(

@@ -52,6 +52,23 @@ void finish_compare(const CLI::App& app, const std::vector<std::string>& images,
   command.scene.program.allowed = true;
 }
 
+/// The options that turn the comparison into a test.
+void add_checks(CLI::App& app, CompareCommand& command) {
+  app.option_defaults()->group("Checks");
+  const auto limit = [&app](const char* name, const char* help, std::optional<double>& value) {
+    add_value(app, name, "X", help, [&value](Text t) { value = read_number(t, at_least(0), "a number >= 0"); });
+  };
+  limit("--max-rmse", "fail if RMSE is above X", command.limits.rmse);
+  limit("--max-relmse", "fail if relMSE is above X", command.limits.rel_mse);
+  limit("--max-flip", "fail if FLIP is above X", command.limits.flip);
+  add_value(app, "--max-z", "Z",
+            "fail if the mean of a channel, a block of 16x16 pixels, or the\n"
+            "number of outliers differs by more than Z standard errors of the\n"
+            "noise that both pictures carry, corrected for the number of tests;\n"
+            "EXR as render writes them, or a.pfm with a.error.pfm",
+            [&](Text t) { command.limits.z = read_number(t, above(0), "a number > 0"); });
+}
+
 }  // namespace
 
 Command read_compare(const std::vector<std::string>& arguments) {
@@ -104,19 +121,7 @@ Command read_compare(const std::vector<std::string>& arguments) {
             "any case [20]",
             [&](Text t) { command.seconds = read_number(t, above(0), "a number of seconds > 0"); });
   add_scene_options(*app, command.scene);
-  app->option_defaults()->group("Checks");
-  const auto limit = [&app](const char* name, const char* help, std::optional<double>& value) {
-    add_value(*app, name, "X", help, [&value](Text t) { value = read_number(t, at_least(0), "a number >= 0"); });
-  };
-  limit("--max-rmse", "fail if RMSE is above X", command.limits.rmse);
-  limit("--max-relmse", "fail if relMSE is above X", command.limits.rel_mse);
-  limit("--max-flip", "fail if FLIP is above X", command.limits.flip);
-  add_value(*app, "--max-z", "Z",
-            "fail if the mean of a channel, a block of 16x16 pixels, or the\n"
-            "number of outliers differs by more than Z standard errors of the\n"
-            "noise that both pictures carry, corrected for the number of tests;\n"
-            "EXR as render writes them, or a.pfm with a.error.pfm",
-            [&](Text t) { command.limits.z = read_number(t, above(0), "a number > 0"); });
+  add_checks(*app, command);
   add_baseline_options(*app, command);
   if (auto help = parse(*app, arguments)) return PrintCommand{*help};
   finish_compare(*app, images, command);
