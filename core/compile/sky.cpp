@@ -1,6 +1,7 @@
 #include "core/compile/sky.h"
 
 #include "core/base/math.h"
+#include "core/compile/flatten.h"
 
 #include <algorithm>
 #include <cmath>
@@ -118,8 +119,8 @@ SkyColumns sky_columns(const Background& background, bool is_sampled, const SkyC
   const auto* sky = std::get_if<SkyPicture>(&background);
   if (!sky) return out;
   out.pixels = sky->pixels;
-  const double rotation = sky->rotate_y * (pi / 180);
-  out.cos = static_cast<float>(std::cos(rotation)), out.sin = static_cast<float>(std::sin(rotation));
+  const Vec3d rotated = rotate({sky->rotate_y, {}}, {1, 0, 0});  // as objects rotate: exact at multiples of 90 degrees
+  out.cos = static_cast<float>(rotated.x), out.sin = static_cast<float>(-rotated.z);
   out.scale = static_cast<float>(sky->scale);
   if (!is_sampled) return out;
   const bool kept = before && before->distribution && before->pixels == out.pixels;

@@ -138,4 +138,13 @@ TEST_CASE("sky: a black one is no light; another scale or turn keeps the distrib
   CHECK(!sky_columns(sky, false, nullptr).is_sampled());
 }
 
+TEST_CASE("sky: turns as objects do, and exactly by right angles") {
+  SkyPicture sky = uniform_sky(4, 2, 1);
+  sky.rotate_y = 90;
+  CHECK(sky_columns(sky, true, nullptr).cos == 0);
+  CHECK(sky_columns(sky, true, nullptr).sin == 1);
+  sky.rotate_y = 30;
+  CHECK(sky_columns(sky, true, nullptr).sin == doctest::Approx(0.5));
+}
+
 }  // namespace tyndall::test::sky_test
