@@ -84,8 +84,8 @@ class LoopProbe {
   scene_text objects_;
 };
 
-/// Whether the thread is the one that is asked. Others wait until all is known, and so does it from then on go on by
-/// itself.
+/// Whether this thread is the one whose pixels are followed: the first that asks. Other threads wait here until all is
+/// known, for 10 seconds at most; from then on no thread is followed.
 inline bool LoopProbe::is_probing_thread() {
   if (is_known_) return false;
   std::thread::id nobody{};
