@@ -208,7 +208,9 @@ void background_panel(Ui& ui, PanelState& state) {
   Background& background = state.scene.background;
   const Background& saved = state.model.saved->background;
   int kind = static_cast<int>(background.index());
-  if (choice_row(ui, {"kind", "Kind", {}, {}, "", "", ""}, sky_choices(background, state.backgrounds), kind))
+  const std::vector<Choice> kinds = sky_choices(background, state.backgrounds);
+  const int columns = kinds.size() > 3 ? 2 : 0;  // the names of four do not fit side by side
+  if (choice_row(ui, {"kind", "Kind", {}, {}, "", "", ""}, kinds, kind, columns))
     set_background_kind(background, kind, state.backgrounds);
   std::visit(Overloaded{[&](Vec3d& constant) {
                           Meaning radiance = colour_meaning("radiance");
