@@ -363,7 +363,7 @@ void LightPaths::thin_out(std::size_t count) {
   for (const SequenceLandings& sequence : by_events()) {
     const std::vector<std::size_t>& landed = sequence.landed;
     const auto wanted = static_cast<std::size_t>(sequence.fraction * static_cast<double>(count));
-    const std::size_t most = std::max(wanted, min_kept), step = (landed.size() + most - 1) / most;
+    const std::size_t quota = std::max(wanted, min_kept), step = (landed.size() + quota - 1) / quota;
     double power = 0;
     for (std::size_t j = 0; j < landed.size(); j += step) power += landings_[landed[j]].weight;
     for (std::size_t j = 0; j < landed.size(); j += step)
