@@ -6,7 +6,7 @@
 #include <doctest/doctest.h>
 
 /// The path loop with a list of materials of the test's own, whose last one the program does not know.
-namespace tyndall::test::longer_list_test {
+namespace tyndall::test::longer_list_slow_test {
 
 namespace {
 
@@ -119,4 +119,4 @@ TEST_CASE("path loop: shadow rays into a ball of ground glass meet its far side,
   CHECK(std::abs(by_scattering.mean - with_shadow_rays.mean) < 4 * error);
 }
 
-}  // namespace tyndall::test::longer_list_test
+}  // namespace tyndall::test::longer_list_slow_test

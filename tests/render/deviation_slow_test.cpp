@@ -7,7 +7,7 @@
 #include <doctest/doctest.h>
 
 /// Paths of single rays through glass spheres, stepped by the path loop itself with dice that choose the way.
-namespace tyndall::test::deviation_test {
+namespace tyndall::test::deviation_slow_test {
 
 namespace {
 
@@ -119,4 +119,4 @@ TEST_CASE("hollow glass ball: a negative radius and a relative index turn rays a
   }
 }
 
-}  // namespace tyndall::test::deviation_test
+}  // namespace tyndall::test::deviation_slow_test
