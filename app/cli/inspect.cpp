@@ -147,10 +147,14 @@ std::string specular_paths_text(const Report& report) {
   };
   add(mirrors, "mirror ball"), add(solid, "glass ball"), add(shells, "glass shell"), add(flat, "flat mirror");
   add(slabs, "pane");
-  const std::string count = counted(static_cast<int>(lights.size()), "lamp");
+  const bool sun = lights.front() < 0;
+  if (sun) lights.erase(lights.begin());
   for (std::int32_t& light : lights) light = report.prepared->columns().lights.element[static_cast<std::size_t>(light)];
-  return text + " (" + named(report, specular.outer) + "), each alone, to " + count + " (" + named(report, lights) +
-         ")" +
+  const std::string lamps =
+      lights.empty() ? "" : counted(static_cast<int>(lights.size()), "lamp") + " (" + named(report, lights) + ")";
+  return text + " (" + named(report, specular.outer) + "), each alone, to " + lamps +
+         (sun ? std::string(lamps.empty() ? "" : " and, but for flat mirrors and panes, to ") + "the sun of the sky"
+              : "") +
          "; with both ends within one ball or shell, too; by chance: ways over two of them, quads of glass, other "
          "boxes of glass, " +
          (outlined ? "triangles and disks of glass or metal (as lamps they take part), " : "") + "and fuzzy metal";
@@ -204,9 +208,10 @@ std::string background_text(const Report& report) {
   if (!report.prepared->columns().sky.is_sampled()) return text + ", found by chance";
   return text +
          fmt::format(
-             ", sampled as a light; as bright as if its light filled {:.2g} of all directions; by chance: through "
+             ", sampled as a light; as bright as if its light filled {:.2g} of all directions; by chance: {}through "
              "and off glass and mirrors",
-             report.prepared->columns().sky.distribution->spread);
+             report.prepared->columns().sky.distribution->spread,
+             report.prepared->columns().specular.sun_pair_of.empty() ? "" : "all but its sun ");
 }
 
 std::string bytes_text(std::size_t bytes) {

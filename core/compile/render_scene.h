@@ -107,6 +107,13 @@ struct BackgroundColumns {
 
 /// By what light sampling draws directions to the sky's picture: cells of about equal height and width, of which each
 /// is drawn with a probability that is a whole number of `draws`. See core/trace/sky.h.
+/// The sun in a picture of the sky, before the sky's turn: a square of directions that holds all its light.
+struct SkySun {
+  Vec3d axis{}, across{}, along{};     ///< unit, at right angles: the square's middle and the directions of its sides
+  double tangent = 0;                  ///< of half the angle from side to side; 0: the picture has no sun
+  double irradiance = 0, squares = 0;  ///< as those of SkyDistribution, of the sun alone
+};
+
 struct SkyDistribution {
   static constexpr std::int32_t draws = 1 << 24;  ///< as many values as a random number has
   int rows = 0;                                   ///< of cells, from the top; 0: the sky is black
@@ -115,10 +122,13 @@ struct SkyDistribution {
   std::vector<std::int32_t> column_ends;          ///< width + 1 for each row: where those of each of its cells begin
   float to_one = 1;                               ///< power of two that brings the largest component to about 1
   double irradiance = 0;  ///< integral of the largest component over all directions, without the sky's scale
+  double squares = 0;     ///< integral of its square
   /// Fraction of all directions that a sky of one radiance would fill that has the same integrals of the largest
   /// component and of its square: 1 if all directions are as bright, near that of the sun if it gives most of the
   /// light.
   double spread = 1;
+  double spread_without_sun = 1;  ///< the same of the sky without `sun`; 1 if nothing else gives light
+  SkySun sun;
 };
 /// Luminance (Rec.709) of a sky's texel, in units in which the brightest is about 1.
 template <class F>
@@ -276,10 +286,11 @@ struct SpecularPairs {
   std::vector<float> mirrors;                    ///< numbers_of_mirror for each flat mirror, see MirrorNumber
   std::vector<float> slabs;                      ///< numbers_of_slab for each slab, see SlabNumber
   // Pairs of a sphere and a light.
-  std::vector<std::int32_t> sphere, light;
-  Lights choice;                        ///< the pairs as what choose_light chooses from
-  std::vector<std::int32_t> pair_of;    ///< by sphere · number of lights + light: the pair, or -1
-  std::vector<std::int32_t> sphere_of;  ///< by element: 2 · sphere + (1: inner sphere), or -1
+  std::vector<std::int32_t> sphere, light;  ///< light: -1 for the sun of the sky's picture
+  Lights choice;                            ///< the pairs as what choose_light chooses from
+  std::vector<std::int32_t> pair_of;        ///< by sphere · number of lights + light: the pair, or -1
+  std::vector<std::int32_t> sphere_of;      ///< by element: 2 · sphere + (1: inner sphere), or -1
+  std::vector<std::int32_t> sun_pair_of;    ///< by sphere: its pair with the sun, or -1; empty: no pair has the sun
 };
 
 /// The variants of the kernels, by the models that they leave out. A scene without these models gives the same picture

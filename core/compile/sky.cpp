@@ -2,6 +2,7 @@
 
 #include "core/base/math.h"
 #include "core/compile/flatten.h"
+#include "core/compile/sun.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,7 +62,10 @@ class DistributionBuilder {
       append_ends(columns, out_.column_ends);
     }
     append_ends(rows, out_.row_ends);
-    sum_brightest();
+    add_up();
+    out_.sun = find_sun(pixels_, out_.irradiance);
+    out_.spread = spread_of(out_.irradiance, out_.squares);
+    out_.spread_without_sun = spread_of(out_.irradiance - out_.sun.irradiance, out_.squares - out_.sun.squares);
     return std::move(out_);
   }
 
@@ -91,7 +95,7 @@ class DistributionBuilder {
     }
   }
 
-  void sum_brightest() {
+  void add_up() {
     double sum = 0, squares = 0;  // of the largest components, in units
     for (int y = 0; y < pixels_.height; ++y) {
       double row = 0, row_squares = 0;
@@ -104,8 +108,12 @@ class DistributionBuilder {
       sum += row * sine, squares += row_squares * sine;
     }
     const double texel_angle = 2 * pi * pi / pixels_.width / pixels_.height;  // times the sine, in steradians
-    out_.irradiance = sum * texel_angle / static_cast<double>(out_.to_one);
-    out_.spread = std::min(1.0, sum * sum * texel_angle / (squares * 4 * pi));
+    const auto to_one = static_cast<double>(out_.to_one);
+    out_.irradiance = sum * texel_angle / to_one, out_.squares = squares * texel_angle / to_one / to_one;
+  }
+
+  static double spread_of(double irradiance, double squares) {
+    return squares > 0 ? std::min(1.0, irradiance * irradiance / (squares * 4 * pi)) : 1;
   }
 
   const Image::Pixels& pixels_;

@@ -76,7 +76,7 @@ void nest(std::vector<Candidate>& list) {
 
 struct SpecularPair {
   int sphere;  // index into the candidates, or behind them into the flat mirrors, or behind those into the slabs
-  int light;
+  int light;   // -1: the sun
   double worth;
 };
 
@@ -115,6 +115,12 @@ Found look_for_all(const Flattened& flat, const Scene& scene) {
   return found;
 }
 
+/// The irradiance by the sun of the sky's picture; 0 if it has none.
+double irradiance_of_sun(const SkyColumns& sky) {
+  if (!sky.is_sampled() || sky.distribution->sun.tangent == 0) return 0;
+  return sky.distribution->sun.irradiance * static_cast<double>(sky.scale);
+}
+
 std::vector<SpecularPair> list_pairs(const Found& found, const RenderScene& compiled) {
   const std::vector<Candidate>& list = found.spheres;
   const std::vector<FlatMirror>& mirrors = found.mirrors;
@@ -125,11 +131,15 @@ std::vector<SpecularPair> list_pairs(const Found& found, const RenderScene& comp
       if (worth > 0) pairs.push_back({static_cast<int>(sphere), static_cast<int>(k), worth});
     }
   };
+  const double sun = irradiance_of_sun(compiled.sky);
   for (std::size_t b = 0; b < list.size(); ++b)
-    if (list[b].inside < 0 && !is_filled_shell(list, list[b]))
+    if (list[b].inside < 0 && !is_filled_shell(list, list[b])) {
       add(b, [&](std::size_t k) {
         return worth_of(list[b].body, list[b].index != 0 && list[b].holds < 0, compiled.lights, k, compiled.origin);
       });
+      const double radius = list[b].body.radius;
+      if (sun > 0) pairs.push_back({static_cast<int>(b), -1, sun * radius * radius});
+    }
   for (std::size_t b = 0; b < mirrors.size(); ++b)
     add(list.size() + b,
         [&](std::size_t k) { return worth_of(mirrors[b], compiled.lights, k, compiled.origin, found.receivers); });
@@ -154,7 +164,7 @@ void weigh_by_visibility(const Flattened& flat, const Found& found, const Render
   const Obstacles obstacles = list_obstacles(flat);
   for (SpecularPair& pair : pairs) {
     const auto sphere = static_cast<std::size_t>(pair.sphere);
-    if (sphere >= found.spheres.size()) continue;
+    if (sphere >= found.spheres.size() || pair.light < 0) continue;
     pair.worth *= std::sqrt(visible_fraction(obstacles, compiled.lights, static_cast<std::size_t>(pair.light),
                                              compiled.origin, found.spheres[sphere].body));
   }
@@ -204,8 +214,13 @@ class Filler {
 
   void add_pair(const SpecularPair& pair) {
     const std::size_t sphere = out.radius.size() - 1;
-    out.pair_of[sphere * compiled_.lights.kind.size() + static_cast<std::size_t>(pair.light)] =
-        static_cast<std::int32_t>(out.sphere.size());
+    const auto own = static_cast<std::int32_t>(out.sphere.size());
+    if (pair.light < 0) {
+      out.sun_pair_of.resize(sphere + 1, -1);
+      out.sun_pair_of[sphere] = own;
+    } else {
+      out.pair_of[sphere * compiled_.lights.kind.size() + static_cast<std::size_t>(pair.light)] = own;
+    }
     out.sphere.push_back(static_cast<std::int32_t>(sphere));
     out.light.push_back(pair.light);
     out.choice.kind.push_back(Lights::sphere);
@@ -216,6 +231,12 @@ class Filler {
     for (int i = 0; i < 3; ++i)
       out.choice.center[i].push_back(by_flat ? compiled_.lights.center[i][k]
                                              : out.center[i][sphere] + 0.5f * out.move[i][sphere]);
+  }
+
+  SpecularPairs finish() {
+    if (!out.sun_pair_of.empty()) out.sun_pair_of.resize(out.radius.size(), -1);
+    build_light_tree(out.choice);
+    return std::move(out);
   }
 
   SpecularPairs out;
@@ -265,8 +286,7 @@ SpecularPairs find_specular_pairs(const Flattened& flat, const Scene& scene, con
     }
     filler.add_pair(pairs[i]);
   }
-  build_light_tree(filler.out.choice);
-  return std::move(filler.out);
+  return filler.finish();
 }
 
 }  // namespace tyndall

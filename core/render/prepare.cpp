@@ -114,14 +114,32 @@ bool is_bulb(const Thing& light, const Thing& thing, Vec3d camera) {
          light.sphere.radius < sphere.radius && length(camera - sphere.center) > sphere.radius;
 }
 
-/// chance_of_caustics() of the light of the sky's picture, which specular paths never compute.
+/// The first element of each shape, and one behind the last.
+std::vector<std::size_t> first_elements(const Flattened& flat) {
+  std::vector<std::size_t> first{0};
+  for (const PlacedShape& shape : flat.shapes)
+    first.push_back(first.back() + (std::holds_alternative<Box<>>(shape.shape) ? 6 : 1));
+  return first;
+}
+
+/// chance_of_caustics() of the light of the sky's picture. Specular paths compute that of its sun alone.
 double chance_of_sky_caustics(const Scene& scene, const RenderScene& compiled) {
   if (!compiled.sky.is_sampled()) return 1;
   double minimum = 1;
   const Flattened flat = flatten(scene);
   if (list_receivers(scene, flat).empty()) return 1;
-  for (const Thing& thing : list_things(scene, flat).smooth)
-    minimum = std::min(minimum, compiled.sky.distribution->spread + fraction_of_directions(thing.fuzz, 1));
+  const std::vector<std::size_t> elements = first_elements(flat);
+  const SpecularPairs& specular = compiled.specular;
+  const auto has_sun_pair = [&](const Thing& thing) {
+    if (specular.sun_pair_of.empty()) return false;
+    const std::int32_t sphere = specular.sphere_of[elements[thing.shape]];
+    return sphere >= 0 && specular.sun_pair_of[static_cast<std::size_t>(sphere / 2)] >= 0;
+  };
+  const SkyDistribution& sky = *compiled.sky.distribution;
+  for (const Thing& thing : list_things(scene, flat).smooth) {
+    const double spread = has_sun_pair(thing) ? sky.spread_without_sun : sky.spread;
+    minimum = std::min(minimum, spread + fraction_of_directions(thing.fuzz, 1));
+  }
   return minimum;
 }
 
@@ -155,9 +173,7 @@ double chance_of_caustics(const Scene& scene, const RenderScene& compiled, const
   const SpecularPairs& specular = compiled.specular;
   const bool guided = guide && guide->lobes() > 0;
   if (specular.sphere.empty() && !guided) return chance_of_caustics(scene);
-  std::vector<std::size_t> elements{0};  // the first of each shape, and one behind the last
-  for (const PlacedShape& shape : flatten(scene).shapes)
-    elements.push_back(elements.back() + (std::holds_alternative<Box<>>(shape.shape) ? 6 : 1));
+  const std::vector<std::size_t> elements = first_elements(flatten(scene));
   const std::size_t lights = compiled.lights.kind.size();
   const auto is_pair = [&](std::size_t light, std::size_t thing) {
     if (guided && guide->thing_of[thing] >= 0) return true;

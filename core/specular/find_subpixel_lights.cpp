@@ -85,9 +85,10 @@ class Finder {
     std::set<std::int32_t> seen;
     for (int k = 0; k < std::min(s_.specular.pairs, max_pairs); ++k) {
       const std::int32_t sphere = s_.specular.sphere[k], light = s_.specular.light[k];
-      light_ = load_light<float>(s_.lights, light);
+      light_ = light < 0 ? sun_window(s_.sky, load_sphere<float>(s_.specular, sphere, 0.0f))
+                         : load_light<float>(s_.lights, light);
       points_ = points_of(light_);
-      if (seen.insert(light).second)
+      if (light >= 0 && seen.insert(light).second)
         add([&](Vec3f point, int) { return SeenPoint{point - s_.camera.center, 1}; }, 1, 0);
       if (sphere >= s_.specular.first_slab)
         by_slab(sphere - s_.specular.first_slab);

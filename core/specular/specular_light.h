@@ -2,6 +2,7 @@
 #include "core/base/reservoir.h"
 #include "core/specular/request.h"
 #include "core/specular/specular_trail.h"
+#include "core/specular/sun_window.h"
 
 /// Light from a small light that reaches a point through or off one sphere, one flat mirror or one slab, such as the
 /// bright spot under a glass sphere. BSDF sampling seldom finds such paths, so they are solved for (manifold next event
@@ -55,7 +56,7 @@ TYNDALL_INLINE SpecularQuery<F> specular_query(const auto& s, const SpecularRequ
   const IntOf<F> sphere = lookup_int<F>(c.sphere, c.pairs, a.pair.light), mirror = sphere - IntOf<F>(c.first_mirror);
   a.sphere = load_sphere<F>(c, sphere, q.time);
   a.light = lookup_int<F>(c.light, c.pairs, a.pair.light);
-  a.light_columns = load_light<F>(s.lights, a.light);
+  a.light_columns = load_light_or_sun<F>(s, a.light, a.sphere);
   a.by_slab = less_equal(IntOf<F>(c.first_slab), sphere);
   a.by_mirror = mask_and_not(less_equal(IntOf<F>(0), mirror), a.by_slab);
   if (c.has_mirrors()) {
@@ -75,7 +76,8 @@ TYNDALL_INLINE SpecularQuery<F> specular_query(const auto& s, const SpecularRequ
 /// Draws a point of the light into `a`, and updates the plane and the ends of the path.
 template <class F>
 TYNDALL_INLINE void aim_at_light(const auto& s, Vec3<F> point, F time, Pair<F> u, SpecularQuery<F>& a) {
-  a.at = sample_light_point(s, a.light, a.light_columns, a.sphere, a.receiver, time, u);
+  const IntOf<F> light = s.has_sun_paths() ? select(is_sky<F>(a.light), IntOf<F>(0), a.light) : a.light;
+  a.at = sample_light_point(s, light, a.light_columns, a.sphere, a.receiver, time, u);
   if (!s.specular.has_spheres()) return;
   a.plane = plane_of(a.sphere, point, a.at.point);
   a.ends = ends_of(a.sphere, a.plane.near, a.plane.far);
@@ -263,6 +265,17 @@ TYNDALL_INLINE SampledPath<F> sample_specular_path(const auto& s, const Specular
   return taken;
 }
 
+/// Radiance with which a specular path starts.
+template <class F>
+TYNDALL_INLINE Vec3<F> radiance_at_end(const auto& s, IntOf<F> light, IntOf<F> element, const SampledPath<F>& taken,
+                                       MaskOf<F> lanes) {
+  if (!s.has_sun_paths()) return light_radiance(s, element, taken.light_point, lanes);
+  const auto far = is_sky<F>(light), near = mask_and_not(lanes, far);
+  const Vec3<F> sun = sky_towards(s.sky, taken.rays.arrive).radiance;
+  if (!any(near)) return sun;
+  return select(far, sun, light_radiance(s, select(far, IntOf<F>(0), element), taken.light_point, near));
+}
+
 /// Radiance that reaches the requests' points by specular paths, times their throughput. Each visibility test of a lane
 /// adds one to shadow_rays.
 template <class F>
@@ -276,12 +289,14 @@ template <class F>
   F weight = taken.reservoir.weight;
   auto arrives = less(F(0.0f), weight);
   if (!any(arrives)) return zero3<F>();
-  const IntOf<F> light_element = lookup_int<F>(s.lights.element, s.lights.count, a.light);
+  const IntOf<F> light_element =
+      s.has_sun_paths() ? element_of_light<F>(s, a.light) : lookup_int<F>(s.lights.element, s.lights.count, a.light);
   const Ray<F> near{q.point, found.direction, q.time, q.from};
   const Ray<F> far{point_at(taken.light_point, -found.far_distance, found.arrive), found.arrive, q.time, found.from};
   for (int leg = 0; leg < 2; ++leg) {
     const Ray<F>& ray = leg == 0 ? near : far;
-    const F distance = leg == 0 ? found.near_distance : found.far_distance;
+    F distance = leg == 0 ? found.near_distance : found.far_distance;
+    if (s.has_sun_paths() && leg == 1) distance = select(is_sky<F>(a.light), F(__builtin_inff()), distance);
     shadow_rays += static_cast<std::uint32_t>(__builtin_popcount(bits(arrives)));
     arrives = mask_and_not(arrives,
                            call_blocked(shared_view(s), ray, distance, leg == 0 ? found.wall : light_element, arrives));
@@ -294,7 +309,7 @@ template <class F>
     const F passes = pass_inside(s, a.sphere, taken.ends, taken.inside, decisions, q.time, overlapped, shadow_rays);
     weight = select(overlapped, weight * passes, weight);
   }
-  Vec3<F> colour = light_radiance(s, light_element, taken.light_point, arrives);
+  Vec3<F> colour = radiance_at_end(s, a.light, light_element, taken, arrives);
   const auto metal = mask_and(arrives, a.sphere.mirror);
   if (any(metal)) {
     const SurfacePoint<F> at = surface_at(s, near, found.near_distance, found.wall);

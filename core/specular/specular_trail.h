@@ -1,5 +1,6 @@
 #pragma once
 #include "core/specular/specular_slab.h"
+#include "core/specular/sun_window.h"
 
 /// Weighs lights found by BSDF sampling: a path that scatters into a sphere, mirror or slab and then hits a light
 /// competes with the specular path that could have found the same light. For that, paths remember where they last
@@ -46,7 +47,9 @@ template <class F>
 [[gnu::noinline]] static F connect_probability(const SceneView& s, Vec3<F> point) {
   const LightView &pairs = s.specular.choice, &lights = s.lights;
   if (pairs.count > max_lights_by_contribution || lights.count > max_lights_by_contribution) return F(1.0f);
-  return min(max(total_worth(s.specular, point) / total_worth(lights, point), F(0.03f)), F(1.0f));
+  F direct = total_worth(lights, point);
+  if (s.samples_sky()) direct = direct + splat<F>(s.sky.irradiance);
+  return min(max(total_worth(s.specular, point) / direct, F(0.03f)), F(1.0f));
 }
 
 /// Extends the trail by the surface of `element`, in the lanes `at_surface`. ray: by which the path came there.
@@ -151,6 +154,17 @@ TYNDALL_INLINE void put(MaskOf<F> here, const BsdfHitPath<F>& from, BsdfHitPath<
   to.throughput = select(here, from.throughput, to.throughput);
 }
 
+/// Weight, by the power heuristic, of a path that BSDF sampling found beside the specular path that could have.
+template <class F>
+TYNDALL_INLINE F weight_beside(const SpecularView& c, const SpecularTrail<F>& trail, const BsdfHitPath<F>& hit_path,
+                               IntOf<F> pair, MaskOf<F> could) {
+  const F probability = choice_probability(c, trail.start, pair);
+  const F query_pdf = hit_path.pdf * probability * hit_path.expected_queries;
+  const F inverse = query_pdf / max(trail.pdf * hit_path.throughput, F(1e-37f));
+  const auto competes = mask_and(mask_and(could, hit_path.could), less(F(0.0f), query_pdf));
+  return select(competes, F(1.0f) / mul_add(inverse, inverse, F(1.0f)), F(1.0f));
+}
+
 /// Weight, by the power heuristic, of the radiance of a light that the lanes `lit` hit by BSDF sampling at `point`,
 /// after the events of their trail: r² / (1 + r²); 1 where no specular path could have found it. r: the pdf of the
 /// path's direction where it last scattered times the probability that the surfaces sent it this way, over the pdf with
@@ -177,11 +191,27 @@ template <class F>
     put(is_mirror, bsdf_hit_by_mirror(c, trail, ray, select(is_mirror, mirror, I(0)), columns, point), hit_path);
   if (c.has_slabs() && any(is_slab))
     put(is_slab, bsdf_hit_by_slab(c, trail, ray, select(is_slab, slab, I(0)), columns, point), hit_path);
-  const F probability = choice_probability(c, trail.start, select(could, pair, I(0)));
-  const F query_pdf = hit_path.pdf * probability * hit_path.expected_queries;
-  const F inverse = query_pdf / max(trail.pdf * hit_path.throughput, F(1e-37f));
-  const auto competes = mask_and(mask_and(could, hit_path.could), less(F(0.0f), query_pdf));
-  return select(competes, F(1.0f) / mul_add(inverse, inverse, F(1.0f)), F(1.0f));
+  return weight_beside(c, trail, hit_path, select(could, pair, I(0)), could);
+}
+
+/// mis_weight_of_bsdf_hit() of the sky, for rays that have left the scene in the lanes `escaped`.
+template <class F>
+[[gnu::noinline]] static F mis_weight_of_sun_hit(const SceneView& s, SpecularTrail<F> trail, Ray<F> ray,
+                                                 MaskOf<F> escaped) {
+  using I = IntOf<F>;
+  const SpecularView& c = s.specular;
+  auto could = mask_and(escaped, trail.met.has_object());
+  if (!any(could)) return F(1.0f);
+  const I sphere = select(could, trail.met.object(), I(0));
+  const I pair = lookup_int<F>(c.sun_pair_of, c.spheres, sphere);
+  could = mask_and(could, less_equal(I(0), pair));
+  if (!any(could)) return F(1.0f);
+  const LightColumns<F> window = sun_window(s.sky, load_sphere<F>(c, sphere, ray.time));
+  const WindowHit<F> hit = pass_window(window, ray);
+  could = mask_and(could, hit.hits);
+  if (!any(could)) return F(1.0f);
+  const BsdfHitPath<F> hit_path = bsdf_hit_by_sphere(c, trail, ray, sphere, window, hit.point);
+  return weight_beside(c, trail, hit_path, select(could, pair, I(0)), could);
 }
 
 }  // namespace tyndall

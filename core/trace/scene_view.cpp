@@ -1,5 +1,7 @@
 #include "core/trace/scene_view.h"
 
+#include "core/compile/columns.h"
+
 #include <algorithm>
 
 namespace tyndall {
@@ -69,6 +71,7 @@ SpecularView view_of(const SpecularPairs& c) {
   v.outer = c.outer.data(), v.inner = c.inner.data(), v.overlapped = c.overlapped.data(), v.sphere = c.sphere.data(),
   v.light = c.light.data();
   v.pair_of = c.pair_of.data(), v.sphere_of = c.sphere_of.data();
+  v.sun_pair_of = c.sun_pair_of.empty() ? nullptr : c.sun_pair_of.data();
   v.first_mirror = c.first_mirror, v.mirrors = c.mirrors.data();
   v.first_slab = c.first_slab, v.slabs = c.slabs.data();
   v.choice = view_of(c.choice);
@@ -94,6 +97,12 @@ SkyView view_of(const SkyColumns& s) {
   const SkyDistribution& d = *s.distribution;
   v.rows = d.rows, v.rows_per_texel = d.rows_per_texel, v.to_one = d.to_one;
   v.row_step = largest_power_of_two(d.rows), v.column_step = largest_power_of_two(v.width);
+  const auto turned = [&](Vec3d before) {
+    const auto c = static_cast<double>(s.cos), si = static_cast<double>(s.sin);
+    return to_float(Vec3d{c * before.x + si * before.z, before.y, c * before.z - si * before.x});
+  };
+  v.sun_axis = turned(d.sun.axis), v.sun_across = turned(d.sun.across), v.sun_along = turned(d.sun.along);
+  v.sun_tangent = static_cast<float>(d.sun.tangent);
   v.row_ends = d.row_ends.data(), v.column_ends = d.column_ends.data();
   return v;
 }

@@ -52,13 +52,16 @@ struct SkyView {
   int rows, rows_per_texel, row_step, column_step;  ///< steps: the largest powers of two up to rows and width
   const std::int32_t *row_ends, *column_ends;
   float cos, sin, scale, irradiance, to_one;
+  Vec3f sun_axis, sun_across, sun_along;  ///< see SkySun, after the sky's turn
+  float sun_tangent;
 };
 
 struct SpecularView {
   int pairs = 0, spheres = 0, first_mirror = 0, first_slab = 0;
   bool shells, has_overlaps;  ///< whether some sphere is a shell; is overlapped
   const float *center[3], *move[3], *radius, *index, *inner_radius, *inner_index;
-  const std::int32_t *outer, *inner, *overlapped, *sphere, *light, *pair_of, *sphere_of;
+  const std::int32_t *outer, *inner, *overlapped, *sphere, *light, *pair_of, *sphere_of,
+      *sun_pair_of;  ///< null: no pair has the sun
   const float *mirrors, *slabs;
   LightView choice;
   TYNDALL_INLINE bool has_spheres() const { return first_mirror > 0; }
@@ -122,6 +125,7 @@ struct SceneView {
   TYNDALL_INLINE bool has_guide() const { return guide.lobes > 0; }
   TYNDALL_INLINE bool has_sky() const { return sky.texels != nullptr; }
   TYNDALL_INLINE bool samples_sky() const { return sky.sampled; }
+  TYNDALL_INLINE bool has_sun_paths() const { return specular.sun_pair_of != nullptr; }  ///< see specular/sun_window.h
   TYNDALL_INLINE bool has_lights() const { return lights.count > 0; }
   TYNDALL_INLINE bool has_reuse() const { return reuses_paths; }
   TYNDALL_INLINE bool has_splitting() const { return splits_paths; }
@@ -135,6 +139,7 @@ struct CommonSceneView : SceneView {
   TYNDALL_INLINE static constexpr bool has_guide() { return false; }
   TYNDALL_INLINE static constexpr bool has_sky() { return false; }
   TYNDALL_INLINE static constexpr bool samples_sky() { return false; }
+  TYNDALL_INLINE static constexpr bool has_sun_paths() { return false; }
   TYNDALL_INLINE static constexpr bool has_outlined() { return false; }
   TYNDALL_INLINE static constexpr bool has_outlined_lights() { return false; }
 };

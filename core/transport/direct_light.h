@@ -141,9 +141,14 @@ TYNDALL_INLINE F found_light_weight(const auto& s, const Paths<F>& p, IntOf<F> e
 /// Radiance of the background in the direction of rays that have escaped, weighed against light sampling where that
 /// could have drawn the direction.
 template <class F>
-TYNDALL_INLINE Vec3<F> found_background(const auto& s, const Paths<F>& p, MaskOf<F> escaped) {
+TYNDALL_INLINE Vec3<F> found_background(const auto& s, const Paths<F>& p, MaskOf<F> escaped, auto& recorder) {
   if (!s.has_sky()) return background_radiance(s.background, p.ray.direction);
-  const SkySample<F> sky = sky_towards(s.sky, p.ray.direction);
+  SkySample<F> sky = sky_towards(s.sky, p.ray.direction);
+  if (s.has_sun_paths()) {
+    const F by_chance = mis_weight_of_sun_hit(s, p.trail, p.ray, escaped);
+    recorder.on_weight_against_specular_paths(by_chance);
+    sky.radiance = by_chance * sky.radiance;
+  }
   const auto could = mask_and(escaped, less(F(0.0f), p.pdf));
   if (!s.samples_sky() || !any(could)) return sky.radiance;
   F weight = F(0.0f);

@@ -60,7 +60,7 @@ TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, 
 
   // ---- emission: of the background, and of lights that the paths have hit
   if (s.features.background && any(escaped))
-    p.radiance = select(escaped, p.radiance + p.throughput * found_background(s, p, escaped), p.radiance);
+    p.radiance = select(escaped, p.radiance + p.throughput * found_background(s, p, escaped, recorder), p.radiance);
   if (any(e.surface)) add_emission(s, p, hit, e, recorder);
 
   // ---- the event, and the light of small lights in media that the path has passed

@@ -1,0 +1,64 @@
+#pragma once
+#include "core/specular/event_sequence.h"
+#include "core/trace/light_columns.h"
+#include "core/trace/sky.h"
+
+/// The sun of a picture of the sky as specular paths at spheres know it.
+///
+/// The sun has no distance, but the solutions for spheres need a point to which paths lead. So each sphere looks at the
+/// sun through a window: a square at sun_distance times its radius, across the direction of the sun. A ray from the
+/// sphere to the sky passes through one point of the window's plane; the window's points are drawn uniformly, and the
+/// radiance is that of the sky in the direction in which the ray passes. Nothing is approximated: the window only
+/// numbers the directions, and light that passes beside it is left to the other strategies.
+namespace tyndall {
+
+/// In radii of the sphere. Rays to one point of the window differ by up to its inverse in their direction; with longer
+/// distances rounding would move the points where paths leave the sphere.
+inline constexpr float sun_distance = 256;
+
+/// The window of a sphere, as a light: a rectangle.
+template <class F>
+TYNDALL_INLINE LightColumns<F> sun_window(const SkyView& sky, const SpecularSphere<F>& b) {
+  const F distance = F(sun_distance) * b.radius;
+  const F half = distance * splat<F>(sky.sun_tangent + 1 / sun_distance);
+  LightColumns<F> w;
+  w.kind = IntOf<F>(Lights::rectangle);
+  w.edge_u = splat<F>(sky.sun_across), w.edge_v = splat<F>(sky.sun_along), w.normal = splat<F>(sky.sun_axis);
+  w.corner = point_at(point_at(point_at(b.center, distance, w.normal), -half, w.edge_u), -half, w.edge_v);
+  w.length_u = half + half, w.length_v = w.length_u;
+  w.area = w.length_u * w.length_u;
+  return w;
+}
+
+template <class F>
+struct WindowHit {
+  MaskOf<F> hits;
+  Vec3<F> point;
+};
+
+/// Where rays that leave the scene pass through a window.
+template <class F>
+TYNDALL_INLINE WindowHit<F> pass_window(const LightColumns<F>& w, const Ray<F>& ray) {
+  const F slope = dot(ray.direction, w.normal);
+  const F t = dot(w.corner - ray.origin, w.normal) / max(slope, F(1e-30f));
+  const Vec3<F> point = point_at(ray.origin, t, ray.direction), off = point - w.corner;
+  const F u = dot(off, w.edge_u), v = dot(off, w.edge_v);
+  const auto in = [&](F x) { return mask_and(less_equal(F(0.0f), x), less_equal(x, w.length_u)); };
+  return {mask_and(mask_and(less(F(0.5f), slope), less(F(0.0f), t)), mask_and(in(u), in(v))), point};
+}
+
+/// The columns of lights, or of the sun's window where `light` is -1.
+template <class F>
+TYNDALL_INLINE LightColumns<F> load_light_or_sun(const auto& s, IntOf<F> light, const SpecularSphere<F>& b) {
+  if (!s.has_sun_paths()) return load_light<F>(s.lights, light);
+  const LightColumns<F> sun = sun_window(s.sky, b);
+  const auto far = is_sky<F>(light);
+  if (s.lights.count == 0 || all(far)) return sun;
+  const LightColumns<F> near = load_light<F>(s.lights, select(far, IntOf<F>(0), light));
+  return {select(far, sun.kind, near.kind),         select(far, sun.corner, near.corner),
+          select(far, sun.edge_u, near.edge_u),     select(far, sun.edge_v, near.edge_v),
+          select(far, sun.normal, near.normal),     select(far, sun.length_u, near.length_u),
+          select(far, sun.length_v, near.length_v), select(far, sun.area, near.area)};
+}
+
+}  // namespace tyndall
