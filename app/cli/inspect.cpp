@@ -150,10 +150,10 @@ std::string specular_paths_text(const Report& report) {
   const bool sun = lights.front() < 0;
   if (sun) lights.erase(lights.begin());
   for (std::int32_t& light : lights) light = report.prepared->columns().lights.element[static_cast<std::size_t>(light)];
-  const std::string lamps =
+  const std::string to_lights =
       lights.empty() ? "" : counted(static_cast<int>(lights.size()), "lamp") + " (" + named(report, lights) + ")";
-  return text + " (" + named(report, specular.outer) + "), each alone, to " + lamps +
-         (sun ? std::string(lamps.empty() ? "" : " and, but for flat mirrors and panes, to ") + "the sun of the sky"
+  return text + " (" + named(report, specular.outer) + "), each alone, to " + to_lights +
+         (sun ? std::string(to_lights.empty() ? "" : " and, but for flat mirrors and panes, to ") + "the sun of the sky"
               : "") +
          "; with both ends within one ball or shell, too; by chance: ways over two of them, quads of glass, other "
          "boxes of glass, " +

@@ -109,7 +109,7 @@ struct BackgroundColumns {
 /// is drawn with a probability that is a whole number of `draws`. See core/trace/sky.h.
 /// The sun in a picture of the sky, before the sky's turn: a square of directions that holds all its light.
 struct SkySun {
-  Vec3d axis{}, across{}, along{};     ///< unit, at right angles: the square's middle and the directions of its sides
+  Vec3d axis{}, edge_u{}, edge_v{};    ///< unit, at right angles: the square's middle and the directions of its sides
   double tangent = 0;                  ///< of half the angle from side to side; 0: the picture has no sun
   double irradiance = 0, squares = 0;  ///< as those of SkyDistribution, of the sun alone
 };

@@ -9,7 +9,7 @@ namespace tyndall {
 namespace {
 
 constexpr double max_tangent = 0.12;        // of half the angle that the sun fills; BSDF sampling finds wider suns well
-constexpr double min_share = 0.05;          // of the sky's light that comes from the sun
+constexpr double min_fraction = 0.05;       // of the sky's light that comes from the sun
 constexpr double min_brightness = 1 / 8.0;  // of the sun's texels, over that of its brightest one
 
 struct Texel {
@@ -33,18 +33,16 @@ class SunFinder {
     const double texel_angle = 2 * pi * pi / pixels_.width / pixels_.height;  // times the sine, in steradians
     SkySun sun;
     sun.irradiance = light * texel_angle, sun.squares = squares * texel_angle;
-    if (sun.irradiance < min_share * irradiance_) return {};
-    sun.axis = unit(sum);
+    if (sun.irradiance < min_fraction * irradiance_) return {};
+    sun.axis = normalize(sum);
     const Vec3d level = cross(Vec3d{0, 1, 0}, sun.axis);
-    sun.across = length(level) > 1e-3 ? unit(level) : Vec3d{1, 0, 0};
-    sun.along = cross(sun.axis, sun.across);
+    sun.edge_v = normalize(cross(sun.axis, length(level) > 1e-3 ? level : Vec3d{1, 0, 0}));
+    sun.edge_u = cross(sun.edge_v, sun.axis);
     for (const Texel& t : texels_) sun.tangent = std::max(sun.tangent, reach(sun, t));
     return sun.tangent <= max_tangent ? sun : SkySun{};
   }
 
  private:
-  static Vec3d unit(Vec3d v) { return (1 / length(v)) * v; }
-
   const float* rgb(int x, int y) const {
     return &pixels_.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(pixels_.width) +
                              static_cast<std::size_t>(x))];
@@ -57,14 +55,14 @@ class SunFinder {
     const float* c = rgb(t.x, t.y);
     return static_cast<double>(std::max({c[0], c[1], c[2]}));
   }
-  double sine_of_row(int y) const { return polar(y).sin; }
-  SinCos<double> polar(int y) const { return turn(0.5 * (y + 0.5) / pixels_.height); }
-  static SinCos<double> turn(double part) {
+  double sine_of_row(int y) const { return from_top_of(y).sin; }
+  SinCos<double> from_top_of(int y) const { return sin_cos_of(0.5 * (y + 0.5) / pixels_.height); }
+  static SinCos<double> sin_cos_of(double part) {
     const SinCos<float> a = sin_cos_2pi(static_cast<float>(part));
     return {static_cast<double>(a.sin), static_cast<double>(a.cos)};
   }
   Vec3d towards(int x, int y) const {
-    const SinCos<double> around = turn((x + 0.5) / pixels_.width), from_top = polar(y);
+    const SinCos<double> around = sin_cos_of((x + 0.5) / pixels_.width), from_top = from_top_of(y);
     return {-from_top.sin * around.sin, from_top.cos, from_top.sin * around.cos};
   }
 
@@ -87,7 +85,7 @@ class SunFinder {
     return true;
   }
 
-  /// The largest tangent, across or along, at which a texel still adds to the sky's bilinear radiance.
+  /// The largest tangent, by either edge, at which a texel still adds to the sky's bilinear radiance.
   double reach(const SkySun& sun, const Texel& t) const {
     double largest = 0;
     for (int y = std::max(t.y - 1, 0); y <= std::min(t.y + 1, pixels_.height - 1); ++y)
@@ -95,7 +93,7 @@ class SunFinder {
         const Vec3d d = towards((x + pixels_.width) % pixels_.width, y);
         const double ahead = dot(d, sun.axis);
         if (!(ahead > 0.5)) return 1;
-        largest = std::max({largest, std::abs(dot(d, sun.across)) / ahead, std::abs(dot(d, sun.along)) / ahead});
+        largest = std::max({largest, std::abs(dot(d, sun.edge_u)) / ahead, std::abs(dot(d, sun.edge_v)) / ahead});
       }
     return largest;
   }

@@ -23,7 +23,7 @@ TYNDALL_INLINE LightColumns<F> sun_window(const SkyView& sky, const SpecularSphe
   const F half = distance * splat<F>(sky.sun_tangent + 1 / sun_distance);
   LightColumns<F> w;
   w.kind = IntOf<F>(Lights::rectangle);
-  w.edge_u = splat<F>(sky.sun_across), w.edge_v = splat<F>(sky.sun_along), w.normal = splat<F>(sky.sun_axis);
+  w.edge_u = splat<F>(sky.sun_edge_u), w.edge_v = splat<F>(sky.sun_edge_v), w.normal = splat<F>(sky.sun_axis);
   w.corner = point_at(point_at(point_at(b.center, distance, w.normal), -half, w.edge_u), -half, w.edge_v);
   w.length_u = half + half, w.length_v = w.length_u;
   w.area = w.length_u * w.length_u;

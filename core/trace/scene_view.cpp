@@ -97,11 +97,11 @@ SkyView view_of(const SkyColumns& s) {
   const SkyDistribution& d = *s.distribution;
   v.rows = d.rows, v.rows_per_texel = d.rows_per_texel, v.to_one = d.to_one;
   v.row_step = largest_power_of_two(d.rows), v.column_step = largest_power_of_two(v.width);
-  const auto turned = [&](Vec3d before) {
+  const auto rotated = [&](Vec3d before) {
     const auto c = static_cast<double>(s.cos), si = static_cast<double>(s.sin);
     return to_float(Vec3d{c * before.x + si * before.z, before.y, c * before.z - si * before.x});
   };
-  v.sun_axis = turned(d.sun.axis), v.sun_across = turned(d.sun.across), v.sun_along = turned(d.sun.along);
+  v.sun_axis = rotated(d.sun.axis), v.sun_edge_u = rotated(d.sun.edge_u), v.sun_edge_v = rotated(d.sun.edge_v);
   v.sun_tangent = static_cast<float>(d.sun.tangent);
   v.row_ends = d.row_ends.data(), v.column_ends = d.column_ends.data();
   return v;

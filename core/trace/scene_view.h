@@ -52,7 +52,7 @@ struct SkyView {
   int rows, rows_per_texel, row_step, column_step;  ///< steps: the largest powers of two up to rows and width
   const std::int32_t *row_ends, *column_ends;
   float cos, sin, scale, irradiance, to_one;
-  Vec3f sun_axis, sun_across, sun_along;  ///< see SkySun, after the sky's turn
+  Vec3f sun_axis, sun_edge_u, sun_edge_v;  ///< see SkySun, after the sky's turn
   float sun_tangent;
 };
 

@@ -19,6 +19,7 @@ Scene floor_under_sun() {
   scene.background = sky;
   scene.render.integrator = Integrator::mis;
   scene.render.sharing = false;
+  scene.render.max_depth = 10000;
   add(scene, Quad<>{{-30, 0, -30}, {0, 0, 60}, {60, 0, 0}}, lambertian(0.6));
   return scene;
 }
@@ -42,7 +43,7 @@ TEST_CASE("sun: the brightest spot if it is small and gives much of the light, e
   const Vec3d middle{-std::sin(theta) * std::sin(phi), std::cos(theta), std::sin(theta) * std::cos(phi)};
   CHECK(length(sun.axis - middle) < 1e-5);
   CHECK(sun.irradiance == doctest::Approx(1000 * 2 * pi * pi / 64 / 32 * std::sin(theta)).epsilon(1e-3));
-  CHECK(std::abs(dot(sun.across, sun.axis)) + std::abs(dot(sun.along, sun.axis)) < 1e-5);
+  CHECK(std::abs(dot(sun.edge_u, sun.axis)) + std::abs(dot(sun.edge_v, sun.axis)) < 1e-5);
   CHECK(sun_of(uniform_sky(64, 32, 1)).tangent == 0);
   CHECK(sun_of(uniform_sky(1, 1, 1)).tangent == 0);
   CHECK(sun_of(sunny_sky(20)).tangent == 0);  // 20 of 64 x 32 texels of 1: a hundredth of the light
