@@ -208,10 +208,10 @@ std::string background_text(const Report& report) {
   if (!report.prepared->columns().sky.is_sampled()) return text + ", found by chance";
   return text +
          fmt::format(
-             ", sampled as a light; as bright as if its light filled {:.2g} of all directions; by chance: {}through "
-             "and off glass and mirrors",
+             ", sampled as a light; as bright as if its light filled {:.2g} of all directions; by chance: through "
+             "and off glass and mirrors{}",
              report.prepared->columns().sky.distribution->spread,
-             report.prepared->columns().specular.sun_pair_of.empty() ? "" : "all but its sun ");
+             report.prepared->columns().specular.sun_pair_of.empty() ? "" : ", but for what chains find");
 }
 
 std::string bytes_text(std::size_t bytes) {

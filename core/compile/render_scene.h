@@ -109,9 +109,9 @@ struct BackgroundColumns {
 /// is drawn with a probability that is a whole number of `draws`. See core/trace/sky.h.
 /// The sun in a picture of the sky, before the sky's turn: a square of directions that holds all its light.
 struct SkySun {
-  Vec3d axis{}, edge_u{}, edge_v{};    ///< unit, at right angles: the square's middle and the directions of its sides
-  double tangent = 0;                  ///< of half the angle from side to side; 0: the picture has no sun
-  double irradiance = 0, squares = 0;  ///< as those of SkyDistribution, of the sun alone
+  Vec3d axis{}, edge_u{}, edge_v{};  ///< unit, at right angles: the square's middle and the directions of its sides
+  double tangent = 0;                ///< of half the angle from side to side; 0: the picture has no sun
+  double irradiance = 0;             ///< as SkyDistribution::irradiance, of the directions in the square alone
 };
 
 struct SkyDistribution {
@@ -122,7 +122,6 @@ struct SkyDistribution {
   std::vector<std::int32_t> column_ends;          ///< width + 1 for each row: where those of each of its cells begin
   float to_one = 1;                               ///< power of two that brings the largest component to about 1
   double irradiance = 0;  ///< integral of the largest component over all directions, without the sky's scale
-  double squares = 0;     ///< integral of its square
   /// Fraction of all directions that a sky of one radiance would fill that has the same integrals of the largest
   /// component and of its square: 1 if all directions are as bright, near that of the sun if it gives most of the
   /// light.

@@ -2,6 +2,7 @@
 
 #include "core/base/math.h"
 #include "core/compile/flatten.h"
+#include "core/compile/sky_texels.h"
 #include "core/compile/sun.h"
 
 #include <algorithm>
@@ -34,25 +35,34 @@ void append_ends(const std::vector<double>& weights, std::vector<std::int32_t>& 
   for (const std::int64_t own : counts) out.push_back(static_cast<std::int32_t>(end += own));
 }
 
-double sine_of_row(int row, int rows) {
-  return static_cast<double>(sin_cos_2pi(0.5f * (static_cast<float>(row) + 0.5f) / static_cast<float>(rows)).sin);
-}
+/// Integrals over directions of the largest component, and of its square.
+struct Light {
+  double irradiance = 0, squares = 0;
+
+  void add(double radiance, double solid_angle) {
+    irradiance += radiance * solid_angle, squares += radiance * radiance * solid_angle;
+  }
+  /// See SkyDistribution::spread.
+  double spread() const { return squares > 0 ? std::min(1.0, irradiance * irradiance / (squares * 4 * pi)) : 1; }
+};
+
+constexpr double min_sun = 0.05;  // fraction of the sky's light from which on specular paths look for the sun
 
 class DistributionBuilder {
  public:
-  explicit DistributionBuilder(const Image::Pixels& pixels) : pixels_(pixels) {
+  explicit DistributionBuilder(const Image::Pixels& pixels)
+      : texels_(pixels), largest_(*std::max_element(pixels.rgb.begin(), pixels.rgb.end())) {
     const int height = pixels.height;
     out_.rows_per_texel = 2 * std::max(1, (min_rows + 2 * height - 1) / (2 * height));
     out_.rows = height * out_.rows_per_texel;
   }
 
   SkyDistribution build() {
-    const float largest = *std::max_element(pixels_.rgb.begin(), pixels_.rgb.end());
-    if (!(largest > 0)) return {};
+    if (!(largest_ > 0)) return {};
     int exponent = 0;
-    std::frexp(largest, &exponent);
+    std::frexp(largest_, &exponent);
     out_.to_one = std::ldexp(1.0f, -std::clamp(exponent, -126, 126));
-    std::vector<double> rows, columns(static_cast<std::size_t>(pixels_.width));
+    std::vector<double> rows, columns(static_cast<std::size_t>(texels_.width));
     out_.column_ends.reserve(static_cast<std::size_t>(out_.rows) * (columns.size() + 1));
     for (int row = 0; row < out_.rows; ++row) {
       weigh_columns(row, columns);
@@ -62,61 +72,48 @@ class DistributionBuilder {
       append_ends(columns, out_.column_ends);
     }
     append_ends(rows, out_.row_ends);
+    out_.sun = find_sun(texels_);
     add_up();
-    out_.sun = find_sun(pixels_, out_.irradiance);
-    out_.spread = spread_of(out_.irradiance, out_.squares);
-    out_.spread_without_sun = spread_of(out_.irradiance - out_.sun.irradiance, out_.squares - out_.sun.squares);
     return std::move(out_);
   }
 
  private:
-  const float* texel(int x, int y) const {
-    return &pixels_.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(pixels_.width) +
-                             static_cast<std::size_t>(x))];
-  }
-  double luminance(int x, int y) const {
-    const float* rgb = texel(x, y);
-    return static_cast<double>(sky_luminance(Vec3f{rgb[0], rgb[1], rgb[2]}, out_.to_one));
-  }
+  double luminance(int x, int y) const { return static_cast<double>(sky_luminance(texels_.rgb(x, y), out_.to_one)); }
 
   /// The mean luminance of each cell of a row: that in its middle, because luminance is bilinear in it.
   void weigh_columns(int row, std::vector<double>& columns) const {
     const double y = (row + 0.5) / out_.rows_per_texel - 0.5, above = std::floor(y), part = y - above;
-    const int last = pixels_.height - 1;
+    const int last = texels_.height - 1;
     const int top = std::clamp(static_cast<int>(above), 0, last),
               bottom = std::clamp(static_cast<int>(above) + 1, 0, last);
     const auto at = [&](int x) { return luminance(x, top) + part * (luminance(x, bottom) - luminance(x, top)); };
     const double first = at(0);
     double left = first;
-    for (int x = 0; x < pixels_.width; ++x) {
-      const double right = x + 1 < pixels_.width ? at(x + 1) : first;
+    for (int x = 0; x < texels_.width; ++x) {
+      const double right = x + 1 < texels_.width ? at(x + 1) : first;
       columns[static_cast<std::size_t>(x)] = 0.5 * (left + right);
       left = right;
     }
   }
 
+  /// Adds up the light of the sun and that of the rest.
   void add_up() {
-    double sum = 0, squares = 0;  // of the largest components, in units
-    for (int y = 0; y < pixels_.height; ++y) {
-      double row = 0, row_squares = 0;
-      for (int x = 0; x < pixels_.width; ++x) {
-        const float* rgb = texel(x, y);
-        const double own = static_cast<double>(out_.to_one) * static_cast<double>(std::max({rgb[0], rgb[1], rgb[2]}));
-        row += own, row_squares += own * own;
-      }
-      const double sine = sine_of_row(y, pixels_.height);
-      sum += row * sine, squares += row_squares * sine;
+    Light sun, rest;
+    for (int y = 0; y < texels_.height; ++y) {
+      const double solid_angle = texels_.solid_angle(y);
+      const bool has_sun = row_has_sun(out_.sun, y, texels_.height);
+      for (int x = 0; x < texels_.width; ++x)
+        (has_sun && is_in_sun(out_.sun, texels_.towards(x, y)) ? sun : rest).add(texels_.largest(x, y), solid_angle);
     }
-    const double texel_angle = 2 * pi * pi / pixels_.width / pixels_.height;  // times the sine, in steradians
-    const auto to_one = static_cast<double>(out_.to_one);
-    out_.irradiance = sum * texel_angle / to_one, out_.squares = squares * texel_angle / to_one / to_one;
+    out_.irradiance = sun.irradiance + rest.irradiance;
+    out_.spread = Light{out_.irradiance, sun.squares + rest.squares}.spread();
+    out_.spread_without_sun = rest.spread();
+    out_.sun.irradiance = sun.irradiance;
+    if (sun.irradiance < min_sun * out_.irradiance) out_.sun = {};
   }
 
-  static double spread_of(double irradiance, double squares) {
-    return squares > 0 ? std::min(1.0, irradiance * irradiance / (squares * 4 * pi)) : 1;
-  }
-
-  const Image::Pixels& pixels_;
+  const SkyTexels texels_;
+  const float largest_;
   SkyDistribution out_;
 };
 

@@ -195,6 +195,21 @@ TYNDALL_INLINE void keep_inside(const SpecularQuery<F>& a, const SolvedPath<F>& 
   copy(a.ends.both_in, ends.both_in), copy(a.ends.near_in_glass, ends.near_in_glass);
 }
 
+/// Lets a path to the sun, in the lanes `here`, begin where it leaves the sphere. Between there and the sun's window
+/// rounding would move that point by more than elsewhere.
+template <class F>
+TYNDALL_INLINE void begin_at_sphere(const SpecularQuery<F>& a, const SolvedPath<F>& c, MaskOf<F> here,
+                                    SampledPath<F>& taken) {
+  const Vec3<F> arrive = taken.rays.arrive;
+  const Vec3<F> across = point_at(-dot(arrive, a.plane.far_side) * a.plane.far_out, dot(arrive, a.plane.far_out),
+                                  a.plane.far_side);  // at right angles to the ray
+  const F p = c.path.deflection.maximum * (F(1.0f) - c.root.s * c.root.s);
+  const F forward = sqrt(max(mul_add(a.sphere.radius, a.sphere.radius, -(p * p)), F(0.0f)));
+  const Vec3<F> point = point_at(point_at(a.sphere.center, forward, arrive), -c.root.sense * p, across);
+  taken.light_point = select(here, point, taken.light_point);
+  taken.rays.far_distance = select(here, F(0.0f), taken.rays.far_distance);
+}
+
 /// Offers all specular paths of an event sequence at a sphere. Both signs are tried for each end inside it (see
 /// EndSigns), but for a near end in the glass of a shell, whose sign is the event sequence's.
 template <class F>
@@ -216,6 +231,7 @@ TYNDALL_INLINE void offer_sequence(const auto& s, const SpecularRequest<F>& q, c
       const auto takes = offer_rays(s, q, a, rays_of(a, sequence, c), taken),
                  overlapped = mask_and(takes, a.sphere.overlapped);
       if (s.specular.has_overlaps && any(overlapped)) keep_inside(a, c, sequence, overlapped, taken);
+      if (s.has_sun_paths()) begin_at_sphere(a, c, mask_and(takes, is_sky<F>(a.light)), taken);
     }
   }
 }
