@@ -85,8 +85,9 @@ TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, 
   if (s.light_sampling && any(scattering)) {
     const LightQuery<F> query{choose_light_or_sky(s, e.point, p.sampler.next_1d(dimension::light_choice)),
                               p.sampler.next_2d(dimension::light_point), p.flight, false};
-    const Vec3<F> light = direct_light(s, p, e, scattering, query, shadow_rays);
-    p.radiance = p.radiance + (s.has_guide() ? weigh_beside_guide(s, p, e, light) : light);
+    Vec3<F> light = direct_light(s, p, e, scattering, query, shadow_rays);
+    if (s.has_guide()) light = weigh_beside_guide(s, p, e, light);
+    p.radiance = p.radiance + light;
   }
   if (s.has_specular_paths())
     request_specular_paths(s, p, e, scattering, samples.slot_of(p), waiting.specular, recorder, shadow_rays);
