@@ -261,6 +261,8 @@ const char* name_of(KernelSet set) {
       return "no chains";
     case KernelSet::no_media_no_textures:
       return "no fog, no textures";
+    case KernelSet::guided_paths_only:
+      return "a guide, no fog, no textures";
   }
   return "";
 }

@@ -256,9 +256,17 @@ struct SpecularPairs {
 /// The variants of the kernels, by the models that they leave out. A scene without these models gives the same picture
 /// with the variant, bit by bit.
 ///
-/// Only `everything` has triangles, disks, a picture of the sky and guided light.
-enum class KernelSet { everything, common_models, specular_paths_only, no_specular_paths, no_media_no_textures };
-inline constexpr int kernel_sets = 5;
+/// Only `everything` has triangles, disks and a picture of the sky. Guided light is in `everything` and in
+/// `guided_paths_only`, which has specular paths but no media and no textures.
+enum class KernelSet {
+  everything,
+  common_models,
+  specular_paths_only,
+  no_specular_paths,
+  no_media_no_textures,
+  guided_paths_only
+};
+inline constexpr int kernel_sets = 6;
 const char* name_of(KernelSet set);
 
 struct RenderScene {

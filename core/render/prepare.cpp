@@ -203,6 +203,12 @@ std::shared_ptr<const Guide> kept_guide(const Scene& scene, const PreparedScene*
   return old == scene ? before->shared_guide() : nullptr;
 }
 
+/// The kernel set of a scene with a guide. minimum: without one.
+KernelSet guided_kernel(KernelSet minimum) {
+  const bool plain = minimum == KernelSet::specular_paths_only || minimum == KernelSet::no_media_no_textures;
+  return plain ? KernelSet::guided_paths_only : KernelSet::everything;
+}
+
 }  // namespace
 
 PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, RenderScene columns,
@@ -214,7 +220,7 @@ PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, RenderScene col
   if (!guide) guide = std::make_shared<const Guide>(columns_.may_guide_paths ? find_guide(view_) : Guide{});
   guide_ = std::move(guide);
   view_.guide = guide_->view();
-  if (guide_->lobes() > 0) columns_.kernel = view_.kernel = KernelSet::everything;  // the only one that has guides
+  if (guide_->lobes() > 0) columns_.kernel = view_.kernel = guided_kernel(columns_.kernel);
   subpixel_lights_ = find_subpixel_lights(view_);
   view_.subpixel_light_count = static_cast<int>(subpixel_lights_.size());
   view_.subpixel_lights = subpixel_lights_.data();

@@ -167,8 +167,8 @@ static Kernels full_kernel_of(const char* isa) {
   const RenderTile render = render_any_entry<F, Recorder, false>, fraction = render_any_entry<F, Recorder, true>;
   return {isa,
           lanes_of<F>,
-          {render, render, render, render, render},
-          {fraction, fraction, fraction, fraction, fraction},
+          {render, render, render, render, render, render},
+          {fraction, fraction, fraction, fraction, fraction, fraction},
           trace_entry<F>,
           first_hits_entry<F>};
 }
@@ -185,6 +185,7 @@ static Kernels with_kernel_sets(Kernels full) {
   const RenderTile reusing = render_tile_entry<F, common_models, true>;
   give(common_models, render_tile_entry<F, common_models, false>, reusing);
   give(specular_paths_only, render_tile_entry<F, specular_paths_only, false>, reusing);
+  give(guided_paths_only, render_tile_entry<F, guided_paths_only, false>, reusing);  // guided light is never shared
   give(no_specular_paths, render_tile_entry<F, no_specular_paths, false>,
        render_tile_entry<F, no_specular_paths, true>);
   give(no_media_no_textures, render_tile_entry<F, no_media_no_textures, false>,

@@ -133,8 +133,8 @@ struct SceneView {
   TYNDALL_INLINE bool has_outlined_lights() const { return lights.inner != nullptr; }
 };
 
-/// The view of kernels without triangles, disks, guides and a picture of the sky: has_...() is a constant false for
-/// them, so that the compiler drops their code.
+/// The view of kernels without triangles, disks and a picture of the sky, and of all but one without guides: has_...()
+/// is a constant false for them, so that the compiler drops their code.
 struct CommonSceneView : SceneView {
   TYNDALL_INLINE static constexpr bool has_guide() { return false; }
   TYNDALL_INLINE static constexpr bool has_sky() { return false; }
@@ -152,15 +152,15 @@ TYNDALL_INLINE const CommonSceneView& shared_view(const CommonSceneView& s) { re
 /// (core/reuse). The kernel with every model reads SceneView itself.
 template <KernelSet set, bool reuse>
 requires(set != KernelSet::everything) struct SceneViewFor : CommonSceneView {
-  static constexpr bool media_and_textures =
-      set != KernelSet::no_media_no_textures && set != KernelSet::specular_paths_only;
+  static constexpr bool media_and_textures = set == KernelSet::common_models || set == KernelSet::no_specular_paths;
   static constexpr bool solves_specular_paths =
-      set == KernelSet::common_models || set == KernelSet::specular_paths_only;
+      set != KernelSet::no_specular_paths && set != KernelSet::no_media_no_textures;
   TYNDALL_INLINE bool has_media() const { return media_and_textures && features.media; }
   TYNDALL_INLINE bool has_textures() const { return media_and_textures && features.textures; }
   TYNDALL_INLINE bool has_image_textures() const { return media_and_textures && features.image_textures; }
   TYNDALL_INLINE bool has_lights_in_media() const { return media_and_textures && near_count > 0; }
   TYNDALL_INLINE bool has_specular_paths() const { return solves_specular_paths && specular.pairs > 0; }
+  TYNDALL_INLINE static constexpr bool has_guide() { return set == KernelSet::guided_paths_only; }
   TYNDALL_INLINE static constexpr bool has_reuse() { return reuse; }
   TYNDALL_INLINE bool has_splitting() const { return (!reuse || solves_specular_paths) && splits_paths; }
 };

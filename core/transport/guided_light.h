@@ -18,7 +18,7 @@ struct GuidedPath {
 
 /// Adds the light that a guided path hits after its last event.
 template <class F>
-TYNDALL_INLINE void add_guided_emission(const SceneView& s, GuidedPath<F>& g, const Hit<F>& hit, const Event<F>& e,
+TYNDALL_INLINE void add_guided_emission(const auto& s, GuidedPath<F>& g, const Hit<F>& hit, const Event<F>& e,
                                         MaskOf<F> lanes) {
   const auto last = equal(g.left.low, IntOf<F>(0));
   const auto lit = mask_and(mask_and(lanes, last), has_trait<&BsdfTraits::emits>(s, e.kind));
@@ -29,7 +29,7 @@ TYNDALL_INLINE void add_guided_emission(const SceneView& s, GuidedPath<F>& g, co
 
 /// Samples a light where a guided path meets its last surface, if that is metal.
 template <class F>
-TYNDALL_INLINE void add_guided_direct_light(const SceneView& s, GuidedPath<F>& g, const Event<F>& e, MaskOf<F> lanes) {
+TYNDALL_INLINE void add_guided_direct_light(const auto& s, GuidedPath<F>& g, const Event<F>& e, MaskOf<F> lanes) {
   const auto last = equal(as_int(shift_right<6>(as_uint(g.left.low))), IntOf<F>(0));
   const auto lit = mask_and(mask_and(lanes, last), has_trait<&BsdfTraits::glossy>(s, e.kind));
   if (!any(lit)) return;
@@ -43,7 +43,7 @@ TYNDALL_INLINE void add_guided_direct_light(const SceneView& s, GuidedPath<F>& g
 
 /// Sends a guided path on from the surface of its next event. Returns the lanes that go on.
 template <class F>
-TYNDALL_INLINE MaskOf<F> scatter_guided(const SceneView& s, GuidedPath<F>& g, const Event<F>& e, MaskOf<F> lanes) {
+TYNDALL_INLINE MaskOf<F> scatter_guided(const auto& s, GuidedPath<F>& g, const Event<F>& e, MaskOf<F> lanes) {
   using I = IntOf<F>;
   Paths<F>& p = g.path;
   const auto glossy = mask_and(lanes, has_trait<&BsdfTraits::glossy>(s, e.kind)), glass = mask_and_not(lanes, glossy);
@@ -72,11 +72,11 @@ TYNDALL_INLINE MaskOf<F> scatter_guided(const SceneView& s, GuidedPath<F>& g, co
 
 /// Takes guided paths to their next surface and on. Returns the lanes that go on.
 template <class F>
-TYNDALL_INLINE MaskOf<F> step_guided(const SceneView& s, GuidedPath<F>& g, MaskOf<F> active) {
+TYNDALL_INLINE MaskOf<F> step_guided(const auto& s, GuidedPath<F>& g, MaskOf<F> active) {
   using I = IntOf<F>;
   Paths<F>& p = g.path;
   g.rays += static_cast<std::uint32_t>(__builtin_popcount(bits(active)));
-  const Hit<F> hit = call_closest(s, p.ray, active);
+  const Hit<F> hit = call_closest(shared_view(s), p.ray, active);
   active = mask_and(active, less_equal(I(0), hit.element));
   if (!any(active)) return active;
   if (s.has_media()) {
@@ -105,7 +105,7 @@ TYNDALL_INLINE MaskOf<F> step_guided(const SceneView& s, GuidedPath<F>& g, MaskO
 /// Radiance that reaches the requests' points along guided paths, times their throughput. Adds their rays to
 /// `rays` and to `shadow_rays`.
 template <class F>
-[[gnu::noinline]] static Vec3<F> guided_light(const SceneView& s, const SpecularRequest<F>& q, MaskOf<F> lanes,
+[[gnu::noinline]] static Vec3<F> guided_light(const auto& s, const SpecularRequest<F>& q, MaskOf<F> lanes,
                                               std::uint32_t& rays, std::uint32_t& shadow_rays) {
   using I = IntOf<F>;
   const GuideView& guide = s.guide;
