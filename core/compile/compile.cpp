@@ -172,7 +172,8 @@ void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene*
 KernelSet min_kernel(const RenderScene& s) {
   if (s.features.triangles || s.features.disks || s.sky.pixels) return KernelSet::everything;
   const bool media_or_textures = s.features.media || s.features.textures;
-  if (!s.specular.sphere.empty()) return media_or_textures ? KernelSet::common_models : KernelSet::specular_paths_only;
+  if (!s.specular.sphere.empty() || s.splits_paths)
+    return media_or_textures ? KernelSet::common_models : KernelSet::specular_paths_only;
   return media_or_textures ? KernelSet::no_specular_paths : KernelSet::no_media_no_textures;
 }
 

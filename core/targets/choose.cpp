@@ -38,11 +38,8 @@ void Kernels::render_tile(const SceneView& scene, const TileJob& job, double fil
                           TileCounts& counts, EmissionSums* emission) const {
   // The pixels of a coarse pass are too far apart for reuse.
   const bool reuses = scene.reuses_paths && job.step == 1;
-  // Of the kernels that reuse vertices, those without specular paths do not split: see SceneViewFor.
-  const bool splits = reuses && scene.splits_paths && scene.kernel != KernelSet::everything;
-  const KernelSet set = splits ? KernelSet::common_models : scene.kernel;
   const auto& render = reuses ? render_reusing : render_alone;
-  render[static_cast<int>(set)](scene, job, film_quantum, pixels, emission, counts);
+  render[static_cast<int>(scene.kernel)](scene, job, film_quantum, pixels, emission, counts);
 }
 
 KernelSet Kernels::set_for(KernelSet minimum) const {

@@ -128,6 +128,7 @@ struct SceneView {
   TYNDALL_INLINE bool has_sun_paths() const { return specular.sun_pair_of != nullptr; }  ///< see specular/sun_window.h
   TYNDALL_INLINE bool has_lights() const { return lights.count > 0; }
   TYNDALL_INLINE bool has_reuse() const { return reuses_paths; }
+  static constexpr bool can_split = true;  ///< whether the kernel has the code for it
   TYNDALL_INLINE bool has_splitting() const { return splits_paths; }
   TYNDALL_INLINE bool has_outlined() const { return outlined.count > 0; }  ///< triangles and disks
   TYNDALL_INLINE bool has_outlined_lights() const { return lights.inner != nullptr; }
@@ -162,7 +163,8 @@ requires(set != KernelSet::everything) struct SceneViewFor : CommonSceneView {
   TYNDALL_INLINE bool has_specular_paths() const { return solves_specular_paths && specular.pairs > 0; }
   TYNDALL_INLINE static constexpr bool has_guide() { return set == KernelSet::guided_paths_only; }
   TYNDALL_INLINE static constexpr bool has_reuse() { return reuse; }
-  TYNDALL_INLINE bool has_splitting() const { return (!reuse || solves_specular_paths) && splits_paths; }
+  static constexpr bool can_split = solves_specular_paths;
+  TYNDALL_INLINE bool has_splitting() const { return can_split && splits_paths; }
 };
 
 /// The sky's picture as kernels read it. It points into the columns.

@@ -44,8 +44,7 @@ struct StepResult {
 /// recorder: see NoRecorder
 template <class F>
 TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, auto& samples,
-                                  WaitingRequests<F>& waiting, PathPool<F>& pool, auto& recorder,
-                                  std::uint32_t& shadow_rays) {
+                                  WaitingRequests<F>& waiting, auto& pool, auto& recorder, std::uint32_t& shadow_rays) {
   // ---- intersect: a surface, or before it an event in a medium
   Hit<F> hit = closest(s, p.ray, active);
   MediumEvent<F> found = no_event<F>();
@@ -118,7 +117,7 @@ TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, 
 /// Follows paths until all samples are done and all requests for the light of specular paths are answered.
 template <class F>
 TYNDALL_INLINE void follow_paths(const auto& s, auto& samples, TileCounts& counts, auto& recorder) {
-  PathPool<F> pool;
+  PathPool<F, std::remove_cvref_t<decltype(s)>::can_split> pool;
   clear<F>(pool);
   WaitingRequests<F> waiting{};
   Paths<F> p{};

@@ -11,28 +11,27 @@ namespace tyndall {
 /// With one lane only branches wait; the last one is followed first, so that at most max_splits of them wait.
 template <class F>
 struct WaitingBranches {
-  static constexpr bool waits = false;
   Paths<F> path[max_splits];
   int count = 0;
 };
 
-/// The groups of lanes for which there is room. Between two steps max_splits + 1 groups wait at most: new samples start
-/// when less than one group waits, and a step adds at most one group to what waits. All paths that are followed while
-/// more than k groups wait are offspring of those that were followed when there were k groups for the last time,
-/// because the path that was added last is followed first; so they have had k events at least, and after max_splits no
-/// path splits. A step stores up to two groups before the next paths are taken, and append_lanes() writes up to one
-/// behind them. One more keeps rows from being a power of two apart, which would put them into the same few sets of the
-/// cache.
+/// The groups of lanes for which there is room where paths split. Between two steps max_splits + 1 groups wait at most:
+/// new samples start when less than one group waits, and a step adds at most one group to what waits. All paths that
+/// are followed while more than k groups wait are offspring of those that were followed when there were k groups for
+/// the last time, because the path that was added last is followed first; so they have had k events at least, and after
+/// max_splits no path splits. A step stores up to two groups before the next paths are taken, and append_lanes() writes
+/// up to one behind them. One more keeps rows from being a power of two apart, which would put them into the same few
+/// sets of the cache.
 inline constexpr int pool_groups = max_splits + 5;
 
-template <class F>
-using PathPool = std::conditional_t<Plain<F>, WaitingBranches<F>, LanePool<F, 36, 11, pool_groups>>;
+template <class F, bool can_split>
+using PathPool = std::conditional_t<Plain<F>, WaitingBranches<F>, LanePool<F, 36, 11, can_split ? pool_groups : 2>>;
 
 /// Empties a pool, and clears the columns in which load_lanes() may read behind the last path.
 template <class F>
-TYNDALL_INLINE void clear(PathPool<F>& pool) {
+TYNDALL_INLINE void clear(auto& pool) {
   pool.count = 0;
-  if constexpr (PathPool<F>::waits) {
+  if constexpr (!Plain<F>) {
     for (auto& column : pool.number)
       for (int i = 0; i < 2 * lanes_of<F>; ++i) column[i] = 0;
     for (auto& column : pool.integer)
@@ -99,8 +98,8 @@ TYNDALL_INLINE void each_part(const auto& s, Paths<F>& p, const auto& number, co
 
 /// Adds the paths in `lanes` to the pool.
 template <class F>
-TYNDALL_INLINE void put_to_wait(const auto& s, Paths<F>& p, MaskOf<F> lanes, PathPool<F>& pool) {
-  if constexpr (PathPool<F>::waits)
+TYNDALL_INLINE void put_to_wait(const auto& s, Paths<F>& p, MaskOf<F> lanes, auto& pool) {
+  if constexpr (!Plain<F>)
     append_lanes<F>(s, p, lanes, pool);
   else if (lanes)
     pool.path[pool.count++] = p;
@@ -108,14 +107,14 @@ TYNDALL_INLINE void put_to_wait(const auto& s, Paths<F>& p, MaskOf<F> lanes, Pat
 
 /// Moves the paths that are alive to the pool.
 template <class F>
-TYNDALL_INLINE void let_wait(const auto& s, Paths<F>& p, PathPool<F>& pool) {
+TYNDALL_INLINE void let_wait(const auto& s, Paths<F>& p, auto& pool) {
   put_to_wait(s, p, mask_from_bits<F>(p.alive), pool);
   p.alive = 0;
 }
 
 /// Takes the paths that were added last, as many as there are lanes.
 template <class F>
-TYNDALL_INLINE void take_waiting(const auto& s, Paths<F>& p, PathPool<F>& pool) {
+TYNDALL_INLINE void take_waiting(const auto& s, Paths<F>& p, auto& pool) {
   using U = UintOf<F>;
   const int count = pool.count < lanes_of<F> ? pool.count : lanes_of<F>;
   pool.count -= count;
@@ -149,8 +148,8 @@ inline constexpr int enough_lanes = lanes_of<F> - lanes_of<F> / 8;
 /// Refills the lanes before the next step if too few paths of the last one survived. If no path is alive afterwards,
 /// all samples are done.
 template <class F>
-TYNDALL_INLINE void take_paths(const auto& s, Paths<F>& p, PathPool<F>& pool, auto& samples) {
-  if constexpr (!PathPool<F>::waits) {
+TYNDALL_INLINE void take_paths(const auto& s, Paths<F>& p, auto& pool, auto& samples) {
+  if constexpr (Plain<F>) {
     if (p.alive) return;
     if (pool.count > 0)
       p = pool.path[--pool.count], p.alive = 1;

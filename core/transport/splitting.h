@@ -27,7 +27,7 @@ inline constexpr float min_branch = 0.25f;
 /// min_branch + min_carried goes the way that scatter() has chosen.
 template <class F>
 TYNDALL_INLINE MaskOf<F> split_at_glass(const auto& s, Paths<F>& p, const Event<F>& e, MaskOf<F> on, Vec3<F>& carried,
-                                        PathPool<F>& pool) {
+                                        auto& pool) {
   const F zero = F(0.0f), one = F(1.0f);
   const auto none = less(one, zero);
   if (!s.has_splitting()) return none;

@@ -39,7 +39,7 @@ Course follow(const Scene& scene, double impact, std::initializer_list<int> refl
   p.ray = {{F(0), static_cast<F>(impact), F(5)}, {F(0), F(0), F(-1)}, F(0), from_nowhere};
   p.throughput = {F(1), F(1), F(1)};
   WaitingRequests<F> requests{};
-  PathPool<F> pool{};
+  PathPool<F, true> pool{};
   TileCounts counts;
   AloneSamples samples(view.view(), TileJob{{0, 0, 1, 1}}, {1, nullptr, nullptr, counts});
   NoRecorder recorder;
