@@ -14,7 +14,7 @@ constexpr double wanted_fill = 0.35;  // middle cells with landings, over landin
 }  // namespace
 
 Coordinates coordinates_of(const GuideView& g, Vec3d point, int level) {
-  const CellPlace<float> c = cell_at<float>(g, to_float3(point), level);
+  const CellPlace<float> c = cell_at<float>(g, to_float(point), level);
   return {c.x, c.y, c.z};
 }
 

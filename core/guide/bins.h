@@ -1,4 +1,5 @@
 #pragma once
+#include "core/compile/columns.h"
 #include "core/guide/light_paths.h"
 #include "core/trace/guide_view.h"
 
@@ -8,8 +9,6 @@
 
 /// Sorts the landings of light paths by cells.
 namespace tyndall {
-
-inline Vec3f to_float3(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
 /// A cell's coordinates, sorted by their key.
 struct Coordinates {

@@ -4,6 +4,7 @@
 #include "core/guide/lobes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -18,7 +19,7 @@ constexpr double coarse_factor = 0.05;     // on the power of sequences that a c
 constexpr double neighbour_factor = 0.1;   // on the power of landings in neighbouring cells
 constexpr double min_weight = 0.02;        // of a sequence, as a fraction of its cell's power
 constexpr double lonely_error = 0.01;      // variance of a lobe that has too few others beside it
-constexpr double eagerness = 0.7;          // queries over the fraction of light that guided light brings
+constexpr double eagerness = 0.5;          // queries over the fraction of light that guided light brings
 constexpr double min_query_probability = 0.05;
 constexpr double near_offset = 0.05;  // squared distance, in cells, at which errors are about those of the lobe itself
 
@@ -39,8 +40,13 @@ struct Sequence {
 
 double squared_distance(Vec3d a, Vec3d b) { return dot(a - b, a - b); }
 
-/// The light's direction of flight at a point, by a landing's wave front. Returns false at a focus.
+/// The light's direction of flight at a point, by a landing's image or wave front. Returns false where there is none.
 bool predict(const Landing& l, Vec3d point, Vec3d& flight) {
+  if (l.image) {
+    const SeenImage<double> seen = see_image(*l.image, point);
+    flight = -seen.direction;
+    return seen.exists;
+  }
   const Vec3d offset = point - l.point, other = cross(l.flight, l.axis);
   const double ahead = dot(offset, l.flight), p = dot(offset, l.axis), q = dot(offset, other);
   const Symmetric& b = l.curvature;
@@ -87,6 +93,7 @@ class CellMaker {
       numbers_.push_back(
           known.try_emplace({l.events.high, l.events.low}, static_cast<std::int32_t>(known.size())).first->second);
     place_of_.assign(known.size(), nowhere);
+    list_images();
   }
 
   void make() {
@@ -180,14 +187,31 @@ class CellMaker {
         std::clamp(eagerness * brought / direct_light_at(scene_, middle, h), min_query_probability, 1.0);
   }
 
+  /// Numbers the images of lights. Landings after the same events, of the same light, have the same one.
+  void list_images() {
+    std::map<std::array<float, numbers_of_image>, std::int32_t> known;
+    for (const Landing& l : landings_) {
+      image_of_.push_back(-1);
+      if (!l.image) continue;
+      const Vec3f light = to_float(l.image->light), sphere = to_float(l.image->sphere);
+      const std::array<float, numbers_of_image> numbers{
+          light.x, light.y, light.z, sphere.x, sphere.y, sphere.z, static_cast<float>(l.image->radius)};
+      const auto [entry, is_new] = known.try_emplace(numbers, static_cast<std::int32_t>(known.size()));
+      if (is_new) guide_.images.insert(guide_.images.end(), numbers.begin(), numbers.end());
+      image_of_.back() = entry->second;
+    }
+  }
+
   void add_sequence(const Sequence& s, Vec3d middle, double weight) {
-    add_lobe(s, nearest_landing(s.own.empty() ? s.others : s.own, middle));
+    const std::size_t nearest = nearest_landing(s.own.empty() ? s.others : s.own, middle);
+    add_lobe(s, nearest);
     const Landing& l = *s.first;
-    for (const std::int32_t v : {l.events.low, l.events.high, l.next.low, l.next.high, l.count, 0, 0, 0})
+    for (const std::int32_t v :
+         {l.events.low, l.events.high, l.next.low, l.next.high, l.count, image_of_[nearest], 0, 0})
       guide_.events.push_back(v);
     const std::int32_t code = (l.next.low & 63) >> 1;
     const Thing& thing = paths_.things()[static_cast<std::size_t>(code - 1)];
-    const Vec3f center = thing.is_sphere ? to_float3(thing.center + 0.5 * thing.motion) : Vec3f{};
+    const Vec3f center = thing.is_sphere ? to_float(thing.center + 0.5 * thing.motion) : Vec3f{};
     const float radius = thing.is_sphere ? static_cast<float>(thing.radius) : 0;
     for (const float v : {static_cast<float>(weight), center.x, center.y, center.z, radius, 0.0f, 0.0f, 0.0f})
       guide_.weights.push_back(v);
@@ -197,6 +221,13 @@ class CellMaker {
     return *std::min_element(from.begin(), from.end(), [&](std::size_t a, std::size_t b) {
       return squared_distance(landings_[a].point, point) < squared_distance(landings_[b].point, point);
     });
+  }
+
+  /// The direction of flight at one landing, by another one.
+  bool predict_at(std::size_t landing, std::size_t by, Vec3d& flight) const {
+    const Landing& l = landings_[landing];
+    flight = l.flight;
+    return (image_of_[by] >= 0 && image_of_[by] == image_of_[landing]) || predict(landings_[by], l.point, flight);
   }
 
   /// How well a lobe tells the directions of other landings: half of their mean squared difference, see LobeNumber.
@@ -211,7 +242,7 @@ class CellMaker {
       for (std::size_t j = 0; j < list.size(); j += step) {
         const Landing& l = landings_[list[j]];
         Vec3d flight;
-        if (list[j] == own || !predict(landings_[own], l.point, flight)) continue;
+        if (list[j] == own || !predict_at(list[j], own, flight)) continue;
         const double far = squared_distance(l.point, landings_[own].point) * s.inverse_size2;
         if (far > 9 && part < 2) continue;
         const double weight = 1 / (near_offset + far);
@@ -280,6 +311,7 @@ class CellMaker {
   std::vector<Sequence> sequences_;    ///< of the present cell: the first count_ ones
   std::vector<std::size_t> place_of_;  ///< in sequences_ as they were listed, by their numbers
   std::size_t count_ = 0;
+  std::vector<std::int32_t> image_of_;  ///< of each landing, in Guide::images; -1: none
 };
 
 }  // namespace

@@ -15,7 +15,7 @@ struct Guide {
   std::int32_t slot_mask = 0;
   float inverse_size[guide_levels] = {};
   std::vector<std::int32_t> cells, events, thing_of;
-  std::vector<float> query_probability, weights, lobe;
+  std::vector<float> query_probability, weights, lobe, images;
   /// Variance times samples, relative to the squared radiance, that BSDF sampling is expected to have without a guide.
   double expected_variance = 0;
   int light_paths = 0;      ///< how many were traced
@@ -28,7 +28,7 @@ struct Guide {
     v.lobes = lobes(), v.slot_mask = slot_mask;
     for (int level = 0; level < guide_levels; ++level) v.inverse_size[level] = inverse_size[level];
     v.cells = cells.data(), v.query_probability = query_probability.data(), v.events = events.data();
-    v.weights = weights.data(), v.lobe = lobe.data(), v.thing_of = thing_of.data();
+    v.weights = weights.data(), v.lobe = lobe.data(), v.images = images.data(), v.thing_of = thing_of.data();
     return v;
   }
 };

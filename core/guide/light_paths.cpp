@@ -1,5 +1,6 @@
 #include "core/guide/light_paths.h"
 
+#include "core/guide/nearby_rays.h"
 #include "core/trace/flight.h"
 #include "core/trace/intersect.h"
 #include "core/trace/lights.h"
@@ -28,66 +29,6 @@ SinCos<double> random_angle(double u) {
   return {static_cast<double>(a.sin), static_cast<double>(a.cos)};
 }
 
-double squared_length(Vec3d v) { return dot(v, v); }
-Vec3d normalized(Vec3d v) { return (1 / std::sqrt(squared_length(v))) * v; }
-
-/// A ray that meets a surface, as its neighbours do.
-struct MetSurface {
-  bool is_sphere, inverted, far;  ///< far: the path met the sphere from within
-  Vec3d center, point, normal;    ///< point, normal: of the path itself
-  double radius, index;           ///< index: of refraction, inside over outside; 0: a mirror
-  bool reflects;
-};
-
-/// Takes a ray near a light path to the same surface and on. False: it does not follow.
-bool follow(const MetSurface& m, Vec3d& origin, Vec3d& direction) {
-  Vec3d normal = m.normal;
-  double t;
-  if (m.is_sphere) {
-    const Vec3d to_center = m.center - origin;
-    const double middle = dot(to_center, direction);
-    const Vec3d across = to_center - middle * direction;
-    const double discriminant = m.radius * m.radius - dot(across, across);
-    if (!(discriminant > 0)) return false;
-    t = m.far ? middle + std::sqrt(discriminant) : middle - std::sqrt(discriminant);
-    origin = origin + t * direction;
-    normal = normalized(origin - m.center);
-    if (m.inverted) normal = -normal;
-  } else {
-    t = dot(m.point - origin, normal) / dot(direction, normal);
-    origin = origin + t * direction;
-  }
-  if (m.reflects) {
-    direction = direction - (2 * dot(direction, normal)) * normal;
-    return true;
-  }
-  const bool exiting = dot(direction, normal) > 0;
-  const Vec3d facing = exiting ? -normal : normal;
-  const double eta = exiting ? 1 / m.index : m.index, cosine = -dot(direction, facing);
-  const double squared = eta * eta - 1 + cosine * cosine;
-  if (!(squared > 0)) return false;
-  direction = normalized(direction + (cosine - std::sqrt(squared)) * facing);
-  return true;
-}
-
-/// A 2x2 matrix.
-struct Matrix {
-  double a, b, c, d;
-};
-Matrix operator*(Matrix p, Matrix q) {
-  return {p.a * q.a + p.b * q.c, p.a * q.b + p.b * q.d, p.c * q.a + p.d * q.c, p.c * q.b + p.d * q.d};
-}
-Matrix operator-(Matrix p, Matrix q) { return {p.a - q.a, p.b - q.b, p.c - q.c, p.d - q.d}; }
-double determinant(Matrix m) { return m.a * m.d - m.b * m.c; }
-Matrix inverse(Matrix m) {
-  const double k = 1 / determinant(m);
-  return {k * m.d, -k * m.b, -k * m.c, k * m.a};
-}
-void add_square(Matrix m, double scale, Symmetric& to) {
-  to.xx += scale * (m.a * m.a + m.b * m.b), to.xy += scale * (m.a * m.c + m.b * m.d);
-  to.yy += scale * (m.c * m.c + m.d * m.d);
-}
-
 /// Transmittance of the media along a ray, by the kernels' polynomials.
 double transmitted(const SceneView& s, const Ray<double>& ray, double distance) {
   const auto to_float = [](Vec3d v) {
@@ -95,25 +36,6 @@ double transmitted(const SceneView& s, const Ray<double>& ray, double distance) 
   };
   const Ray<float> same{to_float(ray.origin), to_float(ray.direction), static_cast<float>(ray.time), ray.from};
   return static_cast<double>(pass_media<float>(s, same, static_cast<float>(distance), true));
-}
-
-struct ChangedPair {
-  Matrix place, direction;
-};
-
-/// The changes of place and direction, in the plane across a flight at `point`, of two rays near it, as columns. They
-/// are those of rays rotated or moved by `step`, divided by that.
-ChangedPair changes_of(const Vec3d (&origin)[2], const Vec3d (&direction)[2], Vec3d point, Vec3d d, double step) {
-  const Basis<double> b = basis_around(d);
-  double change[2][4];
-  for (int i = 0; i < 2; ++i) {
-    const double slope = 1 / dot(direction[i], d);
-    const Vec3d flight = slope * direction[i], off = origin[i] + dot(point - origin[i], d) * flight - point;
-    const double values[4] = {dot(off, b.s), dot(off, b.t), dot(flight, b.s), dot(flight, b.t)};
-    for (int c = 0; c < 4; ++c) change[i][c] = values[c] / step;
-  }
-  return {{change[0][0], change[1][0], change[0][1], change[1][1]},
-          {change[0][2], change[1][2], change[0][3], change[1][3]}};
 }
 
 }  // namespace
@@ -185,6 +107,7 @@ void LightPaths::begin(const Start& start) {
   Flight& f = flight_;
   f.start = start, f.fuzz.clear(), f.met.clear(), f.rays.clear();
   f.weight = start.power, f.chance = 1, f.length = skip;
+  f.image = LightImage<double>{middle, {}, 0};
   const double longest = std::max(columns.length_u, columns.length_v);
   f.light_radius = round ? columns.length_u : longest * std::sqrt(1 / 3.0);  // of a disc as wide, roughly
   const bool behind = !round && dot(d, columns.normal) < 0;
@@ -232,6 +155,19 @@ bool LightPaths::choose_side(double reflected, std::int32_t thing, const Ordered
   return fraction > 0;
 }
 
+/// Adds an event to the image of the light that those see who look back along the flight.
+void LightPaths::extend_image(const Thing& thing, const MetSurface& m) {
+  if (!flight_.image) return;
+  LightImage<double>& image = *flight_.image;
+  const auto mirrored = [&](Vec3d p) { return p - (2 * dot(p - thing.corner, m.normal)) * m.normal; };
+  if (m.reflects && !thing.is_sphere)
+    image.light = mirrored(image.light), image.sphere = mirrored(image.sphere);
+  else if (m.reflects && !m.far && thing.motion == Vec3d{} && image.radius == 0)
+    image.sphere = thing.center, image.radius = thing.radius;
+  else
+    flight_.image.reset();
+}
+
 /// Sends the flight on from a thing. Returns false if it ends there.
 bool LightPaths::meet(std::int32_t element, double t, const OrderedEvents<double>* wanted) {
   Flight& f = flight_;
@@ -254,6 +190,7 @@ bool LightPaths::meet(std::int32_t element, double t, const OrderedEvents<double
     m.index = exiting ? 1 / boundary.eta : boundary.eta;
     if (!choose_side(boundary.reflected, index, wanted, m.reflects)) return false;
   }
+  extend_image(thing, m);
   for (NearbyRay& near : f.rays) near.lost = near.lost || !follow(m, near.origin, near.direction);
   if (f.rays[0].lost) return false;
   if (thing.fuzz > 0) {
@@ -305,7 +242,7 @@ void LightPaths::land(Vec3d point, const OrderedEvents<double>* wanted) {
   }
   l.point = point, l.flight = d, l.axis = basis_around(d).s;
   l.curvature = {front.a, 0.5 * (front.b + front.c), front.d};
-  l.weight = f.weight, l.chance = f.chance, l.length = f.length;
+  l.weight = f.weight, l.chance = f.chance, l.length = f.length, l.image = f.image;
   if (!std::isfinite(l.variance.xx + l.variance.yy + front.a + front.b + front.c + front.d)) return;
   landings_.push_back(l), starts_.push_back(f.start);
 }

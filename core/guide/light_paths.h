@@ -1,7 +1,9 @@
 #pragma once
+#include "core/guide/light_image.h"
 #include "core/guide/things.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 /// Light paths from the middles of lights over near-specular surfaces to diffuse ones. They are traced in double, with
@@ -24,7 +26,10 @@ struct Landing {
   double length = 0;                   ///< of the path
   OrderedEvents<double> events, next;  ///< as seen from the surface; next: with the first event in the lowest bits
   int count = 0;                       ///< of events
+  std::optional<LightImage<double>> image;  ///< where points see the light by way of the same events
 };
+
+struct MetSurface;
 
 class LightPaths {
  public:
@@ -70,7 +75,8 @@ class LightPaths {
     std::vector<NearbyRay> rays;
     std::vector<double> fuzz;
     double light_radius = 0, weight = 0, chance = 1, length = 0;
-    std::int32_t from = 0;          ///< Ray::from of the path
+    std::int32_t from = 0;  ///< Ray::from of the path
+    std::optional<LightImage<double>> image;
     std::vector<std::int32_t> met;  ///< 2 · thing + (1: reflected)
   };
 
@@ -81,6 +87,7 @@ class LightPaths {
   void trace(const Start& start, const OrderedEvents<double>* wanted);
   Vec3d middle_of(int light, double time) const;
   bool choose_side(double reflected, std::int32_t thing, const OrderedEvents<double>* wanted, bool& reflects);
+  void extend_image(const Thing& thing, const MetSurface& m);
   bool meet(std::int32_t element, double t, const OrderedEvents<double>* wanted);
   bool name_events(const OrderedEvents<double>* wanted, Landing& landing) const;
   void land(Vec3d point, const OrderedEvents<double>* wanted);

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/base/random.h"
 #include "core/base/sampling.h"
+#include "core/guide/light_image.h"
 #include "core/guide/ordered_events.h"
 #include "core/trace/scene_view.h"
 
@@ -88,18 +89,14 @@ template <class F>
 struct SeenLobe {
   Vec3<F> center, u, v;  ///< unit: towards the light by way of the surfaces; the two axes
   F length_u, length_v;  ///< of the axes, as tangents of angles
-  MaskOf<F> exists;      ///< false where the lobe has a focus at the point
+  MaskOf<F> exists;      ///< false where the point does not see the light
 };
 
-/// The wave front's curvature B at the lobe's point becomes B (I + t B)^-1 at a distance t along the flight.
+/// Where a point sees a light by a wave front: its curvature B at the lobe's point becomes B (I + t B)^-1 at a distance
+/// t along the flight. No light is seen at a focus. offset: of the point from the lobe's.
 template <class F>
-TYNDALL_INLINE SeenLobe<F> see_lobe(const GuideView& g, IntOf<F> sequence, Vec3<F> point) {
-  const IntOf<F> row = sequence * IntOf<F>(numbers_of_lobe);
-  const auto at = [&](int k) __attribute__((always_inline)) { return gather<F>(g.lobe + k, row); };
-  const auto vector = [&](int k) __attribute__((always_inline)) { return Vec3<F>{at(k), at(k + 1), at(k + 2)}; };
-  const Vec3<F> offset = point - vector(lobe_point), flight = vector(lobe_flight), axis = vector(lobe_axis);
+TYNDALL_INLINE SeenImage<F> see_by_front(Vec3<F> offset, Vec3<F> flight, Vec3<F> axis, F b11, F b12, F b22) {
   const Vec3<F> other = cross(flight, axis);
-  const F b11 = at(lobe_curvature), b12 = at(lobe_curvature + 1), b22 = at(lobe_curvature + 2);
   const F ahead = dot(offset, flight), p = dot(offset, axis), q = dot(offset, other);
   const F one = F(1.0f), spread = b11 * b22 - b12 * b12;
   const F determinant = (one + ahead * b11) * (one + ahead * b22) - ahead * ahead * b12 * b12;
@@ -107,12 +104,38 @@ TYNDALL_INLINE SeenLobe<F> see_lobe(const GuideView& g, IntOf<F> sequence, Vec3<
   const F c11 = scale * (b11 + ahead * spread), c12 = scale * b12, c22 = scale * (b22 + ahead * spread);
   const Vec3<F> light =
       point_at(point_at(flight, c11 * p + c12 * q, axis), c12 * p + c22 * q, other);  // its flight, not unit
+  return {-normalize(light), less_equal(F(1e-3f), abs(determinant))};
+}
+
+template <class F>
+TYNDALL_INLINE SeenLobe<F> see_lobe(const GuideView& g, IntOf<F> sequence, Vec3<F> point) {
+  using I = IntOf<F>;
+  const I row = sequence * I(numbers_of_lobe);
+  const auto at = [&](int k) __attribute__((always_inline)) { return gather<F>(g.lobe + k, row); };
+  const auto vector = [&](int k) __attribute__((always_inline)) { return Vec3<F>{at(k), at(k + 1), at(k + 2)}; };
+  const Vec3<F> offset = point - vector(lobe_point), flight = vector(lobe_flight), axis = vector(lobe_axis);
+  const I image = gather_int<F>(g.events + events_image, sequence * I(numbers_of_events));
+  const auto by_image = less_equal(I(0), image);
+  SeenImage<F> light{-flight, by_image};
+  if (any(mask_not(by_image)))
+    light = see_by_front(offset, flight, axis, at(lobe_curvature), at(lobe_curvature + 1), at(lobe_curvature + 2));
+  if (any(by_image)) {
+    const I of = select(by_image, image, I(0)) * I(numbers_of_image);
+    const auto number = [&](int k) __attribute__((always_inline)) { return gather<F>(g.images + k, of); };
+    const auto place = [&](int k) __attribute__((always_inline)) {
+      return Vec3<F>{number(k), number(k + 1), number(k + 2)};
+    };
+    const SeenImage<F> seen =
+        see_image(LightImage<F>{place(image_light), place(image_sphere), number(image_radius)}, point);
+    light.direction = select(by_image, seen.direction, light.direction);
+    light.exists = mask_or(mask_and_not(light.exists, by_image), mask_and(seen.exists, by_image));
+  }
   SeenLobe<F> seen;
-  seen.center = -normalize(light);
+  seen.center = light.direction;
   // The axes rotated by the least rotation that takes the flight's reverse into the centre.
-  const Vec3<F> both = seen.center - flight;
-  const F cosine = one - dot(flight, seen.center);
-  seen.exists = mask_and(less_equal(F(1e-3f), abs(determinant)), less(F(1e-3f), cosine));
+  const Vec3<F> both = seen.center - flight, other = cross(flight, axis);
+  const F cosine = F(1.0f) - dot(flight, seen.center);
+  seen.exists = mask_and(light.exists, less(F(1e-3f), cosine));
   const F rotation = F(-1.0f) / max(cosine, F(1e-3f));
   seen.u = point_at(axis, rotation * dot(axis, seen.center), both);
   seen.v = point_at(other, rotation * dot(other, seen.center), both);

@@ -2,6 +2,7 @@
 
 #include "core/compile/compile.h"
 #include "core/compile/flatten.h"
+#include "core/guide/camera_images.h"
 #include "core/guide/find_guide.h"
 #include "core/specular/find_subpixel_lights.h"
 #include "core/targets/scalar.h"
@@ -221,7 +222,7 @@ PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, RenderScene col
   guide_ = std::move(guide);
   view_.guide = guide_->view();
   if (guide_->lobes() > 0) columns_.kernel = view_.kernel = guided_kernel(columns_.kernel);
-  subpixel_lights_ = find_subpixel_lights(view_);
+  subpixel_lights_ = find_subpixel_lights(view_, find_camera_images(view_));
   view_.subpixel_light_count = static_cast<int>(subpixel_lights_.size());
   view_.subpixel_lights = subpixel_lights_.data();
   // Guided light is not shared: its sums would depend on the order in which waiting requests are answered.

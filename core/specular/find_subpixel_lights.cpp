@@ -27,29 +27,6 @@ std::int32_t route_by(int reflections, int crossings) {
   return reflections > 0 ? pack_route(reflections, std::min(crossings, 15)) : 0;
 }
 
-/// A part of the picture, in pixels.
-struct PictureBox {
-  float left = 1e30f, top = 1e30f, right = -1e30f, bottom = -1e30f;
-  std::int32_t route = 0;  // see SubpixelLight
-  float throughput = 0;    // fraction of radiance from the light's middle that the surfaces send this way
-
-  void include(Pair<float> at) {
-    left = std::min(left, at.x), right = std::max(right, at.x);
-    top = std::min(top, at.y), bottom = std::max(bottom, at.y);
-  }
-  bool empty() const { return right < left; }
-};
-
-/// Where a direction from the camera meets the picture, in pixels. Returns false for a direction behind the camera.
-bool project(const CameraColumns& c, Vec3f direction, Pair<float>& at) {
-  const Vec3f normal = cross(c.du, c.dv);
-  const float scale = dot(c.corner, normal) / dot(direction, normal);
-  if (!(scale > 0)) return false;
-  const Vec3f place = scale * direction - c.corner;
-  at = {dot(place, c.du) / dot(c.du, c.du), dot(place, c.dv) / dot(c.dv, c.dv)};
-  return true;
-}
-
 /// The light's middle, and points around it.
 std::vector<Vec3f> points_of(const LightColumns<float>& light) {
   std::vector<Vec3f> points;
@@ -281,9 +258,10 @@ std::vector<SubpixelLight> distribute(std::vector<WeighedSubpixelLight> subpixel
 
 }  // namespace
 
-std::vector<SubpixelLight> find_subpixel_lights(const SceneView& scene) {
-  if (scene.specular.pairs == 0 || scene.features.lens || scene.features.shutter) return {};
+std::vector<SubpixelLight> find_subpixel_lights(const SceneView& scene, const std::vector<PictureBox>& others) {
+  if (scene.features.lens || scene.features.shutter) return {};
   Finder finder(scene);
+  finder.boxes = others;
   finder.find();
   const float pixel_angle = length(scene.camera.du) / length(scene.camera.corner);
   std::vector<WeighedSubpixelLight> subpixel_lights;

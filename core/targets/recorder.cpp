@@ -30,7 +30,7 @@ void PathRecorder::on_event(const SceneView& s, const Paths<float>& p, const Hit
   wanted_ = is_wanted(p);
   if (!wanted_) return;
   if (path_.vertices.empty())
-    path_.origin = p.ray.origin, path_.time = p.ray.time, path_.weight = s.has_specular_paths() ? p.weight : 1;
+    path_.origin = p.ray.origin, path_.time = p.ray.time, path_.weight = has_sample_weights(s) ? p.weight : 1;
   PathVertex v{};
   const bool follows = path_.vertices.empty() || path_.vertices.back().fate == Fate::goes_on;
   v.before = static_cast<std::int32_t>(path_.vertices.size()) - 1;

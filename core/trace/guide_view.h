@@ -23,6 +23,7 @@ enum GuidedEvents : std::int32_t {
   events_next_low,  ///< the same events with the first one, not the last one, in the lowest bits
   events_next_high,
   events_count,
+  events_image,  ///< index of the light's image; -1: the lobe tells where the light is seen
   numbers_of_events = 8
 };
 
@@ -32,6 +33,14 @@ enum GuidedWeights : std::int32_t {
   cone_center,       ///< three numbers: centre of the sphere that the sequence meets first
   cone_radius = 4,   ///< 0: it meets a flat first
   numbers_of_weights = 8
+};
+
+/// Floats of an image of a light: see core/guide/light_image.h.
+enum ImageNumber : std::int32_t {
+  image_light = 0,   ///< three numbers
+  image_sphere = 3,  ///< three numbers
+  image_radius = 6,
+  numbers_of_image = 8
 };
 
 /// Floats of the lobe of a sequence in a cell: how the middle of a light is seen near a point by way of its events.
@@ -55,6 +64,7 @@ struct GuideView {
   const std::int32_t* events = nullptr;      ///< numbers_of_events for each sequence
   const float* weights = nullptr;            ///< numbers_of_weights for each sequence
   const float* lobe = nullptr;               ///< numbers_of_lobe for each sequence
+  const float* images = nullptr;             ///< numbers_of_image for each
   const std::int32_t* thing_of = nullptr;    ///< by element: its index among near-specular elements, or -1
 };
 

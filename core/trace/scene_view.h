@@ -145,6 +145,9 @@ struct CommonSceneView : SceneView {
   TYNDALL_INLINE static constexpr bool has_outlined_lights() { return false; }
 };
 
+/// Whether samples have weights of their own, because the scene may have subpixel lights: see subpixel_lights.h.
+TYNDALL_INLINE bool has_sample_weights(const auto& s) { return s.has_specular_paths() || s.has_guide(); }
+
 /// A kernel's view as functions that are not inlined take it: one copy of them serves all kernels of a file.
 TYNDALL_INLINE const SceneView& shared_view(const SceneView& s) { return s; }
 TYNDALL_INLINE const CommonSceneView& shared_view(const CommonSceneView& s) { return s; }

@@ -54,7 +54,7 @@ struct AloneSamples {
     const Vec3<F> sample = weighed(s, p, p.radiance);
     const F left = max_component(p.throughput);
     store(r, sample.x), store(g, sample.y), store(b, sample.z), store(slot, p.slot);
-    store(carried, s.has_specular_paths() ? p.weight * left : left);
+    store(carried, has_sample_weights(s) ? p.weight * left : left);
     const std::uint32_t straight = film.emission ? p.straight : 0;
     const std::uint32_t unusual = ~bits(fits_film(sample, film.per_quantum)) | straight | cut;
     for (; ended; ended &= ended - 1) {

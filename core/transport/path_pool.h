@@ -73,9 +73,10 @@ TYNDALL_INLINE void each_part(const auto& s, Paths<F>& p, const auto& number, co
   number(11, p.radiance.x), number(12, p.radiance.y), number(13, p.radiance.z);
   if (s.has_specular_paths()) {
     number(14, p.trail.start.x), number(15, p.trail.start.y), number(16, p.trail.start.z);
-    number(17, p.trail.pdf), number(18, p.weight);
+    number(17, p.trail.pdf);
     integer(5, p.trail.met.packed), integer(6, p.route.packed);
   }
+  if (has_sample_weights(s)) number(18, p.weight);
   if (s.has_lights_in_media()) {
     MediumFlight<F>& f = p.flight;
     number(19, f.origin.x), number(20, f.origin.y), number(21, f.origin.z);
@@ -133,8 +134,8 @@ TYNDALL_INLINE void begin_samples(const auto& s, Paths<F>& p, auto& samples) {
   p.sampler.event = UintOf<F>(dimension::camera_count * golden_ratio);
   p.throughput = Vec3<F>{F(1.0f), F(1.0f), F(1.0f)}, p.radiance = zero3<F>();
   p.depth = IntOf<F>(0), p.pdf = F(one_direction);
-  if (s.has_specular_paths())
-    p.weight = fresh.subpixel_lights.weight, p.route = fresh.subpixel_lights.route, p.trail.met.packed = IntOf<F>(-1);
+  if (has_sample_weights(s)) p.weight = fresh.subpixel_lights.weight;
+  if (s.has_specular_paths()) p.route = fresh.subpixel_lights.route, p.trail.met.packed = IntOf<F>(-1);
   if (s.has_guide()) p.guide.events = OrderedEvents<F>::unknown();
   p.straight = s.has_lights() || s.has_splitting() ? ~0u : 0u, p.branch = p.first = p.second = 0;
   p.alive = first_lanes(fresh.count);

@@ -19,7 +19,7 @@ struct Paths {
   SpecularTrail<F> trail;   ///< events since it last scattered; only in scenes with specular paths
   GuideTrail<F> guide;      ///< likewise; only in scenes with a guide
   IntOf<F> slot;            ///< 2 · pixel within the tile + half; in kernels that reuse paths an index of ReusedPaths
-  F weight;                 ///< of the sample, see subpixel_lights.h; only in scenes with specular paths
+  F weight;                 ///< of the sample, see subpixel_lights.h; only with has_sample_weights()
   GlassRoute<F> route;      ///< remaining events to a subpixel light; only in scenes with specular paths
   std::uint32_t alive = 0;  ///< bit i: lane i follows a path
   /// Bit i: the path has met only smooth glass and mirrors so far; 0 without lights and without splitting.
@@ -38,7 +38,7 @@ TYNDALL_INLINE MaskOf<F> seeks_subpixel_light(const Paths<F>& p) {
 /// `colour`, what a path has gathered or carries, times the weight of its sample (subpixel_lights.h).
 template <class F>
 TYNDALL_INLINE Vec3<F> weighed(const auto& s, const Paths<F>& p, Vec3<F> colour) {
-  return s.has_specular_paths() ? p.weight * colour : colour;
+  return has_sample_weights(s) ? p.weight * colour : colour;
 }
 
 /// Returns the lanes in which `part` of the path's state is not finite. Sets their radiance to not a number, so that

@@ -120,13 +120,46 @@ TEST_CASE("guide: directions are drawn with the pdf that is stated") {
   }
 }
 
+TEST_CASE("guide: light seen in a sphere is reflected at equal angles, from near the sphere to far away") {
+  std::mt19937 engine{3};
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const auto on_unit_sphere = [&] {
+    const double z = 2 * uniform(engine) - 1, r = std::sqrt(1 - z * z), phi = 2 * pi * uniform(engine);
+    return Vec3d{r * std::cos(phi), r * std::sin(phi), z};
+  };
+  const auto distance = [&] { return 1 + std::pow(10, 3 * uniform(engine) - 2); };
+  int hidden = 0, exact = 0, seen = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3d point = distance() * on_unit_sphere(), light = distance() * on_unit_sphere();
+    const SeenImage<double> image = see_image(LightImage<double>{light, {}, 1}, point);
+    const double nearest = length(cross(point, light - point)) / length(light - point);
+    const double before = dot(-point, light - point), behind = dot(light, light - point);
+    const bool blocked = before > 0 && behind > 0 && nearest < 1;
+    hidden += blocked && !image.exists, seen += image.exists;
+    if (!image.exists) continue;
+    CHECK_FALSE(blocked);
+    const double middle = -dot(point, image.direction);
+    const double across = dot(point, point) - middle * middle;
+    if (across > 1) continue;  // beside the sphere: counted below
+    const Vec3d place = point + (middle - std::sqrt(1 - across)) * image.direction;
+    const Vec3d reflected = image.direction - (2 * dot(image.direction, place)) * place;
+    exact += length(cross(reflected, light - place)) / length(light - place) < 1e-3;
+  }
+  CHECK(hidden > 500);
+  CHECK(exact > 0.98 * seen);
+  const SeenImage<double> straight = see_image(LightImage<double>{{0, 3, 4}, {}, 0}, {0, 0, 0});
+  CHECK(straight.exists);
+  CHECK(straight.direction == Vec3d{0, 0.6, 0.8});
+}
+
 TEST_CASE("guide: the same bits whatever was edited before") {
   const auto scene = std::make_shared<const Scene>(small_scene("stress-small-fuzz", 64, 48, 1));
   const auto fresh = prepare(scene);
   const auto same = [&](const PreparedScene& other) {
     const Guide &a = fresh->guide(), &b = other.guide();
     return a.cells == b.cells && a.events == b.events && a.thing_of == b.thing_of && a.lobe == b.lobe &&
-           a.query_probability == b.query_probability && a.weights == b.weights && a.slot_mask == b.slot_mask;
+           a.query_probability == b.query_probability && a.weights == b.weights && a.images == b.images &&
+           a.slot_mask == b.slot_mask;
   };
   Scene moved = *scene, brighter = *scene;
   moved.camera.look_from.x += 1;

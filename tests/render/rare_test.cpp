@@ -57,6 +57,10 @@ TEST_CASE("rare bright paths: pictures that converge are not suspected") {
 TEST_CASE("rare bright paths: light off metal with a little fuzz is guided; where it is left to chance, that is told") {
   Scene scene = load_scene("stress-small-fuzz").scene;
   CHECK(prepare(scene)->caustic_chance() == 1);
+  for (const std::uint32_t seed : {1u, 2u, 3u, 4u}) {
+    scene.render.seed = seed;
+    CHECK_FALSE(is_rare(scene, 64));
+  }
   scene.render.caustics = Caustics::scatter;
   CHECK(prepare(scene)->caustic_chance() < 1e-4);
   for (const std::uint32_t spp : {4u, 64u, 256u}) CHECK(is_rare(scene, spp));

@@ -1,7 +1,9 @@
 #include "core/trace/subpixel_lights.h"
 
+#include "core/render/prepare.h"
 #include "core/targets/replay.h"
 #include "core/trace/scene_view.h"
+#include "tests/support/pictures.h"
 #include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 
@@ -41,7 +43,7 @@ Spread spread_of_seeds(Scene scene, std::uint32_t spp) {
     scene.render.seed = static_cast<std::uint32_t>(seed + 1);
     RenderOptions options;
     options.spp = spp;
-    const Film film = render(compile(scene), options).film;
+    const Film film = render(*prepare(scene), options).film;
     double whole = 0;
     for (std::size_t i = 0; i < pixels; ++i) {
       const auto value = static_cast<double>(mean(film, film.pixels[i]).x);
@@ -165,6 +167,21 @@ TEST_CASE("subpixel lights: they lose no light and add little noise") {
     CHECK(std::abs(with.mean - without.mean) < 4 * std::hypot(with.error, without.error));
     CHECK(with.variance < without.variance);  // with eight times fewer samples
   }
+}
+
+TEST_CASE("subpixel lights: images in metal of little fuzz lose no light and are less noisy") {
+  Scene dark = small_scene("stress-small-fuzz", 80, 60, 1);
+  dark.materials[0].colour = Vec3d{0, 0, 0};
+  REQUIRE(prepare(dark)->guide().lobes() > 0);
+  CHECK(prepare(dark)->view().subpixel_light_count > 3);
+  const Spread with = spread_of_seeds(dark, 64);
+  dark.render.caustics = Caustics::scatter;
+  CHECK(prepare(dark)->view().subpixel_light_count == 0);
+  const Spread without = spread_of_seeds(dark, 64);
+  CAPTURE(with.mean);
+  CAPTURE(without.mean);
+  CHECK(std::abs(with.mean - without.mean) < 4 * std::hypot(with.error, without.error));
+  CHECK(with.variance < 0.5 * without.variance);
 }
 
 }  // namespace tyndall::test::subpixel_lights_test
