@@ -25,11 +25,25 @@ void Bins::fill(const GuideView& g, const std::vector<Landing>& landings, int le
   std::sort(keys.begin(), keys.end());
   for (const auto& [key, i] : keys) {
     if (bins.empty() || bins.back().key != key)
-      bins.push_back({key, coordinates_of(g, landings[i].point, level), order.size(), order.size()});
+      bins.push_back({key, coordinates_of(g, landings[i].point, level), order.size(), order.size(), order.size()});
     order.push_back(i);
     ++bins.back().end;
   }
 }
+
+void Bins::put_all_sequences_first(const std::vector<std::int32_t>& numbers) {
+  std::vector<const Bin*> met_in(numbers.size());  // the last bin with a landing after each sequence
+  for (Bin& bin : bins) {
+    const auto place = [&](std::size_t i) { return order.begin() + static_cast<std::ptrdiff_t>(i); };
+    const auto is_first = [&](std::size_t i) {
+      const Bin*& last = met_in[static_cast<std::size_t>(numbers[i])];
+      return std::exchange(last, &bin) != &bin;
+    };
+    const auto rest = std::stable_partition(place(bin.begin), place(bin.end), is_first);
+    bin.rest = static_cast<std::size_t>(rest - order.begin());
+  }
+}
+
 const Bins::Bin* Bins::find(const Coordinates& c) const {
   const std::uint64_t key = c.key();
   const auto at =

@@ -32,8 +32,12 @@ class Bins {
     std::uint64_t key;
     Coordinates at;
     std::size_t begin, end;  ///< in `order`
+    std::size_t rest;        ///< see put_all_sequences_first()
   };
   void fill(const GuideView& g, const std::vector<Landing>& landings, int level);
+  /// Reorders each bin: from begin to rest one landing after each sequence of events that has landed there, then the
+  /// others. numbers: of the sequence of each landing, counted from 0.
+  void put_all_sequences_first(const std::vector<std::int32_t>& numbers);
   const Bin* find(const Coordinates& c) const;  ///< null: nothing has landed there
 
   std::vector<Bin> bins;

@@ -8,13 +8,21 @@
 #include "core/trace/light_columns.h"
 #include "core/trace/shade.h"
 
+#include <algorithm>
+#include <map>
 #include <set>
-#include <tuple>
+#include <utility>
 
 namespace tyndall {
 namespace {
 
 constexpr double angle_step = 1e-5;  // of rays beside the path from the camera, radian
+constexpr int columns_of_search = 64;
+constexpr std::size_t max_events = 6;  // in images that are searched for; more carry too little light to be seen
+constexpr int newton_steps = 12;
+constexpr double longest_step = 8, closest_step = 1e-3;  // of Newton's method, in pixels
+
+using Events = std::vector<std::int32_t>;  // indices of the things that reflect, from the camera on
 
 Vec3d to_double3(Vec3f v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
 
@@ -22,30 +30,31 @@ Vec3d to_double3(Vec3f v) { return {static_cast<double>(v.x), static_cast<double
 double first_row(Matrix m) { return std::sqrt(m.a * m.a + m.b * m.b); }
 double second_row(Matrix m) { return std::sqrt(m.c * m.c + m.d * m.d); }
 
-/// A path from the camera towards the middle of a light's image, with rays beside it: two through other places of the
-/// picture, and two more rotated at each fuzzy reflection.
+/// A path from the camera through a place of the picture, with rays beside it: two through places nearby, and two more
+/// rotated at each fuzzy reflection.
 class CameraPath {
  public:
-  CameraPath(const SceneView& s, Vec3d direction, Pair<float> at) : s_(s), at_(at) {
-    const CameraColumns& c = s.camera;
-    const Vec3d corner = to_double3(c.corner), du = to_double3(c.du), dv = to_double3(c.dv);
-    step_ = angle_step * std::sqrt(squared_length(direction) / squared_length(du));
-    const Vec3d center = to_double3(c.center);
-    const Vec3d middle = corner + static_cast<double>(at.x) * du + static_cast<double>(at.y) * dv;
-    for (const Vec3d& d : {direction, middle + step_ * du, middle + step_ * dv})
-      rays_.push_back({center, normalized(d)});
+  CameraPath(const SceneView& s, double x, double y) : s_(s), x_(x), y_(y) {
+    const Vec3d du = to_double3(s.camera.du), dv = to_double3(s.camera.dv), center = to_double3(s.camera.center);
+    const Vec3d own = to_double3(s.camera.corner) + x * du + y * dv;
+    step_ = angle_step * std::sqrt(squared_length(own) / squared_length(du));
+    for (const Vec3d& d : {own, own + step_ * du, own + step_ * dv}) rays_.push_back({center, normalized(d)});
   }
 
-  /// Follows the path to `thing`, and on. False: something else comes first.
-  bool meet(const Thing& thing) {
-    double t;
-    if (closest_element(t) != thing.element) return false;
-    const SurfacePoint<double> p = surface_at<double>(s_, ray(), t, thing.element);
-    const bool exiting = dot(rays_[0].direction, p.normal) > 0, inside = exiting != p.inverted;
-    const MetSurface m{thing.is_sphere, p.inverted, inside, thing.center, p.point, p.normal, thing.radius, 0, true};
+  /// The first element on the way, and its distance; -1: none.
+  std::int32_t closest_element(double& t) const {
+    const auto time = static_cast<double>(s_.camera.shutter_open);
+    const Hit<double> hit = closest<double>(s_, {rays_[0].origin, rays_[0].direction, time, from_}, true);
+    t = hit.t;
+    return hit.element;
+  }
+
+  /// Reflects the path at a thing, whatever stands before it. False: it does not meet the thing.
+  bool reflect(const Thing& thing) {
+    const Vec3d normal = thing.is_sphere ? Vec3d{} : normalized(cross(thing.u, thing.v));
+    const MetSurface m{thing.is_sphere, false, false, thing.center, thing.corner, normal, thing.radius, 0, true};
     for (Beside& beside : rays_)
       if (!follow(m, beside.origin, beside.direction)) return false;
-    from_ = 4 * thing.element + (inside ? 1 : 0);
     if (!(thing.fuzz > 0)) return true;
     const Beside own = rays_[0];
     const Basis<double> b = basis_around(own.direction);
@@ -55,7 +64,33 @@ class CameraPath {
     return true;
   }
 
-  /// The box around the light, if the path meets one next; else an empty one.
+  /// The same, if the thing comes first.
+  bool meet(const Thing& thing) {
+    double t;
+    if (closest_element(t) != thing.element) return false;
+    const Ray<double> ray{rays_[0].origin, rays_[0].direction, 0, from_};
+    const SurfacePoint<double> p = surface_at<double>(s_, ray, t, thing.element);
+    const bool inside = (dot(ray.direction, p.normal) > 0) != p.inverted;
+    from_ = 4 * thing.element + (inside ? 1 : 0);
+    return !(thing.is_sphere && inside) && reflect(thing);
+  }
+
+  /// How far the path passes the middle of a light: the sine of an angle. 1: the light is behind.
+  double miss(Vec3d light) const {
+    const Vec3d to_light = light - rays_[0].origin, across = cross(rays_[0].direction, to_light);
+    return dot(rays_[0].direction, to_light) > 0 ? std::sqrt(squared_length(across) / squared_length(to_light)) : 1;
+  }
+
+  /// The step in the picture, in pixels, that leads the path to the middle of a light, to first order.
+  void step_to(Vec3d light, double& x, double& y) const {
+    const Vec3d d = rays_[0].direction, point = rays_[0].origin + dot(light - rays_[0].origin, d) * d;
+    const Basis<double> b = basis_around(d);
+    const Matrix to_picture = inverse(changes(1, point, step_));
+    const double s = dot(light - point, b.s), t = dot(light - point, b.t);
+    x = to_picture.a * s + to_picture.b * t, y = to_picture.c * s + to_picture.d * t;
+  }
+
+  /// The box around a light, if the path meets one next; else an empty one.
   PictureBox box() const {
     double t;
     const std::int32_t element = closest_element(t);
@@ -72,8 +107,8 @@ class CameraPath {
     }
     if (!(wide < 1e6 && high < 1e6)) return {};
     PictureBox box;
-    for (const float sign : {-1.0f, 1.0f})
-      box.include({at_.x + sign * static_cast<float>(wide), at_.y + sign * static_cast<float>(high)});
+    for (const int sign : {-1, 1})
+      box.include({static_cast<float>(x_ + sign * wide), static_cast<float>(y_ + sign * high)});
     box.throughput = 1;
     return box;
   }
@@ -83,14 +118,6 @@ class CameraPath {
     Vec3d origin, direction;
   };
 
-  Ray<double> ray() const {
-    return {rays_[0].origin, rays_[0].direction, static_cast<double>(s_.camera.shutter_open), from_};
-  }
-  std::int32_t closest_element(double& t) const {
-    const Hit<double> hit = closest<double>(s_, ray(), true);
-    t = hit.t;
-    return hit.element;
-  }
   /// How the places of two rays change, in the plane across the path at a point on it, with each step.
   Matrix changes(std::size_t k, Vec3d point, double step) const {
     return changes_of({rays_[k].origin, rays_[k + 1].origin}, {rays_[k].direction, rays_[k + 1].direction}, point,
@@ -99,54 +126,137 @@ class CameraPath {
   }
 
   const SceneView& s_;
-  Pair<float> at_;
+  double x_, y_;
   double step_;  ///< of the two rays beside it, in pixels
   std::vector<Beside> rays_;
   std::vector<double> fuzz_;
   std::int32_t from_ = from_nowhere;
 };
 
-/// Adds the box of the image in a direction from the camera, by way of events of which the first is in the lowest bits.
-void add_image(const SceneView& s, const std::vector<Thing>& things, Vec3d direction, OrderedEvents<double> events,
-               std::vector<PictureBox>& boxes) {
-  Pair<float> at{};
-  const Vec3f narrow = to_float(direction);
-  if (!project(s.camera, narrow, at)) return;
-  CameraPath path(s, direction, at);
-  for (; events.has_events() || events.high > 0;
-       events = {events.low >> 6 | (events.high & 63) << 24, events.high >> 6}) {
-    const Thing& thing = things[static_cast<std::size_t>(((events.low & 63) >> 1) - 1)];
-    const std::int32_t kind = s.kind[s.material[thing.element]];
-    if ((events.low & 1) == 0 || !has_trait<&BsdfTraits::glossy>(s, kind) || !path.meet(thing)) return;
+class Finder {
+ public:
+  explicit Finder(const SceneView& s) : s_(s), things_(list_things(s)) {
+    for (int light = 0; light < std::min(s.lights.count, max_guide_lights); ++light) {
+      const auto at = [&](int axis) { return static_cast<double>(s.lights.center[axis][light]); };
+      lights_.push_back({at(0), at(1), at(2)});
+    }
   }
-  const PictureBox box = path.box();
-  if (!box.empty()) boxes.push_back(box);
-}
+
+  /// What the camera sees straight.
+  void add_lights() {
+    for (const Vec3d& light : lights_) add_in_direction({}, light - to_double3(s_.camera.center));
+  }
+
+  /// The images that the guide knows.
+  void add_known() {
+    const GuideView& g = s_.guide;
+    std::set<std::pair<std::int32_t, Events>> known;
+    for (int i = 0; i < g.lobes; ++i) {
+      const std::int32_t* e = g.events + i * numbers_of_events;
+      const Events events = metal_events({e[events_next_low], e[events_next_high]});
+      if (e[events_image] < 0 || events.empty() || !known.insert({e[events_image], events}).second) continue;
+      const float* n = g.images + e[events_image] * numbers_of_image;
+      const auto place = [&](int k) { return to_double3({n[k], n[k + 1], n[k + 2]}); };
+      const LightImage<double> image{place(image_light), place(image_sphere), static_cast<double>(n[image_radius])};
+      const SeenImage<double> seen = see_image(image, to_double3(s_.camera.center));
+      if (seen.exists) add_in_direction(events, seen.direction);
+    }
+  }
+
+  /// Images by two reflections off spheres, or more: paths through a grid of places of the picture tell where each
+  /// sequence of events passes a light most closely, and Newton's method leads from there to the light.
+  void search() {
+    const double apart = static_cast<double>(s_.width) / columns_of_search;
+    for (double y = 0.5 * apart; y < s_.height; y += apart)
+      for (double x = 0.5 * apart; x < s_.width; x += apart) look_through(x, y);
+    for (const auto& [what, nearest] : nearest_) approach(what.first, lights_[what.second], nearest.x, nearest.y);
+  }
+
+  std::vector<PictureBox> boxes;
+
+ private:
+  struct Nearest {
+    double miss = 1, x = 0, y = 0;
+  };
+
+  bool is_metal(const Thing& thing) const {
+    return has_trait<&BsdfTraits::glossy>(s_, s_.kind[s_.material[thing.element]]);
+  }
+
+  /// Empty if glass is among them.
+  Events metal_events(OrderedEvents<double> events) const {
+    Events list;
+    while (events.has_events()) {
+      const std::int32_t thing = ((events.low & 63) >> 1) - 1;
+      if (!is_metal(things_[static_cast<std::size_t>(thing)])) return {};
+      list.push_back(thing);
+      events = {events.low >> 6 | (events.high & 63) << 24, events.high >> 6};
+    }
+    return list;
+  }
+
+  void look_through(double x, double y) {
+    CameraPath path(s_, x, y);
+    Events events;
+    int spheres = 0;
+    while (events.size() < max_events) {
+      double t;
+      const std::int32_t element = path.closest_element(t), thing = element < 0 ? -1 : s_.guide.thing_of[element];
+      if (thing < 0 || !is_metal(things_[static_cast<std::size_t>(thing)])) return;
+      if (!path.meet(things_[static_cast<std::size_t>(thing)])) return;
+      events.push_back(thing);
+      spheres += things_[static_cast<std::size_t>(thing)].is_sphere;
+      for (std::size_t light = 0; spheres > 1 && light < lights_.size(); ++light) {
+        Nearest& nearest = nearest_[{events, light}];
+        const double miss = path.miss(lights_[light]);
+        if (miss < nearest.miss) nearest = {miss, x, y};
+      }
+    }
+  }
+
+  void approach(const Events& events, Vec3d light, double x, double y) {
+    for (int i = 0; i < newton_steps; ++i) {
+      CameraPath path(s_, x, y);
+      for (const std::int32_t thing : events)
+        if (!path.reflect(things_[static_cast<std::size_t>(thing)])) return;
+      double right = 0, down = 0;
+      path.step_to(light, right, down);
+      const double length = std::sqrt(right * right + down * down);
+      if (!(length < 1e6)) return;
+      const double part = std::min(1.0, longest_step / std::max(length, 1e-30));
+      x += part * right, y += part * down;
+      if (length < closest_step) return add(events, x, y);
+    }
+  }
+
+  void add_in_direction(const Events& events, Vec3d direction) {
+    Pair<float> at{};
+    if (project(s_.camera, to_float(direction), at)) add(events, static_cast<double>(at.x), static_cast<double>(at.y));
+  }
+
+  void add(const Events& events, double x, double y) {
+    CameraPath path(s_, x, y);
+    for (const std::int32_t thing : events)
+      if (!path.meet(things_[static_cast<std::size_t>(thing)])) return;
+    const PictureBox box = path.box();
+    if (!box.empty()) boxes.push_back(box);
+  }
+
+  const SceneView& s_;
+  std::vector<Thing> things_;
+  std::vector<Vec3d> lights_;  ///< their middles
+  std::map<std::pair<Events, std::size_t>, Nearest> nearest_;
+};
 
 }  // namespace
 
 std::vector<PictureBox> find_camera_images(const SceneView& s) {
-  const GuideView& g = s.guide;
-  std::vector<PictureBox> boxes;
-  if (g.lobes == 0) return boxes;
-  const std::vector<Thing> things = list_things(s);
-  const Vec3d camera = to_double3(s.camera.center);
-  for (int light = 0; light < std::min(s.lights.count, max_guide_lights); ++light) {
-    const auto at = [&](int axis) { return static_cast<double>(s.lights.center[axis][light]); };
-    add_image(s, things, Vec3d{at(0), at(1), at(2)} - camera, OrderedEvents<double>::none(), boxes);
-  }
-  std::set<std::tuple<std::int32_t, std::int32_t, std::int32_t>> known;
-  for (int i = 0; i < g.lobes; ++i) {
-    const std::int32_t* e = g.events + i * numbers_of_events;
-    if (e[events_image] < 0 || !known.insert({e[events_image], e[events_next_low], e[events_next_high]}).second)
-      continue;
-    const float* n = g.images + e[events_image] * numbers_of_image;
-    const auto place = [&](int k) { return to_double3({n[k], n[k + 1], n[k + 2]}); };
-    const LightImage<double> image{place(image_light), place(image_sphere), static_cast<double>(n[image_radius])};
-    const SeenImage<double> seen = see_image(image, camera);
-    if (seen.exists) add_image(s, things, seen.direction, {e[events_next_low], e[events_next_high]}, boxes);
-  }
-  return boxes;
+  if (s.guide.lobes == 0 || s.features.lens || s.features.shutter) return {};
+  Finder finder(s);
+  finder.add_lights();
+  finder.add_known();
+  finder.search();
+  return std::move(finder.boxes);
 }
 
 }  // namespace tyndall

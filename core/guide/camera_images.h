@@ -6,9 +6,9 @@
 
 namespace tyndall {
 
-/// Boxes around the images of lights that the camera sees straight, or by way of metal of little fuzz after events that
-/// the scene's guide knows: as far as the light's size and the fuzz let a path from the light's middle stray. Images in
-/// flats and in one sphere are found; what hides their middle hides them. Empty without a guide.
+/// Boxes around the images of lights that the camera sees straight, or by way of mirrors and metal of little fuzz: as
+/// far as the light's size and the fuzz let a path to the light's middle stray. What hides the middle of an image hides
+/// it. Empty without a guide, and for a camera with a lens or with motion blur.
 std::vector<PictureBox> find_camera_images(const SceneView& scene);
 
 }  // namespace tyndall

@@ -18,7 +18,7 @@ constexpr std::size_t max_looked_at = 64;  // landings of a cell that a cell nea
 constexpr double coarse_factor = 0.05;     // on the power of sequences that a cell has from the next coarser level
 constexpr double neighbour_factor = 0.1;   // on the power of landings in neighbouring cells
 constexpr double min_weight = 0.02;        // of a sequence, as a fraction of its cell's power
-constexpr double lonely_error = 0.01;      // variance of a lobe that has too few others beside it
+constexpr double lonely_error = 0.01;      // variance of a lobe without an image that has too few others beside it
 constexpr double eagerness = 0.5;          // queries over the fraction of light that guided light brings
 constexpr double min_query_probability = 0.05;
 constexpr double near_offset = 0.05;  // squared distance, in cells, at which errors are about those of the lobe itself
@@ -92,6 +92,7 @@ class CellMaker {
     for (const Landing& l : landings_)
       numbers_.push_back(
           known.try_emplace({l.events.high, l.events.low}, static_cast<std::int32_t>(known.size())).first->second);
+    for (Bins& bins : bins_) bins.put_all_sequences_first(numbers_);
     place_of_.assign(known.size(), nowhere);
     list_images();
   }
@@ -148,8 +149,9 @@ class CellMaker {
 
   void add_landings(int level, const Bins::Bin& bin, bool home, std::size_t known, double factor) {
     const std::vector<std::size_t>& order = bins_[level].order;
-    const std::size_t step = std::max<std::size_t>(1, (bin.end - bin.begin) / max_looked_at);
-    for (std::size_t j = bin.begin; j < bin.end; j += step) {
+    const std::size_t stride = std::max<std::size_t>(1, (bin.end - bin.rest) / max_looked_at);
+    for (std::size_t j = bin.begin, step; j < bin.end; j += step) {
+      step = j < bin.rest ? 1 : stride;
       const std::int32_t number = numbers_[order[j]];
       std::size_t& q = place_of_[static_cast<std::size_t>(number)];
       if (q < known) {
@@ -249,7 +251,8 @@ class CellMaker {
         sum += weight * weight * squared_distance(flight, l.flight), weights += weight, ++count;
       }
     }
-    return count >= 2 ? 0.5 * sum / weights : lonely_error;
+    if (count < 2) return landings_[own].image ? 0 : lonely_error;
+    return 0.5 * sum / weights;
   }
 
   void add_lobe(const Sequence& s, std::size_t index) {

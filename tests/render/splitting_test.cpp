@@ -102,13 +102,13 @@ TEST_CASE("splitting: also where second vertices are shared, by every kernel") {
   scene.camera.vfov = 70;
   RenderScene columns = compile(scene);
   REQUIRE(SceneViewOf(columns).view().reuses_paths);
-  REQUIRE(columns.kernel == KernelSet::no_media_no_textures);
+  REQUIRE(columns.kernel == KernelSet::specular_paths_only);
   for (const Kernels& kernels : available_kernels()) {
     CAPTURE(kernels.isa);
     RenderOptions options;
     options.isa = kernels.isa;
     options.spp = 4;
-    columns.kernel = KernelSet::no_media_no_textures;
+    columns.kernel = KernelSet::specular_paths_only;
     const RenderResult small = render(columns, options);
     columns.kernel = KernelSet::everything;
     const RenderResult full = render(columns, options);
