@@ -62,7 +62,10 @@ TEST_CASE("rare bright paths: light off metal with a little fuzz is guided; wher
     small.width = 128, small.height = 96;
     RenderOptions options;
     options.spp = 64;
-    CHECK_FALSE(render(*prepare(small), options).rare_bright_paths);  // some pixels with images are looked at closely
+    const auto prepared = prepare(small);
+    const RenderResult result = render(*prepared, options);
+    const ErrorEstimate estimate = estimate_error(*prepared, result.kernels, result.film);
+    CHECK_FALSE(has_rare_bright_paths(estimate, 64, prepared->caustic_chance()));
   }
   scene.render.caustics = Caustics::scatter;
   CHECK(prepare(scene)->caustic_chance() < 1e-4);
