@@ -133,13 +133,14 @@ class CellMaker {
     return {middle(at.x), middle(at.y), middle(at.z)};
   }
 
-  /// Lists the sequences of landings around a cell. Those that it lacks come from coarser levels.
+  /// Lists the sequences of landings around a cell. If they are few, those that it lacks come from coarser levels.
   void list_sequences(int level, Vec3d middle) {
     for (std::size_t q = 0; q < count_; ++q) place_of_[static_cast<std::size_t>(sequences_[q].number)] = nowhere;
     count_ = 0;
     double factor = 1;
     for (int coarser = level; coarser < guide_levels; ++coarser, factor *= coarse_factor) {
       const std::size_t known = count_;
+      if (known >= max_sequences_in_cell) break;
       const Coordinates home = coordinates_of(sizes_, middle, coarser);
       for (const auto& step : steps)
         if (const Bins::Bin* bin = bins_[coarser].find(home.stepped(step)))
@@ -171,18 +172,27 @@ class CellMaker {
     }
   }
 
+  /// Those of most power, the greatest first; of equal ones those that were listed first.
+  std::vector<const Sequence*> strongest() const {
+    std::vector<const Sequence*> list;
+    for (std::size_t q = 0; q < count_; ++q) list.push_back(&sequences_[q]);
+    const std::size_t kept = std::min(count_, max_sequences_in_cell);
+    std::partial_sort(
+        list.begin(), list.begin() + static_cast<std::ptrdiff_t>(kept), list.end(),
+        [](const Sequence* a, const Sequence* b) { return a->power != b->power ? a->power > b->power : a < b; });
+    list.resize(kept);
+    return list;
+  }
+
   void make_cell(int level, Cell& cell) {
     const Vec3d middle = middle_of(level, cell.at);
     list_sequences(level, middle);
-    const auto end = sequences_.begin() + static_cast<std::ptrdiff_t>(count_);
-    std::stable_sort(sequences_.begin(), end, [](const Sequence& a, const Sequence& b) { return a.power > b.power; });
     double total = 0, sum = 0;
     for (std::size_t q = 0; q < count_; ++q) total += sequences_[q].power;
-    const std::size_t used = std::min(count_, max_sequences_in_cell);
-    for (std::size_t q = 0; q < used; ++q) sum += std::max(sequences_[q].power, min_weight * total);
+    const std::vector<const Sequence*> used = strongest();
+    for (const Sequence* s : used) sum += std::max(s->power, min_weight * total);
     cell.first = static_cast<std::int32_t>(guide_.events.size() / numbers_of_events);
-    for (std::size_t q = 0; q < used; ++q)
-      add_sequence(sequences_[q], middle, std::max(sequences_[q].power, min_weight * total) / sum);
+    for (const Sequence* s : used) add_sequence(*s, middle, std::max(s->power, min_weight * total) / sum);
     cell.end = static_cast<std::int32_t>(guide_.events.size() / numbers_of_events);
     const double h = size(level), brought = total / paths_.paths_of_pair() / (h * h);
     cell.query_probability =
@@ -240,7 +250,7 @@ class CellMaker {
     for (int part = 0; part < 3; ++part) {
       if (part == 2 && count >= 2) break;
       const std::vector<std::size_t>& list = *lists[part];
-      const std::size_t step = std::max<std::size_t>(1, list.size() / 12);
+      const std::size_t step = std::max<std::size_t>(1, list.size() / 8);
       for (std::size_t j = 0; j < list.size(); j += step) {
         const Landing& l = landings_[list[j]];
         Vec3d flight;

@@ -10,8 +10,8 @@ namespace {
 
 // Many paths are traced, because rare sequences of events are found by few of them, and few landings of each sequence
 // are kept, because lobes take more time than paths.
-constexpr int paths_to_decide = 1000, paths_to_find = 20000, copies = 2500;
-constexpr std::size_t max_found = 1500;
+constexpr int paths_to_decide = 1000, paths_to_find = 20000, copies = 2000;
+constexpr std::size_t max_found = 1200;
 
 void fill(const SceneView& scene, Guide& guide) {
   std::vector<Thing> things = list_things(scene);
