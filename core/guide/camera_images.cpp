@@ -3,6 +3,7 @@
 #include "core/compile/columns.h"
 #include "core/guide/light_image.h"
 #include "core/guide/nearby_rays.h"
+#include "core/guide/things.h"
 #include "core/trace/camera.h"
 #include "core/trace/intersect.h"
 #include "core/trace/light_columns.h"

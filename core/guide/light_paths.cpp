@@ -1,6 +1,5 @@
 #include "core/guide/light_paths.h"
 
-#include "core/guide/nearby_rays.h"
 #include "core/trace/flight.h"
 #include "core/trace/intersect.h"
 #include "core/trace/lights.h"

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/guide/light_image.h"
+#include "core/guide/nearby_rays.h"
 #include "core/guide/things.h"
 
 #include <cstdint>
@@ -9,11 +10,6 @@
 /// Light paths from the middles of lights over near-specular surfaces to diffuse ones. They are traced in double, with
 /// IEEE operations and square roots only, so that every processor finds the same.
 namespace tyndall {
-
-/// A symmetric 2x2 matrix.
-struct Symmetric {
-  double xx = 0, xy = 0, yy = 0;
-};
 
 /// Where a light path ends at a diffuse surface.
 struct Landing {
@@ -28,8 +24,6 @@ struct Landing {
   int count = 0;                       ///< of events
   std::optional<LightImage<double>> image;  ///< where points see the light by way of the same events
 };
-
-struct MetSurface;
 
 class LightPaths {
  public:

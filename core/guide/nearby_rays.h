@@ -1,6 +1,6 @@
 #pragma once
 #include "core/base/sampling.h"
-#include "core/guide/light_paths.h"
+#include "core/base/vec.h"
 
 #include <cmath>
 
@@ -48,6 +48,11 @@ inline bool follow(const MetSurface& m, Vec3d& origin, Vec3d& direction) {
   direction = normalized(direction + (cosine - std::sqrt(squared)) * facing);
   return true;
 }
+
+/// A symmetric 2x2 matrix.
+struct Symmetric {
+  double xx = 0, xy = 0, yy = 0;
+};
 
 /// A 2x2 matrix.
 struct Matrix {
