@@ -177,6 +177,14 @@ KernelSet min_kernel(const RenderScene& s) {
   return media_or_textures ? KernelSet::no_specular_paths : KernelSet::no_media_no_textures;
 }
 
+/// Whether some smooth boundary reflects a part of the light: one of index 1 transmits all of it.
+bool has_reflecting_glass(const Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
+    const double index = boundary_index(m.kind);
+    return index != 0 && index != 1;
+  });
+}
+
 /// Whether second vertices can be reused in the scene. Moving spheres prevent it: a vertex on a moving sphere exists at
 /// one time only.
 bool can_reuse_paths(const RenderScene& s) { return s.integrator == Integrator::mis && !s.features.moving_spheres; }
@@ -236,7 +244,7 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
   if (out.integrator == Integrator::mis && !out.schlick && scene.render.caustics == Caustics::chains) {
     out.specular = find_specular_pairs(flat, scene, out);
     out.may_guide_paths = out.light_sampling && !out.sky.pixels;
-    out.splits_paths = needs_trait<&BsdfTraits::smooth_boundary>(out.features);
+    out.splits_paths = needs_trait<&BsdfTraits::smooth_boundary>(out.features) && has_reflecting_glass(scene);
   }
   out.objects = std::move(flat.objects);
   out.kernel = min_kernel(out);
