@@ -33,14 +33,18 @@ void Bins::fill(const GuideView& g, const std::vector<Landing>& landings, int le
 
 void Bins::put_all_sequences_first(const std::vector<std::int32_t>& numbers) {
   std::vector<const Bin*> met_in(numbers.size());  // the last bin with a landing after each sequence
+  std::vector<std::size_t> others;
   for (Bin& bin : bins) {
-    const auto place = [&](std::size_t i) { return order.begin() + static_cast<std::ptrdiff_t>(i); };
-    const auto is_first = [&](std::size_t i) {
-      const Bin*& last = met_in[static_cast<std::size_t>(numbers[i])];
-      return std::exchange(last, &bin) != &bin;
-    };
-    const auto rest = std::stable_partition(place(bin.begin), place(bin.end), is_first);
-    bin.rest = static_cast<std::size_t>(rest - order.begin());
+    others.clear();
+    bin.rest = bin.begin;
+    for (std::size_t j = bin.begin; j < bin.end; ++j) {
+      const Bin*& last = met_in[static_cast<std::size_t>(numbers[order[j]])];
+      if (std::exchange(last, &bin) == &bin)
+        others.push_back(order[j]);
+      else
+        order[bin.rest++] = order[j];
+    }
+    std::copy(others.begin(), others.end(), order.begin() + static_cast<std::ptrdiff_t>(bin.rest));
   }
 }
 

@@ -18,7 +18,10 @@ namespace tyndall {
 namespace {
 
 constexpr double angle_step = 1e-5;  // of rays beside the path from the camera, radian
-constexpr int columns_of_search = 64;
+constexpr double places_of_search = 3072;
+constexpr std::size_t max_approached = 64;  // images that are searched for, so that an edit stays quick
+constexpr double max_miss = 0.3;            // with which they are approached
+constexpr std::size_t max_boxes = 64;
 constexpr std::size_t max_events = 6;  // in images that are searched for; more carry too little light to be seen
 constexpr int newton_steps = 12;
 constexpr double longest_step = 8, closest_step = 1e-3;  // of Newton's method, in pixels
@@ -167,17 +170,24 @@ class Finder {
   /// Images by two reflections off spheres, or more: paths through a grid of places of the picture tell where each
   /// sequence of events passes a light most closely, and Newton's method leads from there to the light.
   void search() {
-    const double apart = static_cast<double>(s_.width) / columns_of_search;
+    const double apart = std::sqrt(static_cast<double>(s_.width) * s_.height / places_of_search);
     for (double y = 0.5 * apart; y < s_.height; y += apart)
       for (double x = 0.5 * apart; x < s_.width; x += apart) look_through(x, y);
-    for (const auto& [what, nearest] : nearest_) approach(what.first, lights_[what.second], nearest.x, nearest.y);
+    std::vector<const std::pair<const Image, Nearest>*> list;
+    for (const auto& entry : nearest_) list.push_back(&entry);
+    std::stable_sort(list.begin(), list.end(),
+                     [](const auto* a, const auto* b) { return a->second.miss < b->second.miss; });
+    if (list.size() > max_approached) list.resize(max_approached);
+    for (const auto* entry : list)
+      approach(entry->first.first, lights_[entry->first.second], entry->second.x, entry->second.y);
   }
 
   std::vector<PictureBox> boxes;
 
  private:
+  using Image = std::pair<Events, std::size_t>;  // of a light
   struct Nearest {
-    double miss = 1, x = 0, y = 0;
+    double miss = max_miss, x = 0, y = 0;
   };
 
   bool is_metal(const Thing& thing) const {
@@ -208,8 +218,9 @@ class Finder {
       events.push_back(thing);
       spheres += things_[static_cast<std::size_t>(thing)].is_sphere;
       for (std::size_t light = 0; spheres > 1 && light < lights_.size(); ++light) {
-        Nearest& nearest = nearest_[{events, light}];
         const double miss = path.miss(lights_[light]);
+        if (!(miss < max_miss)) continue;
+        Nearest& nearest = nearest_[{events, light}];
         if (miss < nearest.miss) nearest = {miss, x, y};
       }
     }
@@ -236,6 +247,7 @@ class Finder {
   }
 
   void add(const Events& events, double x, double y) {
+    if (boxes.size() == max_boxes) return;
     CameraPath path(s_, x, y);
     for (const std::int32_t thing : events)
       if (!path.meet(things_[static_cast<std::size_t>(thing)])) return;
@@ -246,7 +258,7 @@ class Finder {
   const SceneView& s_;
   std::vector<Thing> things_;
   std::vector<Vec3d> lights_;  ///< their middles
-  std::map<std::pair<Events, std::size_t>, Nearest> nearest_;
+  std::map<Image, Nearest> nearest_;
 };
 
 }  // namespace

@@ -8,7 +8,8 @@ namespace tyndall {
 
 /// Boxes around the images of lights that the camera sees straight, or by way of mirrors and metal of little fuzz: as
 /// far as the light's size and the fuzz let a path to the light's middle stray. What hides the middle of an image hides
-/// it. Empty without a guide, and for a camera with a lens or with motion blur.
+/// it. Of the first max_guide_lights lights, and at most 64 boxes. Empty without a guide, and for a camera with a lens
+/// or with motion blur.
 std::vector<PictureBox> find_camera_images(const SceneView& scene);
 
 }  // namespace tyndall

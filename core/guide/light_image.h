@@ -25,7 +25,7 @@ struct SeenImage {
 ///
 ///     A sin t (B cos(phi - t) - 1) = B sin(phi - t) (A cos t - 1)
 ///
-/// After five steps t is exact to 1e-4 in 99 of 100 cases with A - 1 and B - 1 between 0.001 and 100; the rest are at
+/// After five steps t is exact to 1e-4 in 98 of 100 cases with A - 1 and B - 1 between 0.001 and 100; the rest are at
 /// the border of the sphere's shadow.
 template <class F>
 TYNDALL_INLINE SeenImage<F> reflect_in_sphere(const LightImage<F>& image, Vec3<F> point) {

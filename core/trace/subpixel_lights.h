@@ -1,10 +1,11 @@
 #pragma once
 #include "core/base/random.h"
 
-/// Subpixel lights: images of a small light in the camera, seen directly or by one sphere, flat mirror or slab. Such an
-/// image may fill so little of its pixel that samples spread evenly over the pixel seldom hit it, and each hit is a
-/// bright speck. So half of the samples of such a pixel are drawn within boxes around its subpixel lights, and all of
-/// its samples are weighted by the pdf of their place. That is exact wherever the boxes lie.
+/// Subpixel lights: images of a small light in the camera, seen directly, by one sphere, flat mirror or slab, or by
+/// metal of little fuzz. Such an image may fill so little of its pixel that samples spread evenly over the pixel seldom
+/// hit it, and each hit is a bright speck. So half of the samples of such a pixel are drawn within boxes around its
+/// subpixel lights, and all of its samples are weighted by the pdf of their place. That is exact wherever the boxes
+/// lie.
 namespace tyndall {
 
 /// A box around a subpixel light, or the part of it in one pixel.
