@@ -17,18 +17,16 @@
 namespace tyndall {
 namespace {
 
-constexpr double angle_step = 1e-5;  // of rays beside the path from the camera, radian
-constexpr double places_of_search = 3072;
+constexpr double angle_step = 1e-5;         // of rays beside the path from the camera, radian
+constexpr double places_of_search = 3072;   // of the grid in the picture, about
 constexpr std::size_t max_approached = 64;  // images that are searched for, so that an edit stays quick
-constexpr double max_miss = 0.3;            // with which they are approached
-constexpr std::size_t max_boxes = 64;
-constexpr std::size_t max_events = 6;  // in images that are searched for; more carry too little light to be seen
+constexpr double max_miss = 0.3;            // sine of the angle by which a path from the grid may pass a light
+constexpr std::size_t max_boxes = 64;       // because all samples of a row of tiles look at all boxes there
+constexpr std::size_t max_events = 6;       // in images that are searched for; more carry too little light to be seen
 constexpr int newton_steps = 12;
 constexpr double longest_step = 8, closest_step = 1e-3;  // of Newton's method, in pixels
 
 using Events = std::vector<std::int32_t>;  // indices of the things that reflect, from the camera on
-
-Vec3d to_double3(Vec3f v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
 
 /// Length of a row of a matrix.
 double first_row(Matrix m) { return std::sqrt(m.a * m.a + m.b * m.b); }
@@ -39,8 +37,8 @@ double second_row(Matrix m) { return std::sqrt(m.c * m.c + m.d * m.d); }
 class CameraPath {
  public:
   CameraPath(const SceneView& s, double x, double y) : s_(s), x_(x), y_(y) {
-    const Vec3d du = to_double3(s.camera.du), dv = to_double3(s.camera.dv), center = to_double3(s.camera.center);
-    const Vec3d own = to_double3(s.camera.corner) + x * du + y * dv;
+    const Vec3d du = to_double(s.camera.du), dv = to_double(s.camera.dv), center = to_double(s.camera.center);
+    const Vec3d own = to_double(s.camera.corner) + x * du + y * dv;
     step_ = angle_step * std::sqrt(squared_length(own) / squared_length(du));
     for (const Vec3d& d : {own, own + step_ * du, own + step_ * dv}) rays_.push_back({center, normalized(d)});
   }
@@ -148,7 +146,7 @@ class Finder {
 
   /// What the camera sees straight.
   void add_lights() {
-    for (const Vec3d& light : lights_) add_in_direction({}, light - to_double3(s_.camera.center));
+    for (const Vec3d& light : lights_) add_in_direction({}, light - to_double(s_.camera.center));
   }
 
   /// The images that the guide knows.
@@ -160,9 +158,9 @@ class Finder {
       const Events events = metal_events({e[events_next_low], e[events_next_high]});
       if (e[events_image] < 0 || events.empty() || !known.insert({e[events_image], events}).second) continue;
       const float* n = g.images + e[events_image] * numbers_of_image;
-      const auto place = [&](int k) { return to_double3({n[k], n[k + 1], n[k + 2]}); };
+      const auto place = [&](int k) { return to_double({n[k], n[k + 1], n[k + 2]}); };
       const LightImage<double> image{place(image_light), place(image_sphere), static_cast<double>(n[image_radius])};
-      const SeenImage<double> seen = see_image(image, to_double3(s_.camera.center));
+      const SeenImage<double> seen = see_image(image, to_double(s_.camera.center));
       if (seen.exists) add_in_direction(events, seen.direction);
     }
   }

@@ -107,6 +107,8 @@ TYNDALL_INLINE SeenImage<F> see_by_front(Vec3<F> offset, Vec3<F> flight, Vec3<F>
   return {-normalize(light), less_equal(F(1e-3f), abs(determinant))};
 }
 
+/// How a point sees the lobe of a sequence: around the light's image if the sequence has one, else around the direction
+/// that the wave front tells.
 template <class F>
 TYNDALL_INLINE SeenLobe<F> see_lobe(const GuideView& g, IntOf<F> sequence, Vec3<F> point) {
   using I = IntOf<F>;

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double max_fuzz = 0.3;  // of metal that counts as near-specular
 
-Vec3d to_double(Vec3f v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
 double at(const float* column, int i) { return static_cast<double>(column[i]); }
 
 bool is_near_specular(const SceneView& s, std::int32_t element) {
