@@ -1,7 +1,7 @@
-// The only file that compiles stb's functions for pictures: the decoders of BMP and TGA, for which there is no library of
-// their own, and the writers of PNG and HDR. Each further decoder is one more way in for a hostile file. stb's PNG decoder does
-// not look at checksums, its JPEG decoder writes past a damaged Huffman table, and its HDR decoder loops forever on a
-// file that is cut off.
+// The only file that compiles stb's functions for pictures: the decoders of BMP and TGA, for which there is no library
+// of their own, and the writers of PNG and HDR. Each further decoder is one more way in for a hostile file. stb's PNG
+// decoder does not look at checksums, its JPEG decoder writes past a damaged Huffman table, and its HDR decoder loops
+// forever on a file that is cut off.
 #include "core/image/image_io_file.h"
 #include "core/image/picture_file.h"
 
