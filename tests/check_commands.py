@@ -66,7 +66,7 @@ def options_of(text):
 
 def is_long(words):
     whole_verify = words[0] == "verify" and not any("/" in word for word in words)
-    return whole_verify or "--thorough" in words or "--accuracy" in words or words[:2] == ["chart", "all"]
+    return whole_verify or "--thorough" in words or words[:2] == ["chart", "all"]
 
 
 class Commands:

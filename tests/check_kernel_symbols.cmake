@@ -2,7 +2,7 @@
 # faults on an older processor. So the objects of such sets may define only weak symbols whose names carry the set's own
 # tag. Weak read-only data is allowed: every copy is the same. They may not have static initialisers either: those run
 # before any check of the processor.
-# Run with -DLIBRARY=libtyndall_core.a -DNM=nm [-DOBJDUMP=objdump].
+# Run with -DSET=avx2 -DNM=nm [-DOBJDUMP=objdump] -P check_kernel_symbols.cmake OBJECT...
 cmake_minimum_required(VERSION 3.22)
 
 # Mangled, with lengths: tyndall's own namespace of the set, and Highway's.
@@ -11,15 +11,6 @@ set(tag_avx2 "4avx2|6N_AVX2")
 set(tag_avx512 "6avx512|[0-9]N_AVX3")
 set(problems "")
 
-# Which set an archive member belongs to; empty for all other members.
-macro(set_of member result)
-  if("${member}" MATCHES "^(sse4|avx2|avx512)[a-z0-9_]*\\.cpp\\.o")
-    set(${result} ${CMAKE_MATCH_1})
-  else()
-    set(${result} "")
-  endif()
-endmacro()
-
 function(read_lines result)
   execute_process(COMMAND ${ARGN} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
   string(REGEX REPLACE "[][;]" " " text "${text}") # they would confuse a list
@@ -27,37 +18,43 @@ function(read_lines result)
   set(${result} "${text}" PARENT_SCOPE)
 endfunction()
 
-# name | value | class | type | size | line | section
-read_lines(lines ${NM} --format=sysv --defined-only ${LIBRARY})
-set(set "")
-foreach(line IN LISTS lines)
-  if(line MATCHES "([^ /]+\\.o)[ :]*$")
-    set(member "${CMAKE_MATCH_1}")
-    set_of("${member}" set)
-  elseif(set AND line MATCHES "^([^ |]+) *\\|[^|]*\\| *([a-zA-Z]) *\\|.*\\| *([^| ]*) *$")
+set(objects "")
+math(EXPR last "${CMAKE_ARGC} - 1")
+foreach(i RANGE ${last})
+  if("${CMAKE_ARGV${i}}" MATCHES "\\.o$")
+    list(APPEND objects "${CMAKE_ARGV${i}}")
+  endif()
+endforeach()
+if(NOT objects)
+  message(FATAL_ERROR "no objects of ${SET} are given")
+endif()
+foreach(object IN LISTS objects)
+  get_filename_component(file ${object} NAME)
+  # name | value | class | type | size | line | section
+  read_lines(lines ${NM} --format=sysv --defined-only ${object})
+  foreach(line IN LISTS lines)
+    if(NOT line MATCHES "^([^ |]+) *\\|[^|]*\\| *([a-zA-Z]) *\\|.*\\| *([^| ]*) *$")
+      continue()
+    endif()
     set(name "${CMAKE_MATCH_1}")
     set(class "${CMAKE_MATCH_2}")
     set(section "${CMAKE_MATCH_3}")
     if(name MATCHES "^_GLOBAL__sub_I|__static_initialization|^__cxx_global_var_init")
-      list(APPEND problems "${member}: static initialiser ${name}")
+      list(APPEND problems "${file}: static initialiser ${name}")
     elseif(class MATCHES "[WVu]" AND NOT section MATCHES "^\\.rodata" AND NOT name MATCHES "^DW\\.ref\\."
-           AND NOT name MATCHES "${tag_${set}}")
-      list(APPEND problems "${member}: weak symbol ${name}")
-    endif()
-  endif()
-endforeach()
-
-if(OBJDUMP)
-  read_lines(lines ${OBJDUMP} -h ${LIBRARY})
-  foreach(line IN LISTS lines)
-    if(line MATCHES "^([^ /]+\\.o):")
-      set(member "${CMAKE_MATCH_1}")
-      set_of("${member}" set)
-    elseif(set AND line MATCHES " \\.(init_array|ctors)")
-      list(APPEND problems "${member}: static initialiser, section .${CMAKE_MATCH_1}")
+           AND NOT name MATCHES "${tag_${SET}}")
+      list(APPEND problems "${file}: weak symbol ${name}")
     endif()
   endforeach()
-endif()
+  if(OBJDUMP)
+    read_lines(lines ${OBJDUMP} -h ${object})
+    foreach(line IN LISTS lines)
+      if(line MATCHES " \\.(init_array|ctors)")
+        list(APPEND problems "${file}: static initialiser, section .${CMAKE_MATCH_1}")
+      endif()
+    endforeach()
+  endif()
+endforeach()
 
 if(problems)
   list(REMOVE_DUPLICATES problems)

@@ -83,18 +83,22 @@ build_folder() {
   fi
 }
 
-# configure_build PRESET: configures the folder once, and again after packages came in. Prints only what went wrong.
-# Works in the current folder, the root of the sources.
+# configure_build PRESET: configures the folder once, and again after packages came in, on another processor (its kernels
+# are others), or for other instruction sets, which the environment's TYNDALL_INSTRUCTION_SETS names. Prints only what went
+# wrong. Works in the current folder, the root of the sources.
 configure_build() {
-  local folder
+  local folder kept='' sets
   folder=$(build_folder "$1")
-  [ -f "$folder/build.ninja" ] && [ "$packages_changed" = 0 ] && return 0
+  [ ! -f "$folder/CMakeCache.txt" ] || kept=$(sed -n 's/^TYNDALL_INSTRUCTION_SETS:[A-Z]*=//p' "$folder/CMakeCache.txt")
+  sets=${TYNDALL_INSTRUCTION_SETS:-$kept}
+  [ -f "$folder/build.ninja" ] && [ "$packages_changed" = 0 ] && [ "$sets" = "$kept" ] &&
+    [ "$(grep -m1 -E '^(flags|Features)' /proc/cpuinfo 2>/dev/null)" = "$(cat "$folder/processor.txt" 2>/dev/null)" ] && return 0
   if ! mkdir -p "$folder" 2>/dev/null; then
     printf 'Tyndall can be built neither in %s/build nor in %s: both cannot be written\n' "$(pwd -P)" "$folder" >&2
     return 1
   fi
   [ "$folder" = "build/$1" ] || printf 'the sources cannot be written to, so Tyndall is built in %s\n' "$folder" >&2
-  cmake --preset "$1" -B "$folder" >/dev/null
+  cmake --preset "$1" -B "$folder" ${sets:+"-DTYNDALL_INSTRUCTION_SETS=$sets"} >/dev/null
 }
 
 # compile PRESET [ARGUMENT...]: builds it with one compiler for each processor. Ninja alone would start two more: on two
@@ -109,25 +113,45 @@ compile() {
     return
   fi
   log=$folder/build.log
+  cmake --build "$folder" "$@" -- -n >"$log.planned" 2>/dev/null || :
+  cp "$folder/.ninja_log" "$log.before" 2>/dev/null || : >"$log.before"
   cmake --build "$folder" --parallel "$(nproc)" "$@" >"$log" 2>&1 &
   local builder=$! tenths=0
   while kill -0 "$builder" 2>/dev/null; do
     sleep 0.1
     tenths=$((tenths + 1))
-    [ $((tenths % (10 * ${TYNDALL_TELL_SECONDS:-30}))) -ne 0 ] || printf 'building: %s files after %d s\n' \
-      "$(grep -oE '^\[[0-9]+/[0-9]+\]' "$log" | tail -1 | tr -d '[]' | sed 's,/, of ,')" "$((tenths / 10))" >&2
+    # Soon after the start, then every half minute.
+    case $((tenths % (10 * ${TYNDALL_TELL_SECONDS:-30}))),$tenths in
+      0,* | *,100) tell_progress "$folder" "$((tenths / 10))" ;;
+    esac
   done
   wait "$builder" || status=$?
   [ "$status" -eq 0 ] || cat "$log" >&2
   return "$status"
 }
 
-# say_how_long PRESET TARGET MINUTES: where nobody sees ninja's progress, a first build says how long it takes. MINUTES
-# on two cores, without a compiler cache.
-say_how_long() {
-  [ -t 2 ] && return 0
-  local program
-  program=$(build_folder "$1")/tyndall
-  [ "$2" = all ] && program=${program%tyndall}tests/core_tests
-  [ -e "$program" ] || printf 'building, about %s minutes\n' "$3" >&2
+# tell_progress FOLDER SECONDS: says how far the build in FOLDER is after SECONDS, and how long it takes in all. Each
+# kind of file is known to take so many seconds on one machine; how much longer this one takes, its first files show.
+tell_progress() {
+  awk -v processors="$(nproc)" -v elapsed="$2" '
+    function usual(name) {
+      if (name ~ /kernel_sets/) return 90
+      if (name ~ /full_kernel/) return 60
+      if (name ~ /targets\/scalar/) return 20
+      if (name ~ /Unity|cmake_pch/) return 6
+      return name ~ /\.o$/ ? 2.5 : 0.3
+    }
+    FILENAME == ARGV[1] && /^\[.* [^ ]+$/ { all += planned[$NF] = usual($NF) }
+    FILENAME == ARGV[2] { before[$1, $2, $4] }
+    FILENAME == ARGV[3] && $4 in planned && !(($1, $2, $4) in before) {
+      took += ($2 - $1) / 1000
+      done += planned[$4]
+      delete planned[$4]
+    }
+    END {
+      if (done < 1) exit
+      minutes = all * took / done / processors / 60
+      share = 100 * elapsed / 60 / minutes
+      printf "building: about %.1f minutes in all, %d %% of them are over\n", minutes, share < 99 ? share : 99
+    }' "$1/build.log.planned" "$1/build.log.before" "$1/.ninja_log" >&2 || :
 }

@@ -80,7 +80,7 @@ RenderCommand command_of(const AnimateCommand& command, int frame, std::vector<s
 /// A job whose picture can be compared with what is there already.
 RenderJob job_of(const Animating& film, const RenderCommand& command, int frame) {
   RenderJob job{command};
-  job.kernels = find_kernels(command.isa);
+  job.kernels = kernels_to_render(command.isa);
   job.loaded = at_frame(film.base, film.plan, frame);
   job.options = render_options(command, job.loaded);
   job.whole_only = true;

@@ -24,8 +24,4 @@ int run(const BookCommand& command);
 int run(const ConvertCommand& command);
 int run(const PrintCommand& command);
 
-/// What each approximation costs: how far it moves a picture, apart from noise. Prints a table, a line a scene: of the
-/// requested scene, or of all built-in ones if it names none. Returns the exit code.
-int print_accuracy(const SceneRequest& request);
-
 }  // namespace tyndall

@@ -5,6 +5,7 @@
 #include "app/report/gain.h"
 #include "app/report/replay.h"
 #include "app/text/standard_streams.h"
+#include "core/base/target.h"
 #include "core/base/text.h"
 #include "core/compile/compile.h"
 #include "core/film/film.h"
@@ -23,19 +24,21 @@ struct Report {
   LoadedScene loaded;
   Contents contents;
   std::shared_ptr<const PreparedScene> prepared;
-  KernelSet kernel = KernelSet::everything;  ///< that renders it, by the instruction set that was asked for
+  const char* isa = "";                      ///< the instruction set that was asked for, else the best
+  KernelSet kernel = KernelSet::everything;  ///< that renders it, of that instruction set
   std::size_t film_bytes = 0;
   std::optional<KernelGain> gain;
   MethodGain specular_gain, splitting_gain, reuse_gain;
 };
 
 Report examine(const InspectCommand& command) {
-  Report report{open_scene(command.scene), {}, {}, {}, 0, {}, {}, {}, {}};
+  Report report{open_scene(command.scene), {}, {}, "", {}, 0, {}, {}, {}, {}};
   const Scene& scene = report.loaded.scene;
   report.contents = contents_of(scene);
   report.prepared = prepare(scene);
   const Kernels kernels = find_kernels(command.isa);
-  report.kernel = kernels.set_for(report.prepared->columns().kernel);
+  report.kernel = kernels.set_for(report.prepared->view());
+  report.isa = kernels.isa;
   if (command.measure) {
     report.gain = measure_kernel_gain(*report.prepared, kernels);
     report.specular_gain = measure_specular_gain(scene, kernels.isa);
@@ -86,6 +89,8 @@ std::string json_text(const Report& report) {
   json["tree"] = report.prepared->columns().bvh != nullptr;
   json["kernel_features"] = names_of(report.prepared->columns().features);
   json["kernel"] = name_of(report.kernel);
+  json["isa"] = report.isa;
+  for (const Target target : built_targets()) json["built_sets"].push_back(name_of(target));
   if (report.gain) json["kernel_gain"] = json_of(*report.gain);
   json["scene_bytes"] = bytes_of(report.prepared->columns());
   json["film_bytes"] = report.film_bytes;
@@ -264,6 +269,7 @@ std::string table(const Report& report) {
                         (report.prepared->columns().bvh ? ", in a tree" : ", each tested for every ray"));
   row("models", joined(names_of(report.prepared->columns().features)));
   row("kernel", name_of(report.kernel));
+  row("runs", std::string(report.isa) + " (built: " + names_of(built_targets()) + ")");
   if (report.gain) row("", gain_text(*report.gain));
   row("memory",
       "scene " + bytes_text(bytes_of(report.prepared->columns())) + ", film " + bytes_text(report.film_bytes));
@@ -273,7 +279,6 @@ std::string table(const Report& report) {
 }  // namespace
 
 int run(const InspectCommand& command) {
-  if (command.accuracy) return print_accuracy(command.scene);
   const Report report = examine(command);
   write_standard_output(command.json ? json_text(report) : table(report));
   return report.gain && !report.gain->same_picture ? 1 : 0;

@@ -132,7 +132,7 @@ void add_machine_options(CLI::App& app, int& threads, std::string& isa) {
 
 void add_isa(CLI::App& app, std::string& isa) {
   std::vector<std::string> names;
-  for (int target = 0; target < target_count; ++target) names.emplace_back(name_of(static_cast<Target>(target)));
+  for (const Target target : all_targets) names.emplace_back(name_of(target));
   const auto read = [&isa, names](Text t) { isa = names[read_name(t, names)]; };
   add_value(app, "--isa", "NAME", "scalar; sse4, avx2, avx512 (x86-64); neon (ARM)\n[the best that this CPU runs]",
             read, names);

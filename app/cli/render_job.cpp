@@ -123,12 +123,12 @@ void check_names(const RenderCommand& command) {
   check_image_names(command.outputs, command.form, command.stats);
   if (is_image_output(command.stats))
     throw UsageError("--stats: found " + in_quotes(command.stats.string()) + ", expected a name that ends in .json");
-  find_kernels(command.isa);
+  kernels_to_render(command.isa);
 }
 
 void prepare(RenderJob& job) {
   const RenderCommand& command = job.command;
-  job.kernels = find_kernels(command.isa);
+  job.kernels = kernels_to_render(command.isa);
   job.options = render_options(command, job.loaded);
   job.options.threads = job.threads.count;
   std::vector<Output> outputs = outputs_of("--output", command.outputs);

@@ -3,6 +3,7 @@
 #include "app/cli/setting_options.h"
 #include "app/report/contents.h"
 #include "app/text/standard_streams.h"
+#include "core/base/target.h"
 #include "core/base/text.h"
 #include "core/files/film_files.h"
 #include "core/render/plan.h"
@@ -143,10 +144,13 @@ std::optional<StoredFilm> find_film(const std::filesystem::path& file, const Ren
 
 Kernels find_kernels(const std::string& isa) {
   if (const auto kernels = choose_kernels(isa)) return *kernels;
-  std::vector<std::string_view> names;
-  for (const Kernels& kernels : available_kernels()) names.emplace_back(kernels.isa);
-  throw UsageError("--isa: found " + in_quotes(isa) + ", expected " + one_of(names) +
-                   ", which this build has and this CPU can run");
+  throw UsageError("--isa: found " + in_quotes(isa) + ", expected " + expected_targets(isa));
+}
+
+Kernels kernels_to_render(const std::string& isa) {
+  const std::string warning = slow_build_warning();
+  if (isa.empty() && !warning.empty()) throw UsageError(warning + "; --isa scalar renders with them nevertheless");
+  return find_kernels(isa);
 }
 
 std::string differing_film(const StoredFilm& stored, const RenderCommand& command, const LoadedScene& loaded,
@@ -157,7 +161,8 @@ std::string differing_film(const StoredFilm& stored, const RenderCommand& comman
     if (text.empty()) text = found;
   };
   if (!stored.label.version.empty()) look(differing("a film of version", stored.label.version, TYNDALL_VERSION));
-  if (!stored.label.isa.empty()) look(differing("a film of instruction set", stored.label.isa, kernels.isa));
+  if (!stored.label.isa.empty() && stored.label.isa != kernels.isa)
+    look(differing("a film of instruction set", stored.label.isa, kernels.isa) + how_to_build(stored.label.isa));
   look(differing("a film of another region,", region_text(film.region), region_text(*options.region)));
   look(differing("samples from", std::to_string(film.first_sample), std::to_string(options.first_sample)));
   const std::uint32_t maximum = totals(film).max_taken;

@@ -123,11 +123,10 @@ struct DenoiseCommand {
 };
 
 struct InspectCommand {
-  SceneRequest scene;  ///< with `accuracy`, no name: all built-in scenes
+  SceneRequest scene;
   bool json = false;
-  bool measure = false;   ///< measure how much faster the chosen kernel and chains are
-  std::string isa;        ///< "": the best; with measure
-  bool accuracy = false;  ///< measure how far each approximation moves the picture
+  bool measure = false;  ///< measure how much faster the chosen kernel and chains are
+  std::string isa;       ///< "": the best; with measure
 };
 
 struct ScenesCommand {};

@@ -118,7 +118,7 @@ void check_steps(Sweeping& sweep) {
     const RenderCommand command = command_of(sweep, step);
     check_names(command);
     RenderJob job{command};
-    job.kernels = find_kernels(command.isa);
+    job.kernels = kernels_to_render(command.isa);
     job.loaded = scene_of(sweep, step);
     job.options = render_options(command, job.loaded);
     if (command.fresh) continue;

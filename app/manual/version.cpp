@@ -22,17 +22,13 @@ std::string compiler_text() {
   return name.substr(0, name.find_last_not_of(' ') + 1) + ", " + library + ", " TYNDALL_BUILD;
 }
 
-std::string names_of(const std::vector<Target>& targets) {
-  std::string names;
-  for (const Target target : targets) names += (names.empty() ? "" : " ") + std::string(name_of(target));
-  return names;
-}
-
 }  // namespace
 
 std::string version_text() {
+  const std::vector<Target> missing = missing_targets();
   return "tyndall " TYNDALL_VERSION "\ncompiler   " + compiler_text() + "\nkernels    " + names_of(built_targets()) +
-         "; this CPU runs " + names_of(available_targets()) + "\nlibraries  " TYNDALL_LIBRARIES "\n";
+         "; this CPU runs " + names_of(available_targets()) +
+         (missing.empty() ? "" : ", and could run " + names_of(missing) + how_to_build(name_of(missing.back()))) + "\nlibraries  " TYNDALL_LIBRARIES "\n";
 }
 
 }  // namespace tyndall

@@ -58,7 +58,7 @@ KernelGain measure_kernel_gain(const PreparedScene& scene, const Kernels& kernel
   const std::string isa = kernels.isa;
   KernelGain result;
   result.isa = isa;
-  if (kernels.set_for(scene.columns().kernel) == KernelSet::everything) return result;
+  if (kernels.set_for(scene.view()) == KernelSet::everything) return result;
   RenderScene columns = scene.columns();
   columns.kernel = KernelSet::everything;
   const PreparedScene full(std::make_shared<const Scene>(scene.scene()), std::move(columns));

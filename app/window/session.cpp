@@ -3,6 +3,7 @@
 #include "app/curves/chart.h"
 #include "app/window/document/open_document.h"
 #include "core/base/error.h"
+#include "core/base/target.h"
 #include "core/scene/scene.h"
 #include "core/system/processors.h"
 
@@ -43,6 +44,7 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
   if (!picture_ && !function_) restore_edits(options);
   timer_.on_change(clock_seconds());
   submit(clock_seconds());
+  if (isa_.empty() && !slow_build_warning().empty()) messages_.say_until_done(slow_build_warning());
   if (options.scene.source.empty()) editor_.open_film(options.scene);
   if (picture_) picture_->start(wake);
   if (function_) function_->set_on_news(wake);

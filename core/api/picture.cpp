@@ -1,4 +1,5 @@
 #include "core/api/data.h"
+#include "core/base/target.h"
 
 #include <cmath>
 #include <numeric>
@@ -19,10 +20,7 @@ void check_limit(const char* name, double value) {
 }
 
 void check_isa(const std::string& isa) {
-  if (choose_kernels(isa)) return;
-  std::vector<std::string_view> names;
-  for (const Kernels& kernels : available_kernels()) names.emplace_back(kernels.isa);
-  refuse("isa", in_quotes(isa), one_of(names) + ", which this build has and this processor can run");
+  if (!choose_kernels(isa)) refuse("isa", in_quotes(isa), expected_targets(isa));
 }
 
 std::string text_of(const inner::CoreRegion& r) {
@@ -76,7 +74,7 @@ inner::CoreFilm begun(const Scene::Data& scene, const RenderOptions& options, co
   const std::string isa = choose_kernels(core.isa)->isa;
   if (!same_samples(there, here)) refuse("film", "a film of another scene", "one of the scene that is rendered");
   if (!begun.label.isa.empty() && begun.label.isa != isa)
-    refuse("film", "a film of instruction set " + begun.label.isa, "one of " + isa + ", which mixes no bits");
+    refuse("film", "a film of instruction set " + begun.label.isa, "one of " + isa + ", which mixes no bits" + how_to_build(begun.label.isa));
   if (!begun.label.version.empty() && begun.label.version != TYNDALL_VERSION)
     refuse("film", "a film of version " + begun.label.version, "one of version " TYNDALL_VERSION);
   if (film.region != *core.region) refuse("film", "a film of region " + text_of(film.region), text_of(*core.region));

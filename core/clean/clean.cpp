@@ -7,36 +7,13 @@
 #include <cassert>
 #include <cmath>
 #include <numeric>
+#include <tyndall_targets.h>
 
 namespace tyndall {
 using namespace filter;
 namespace {
 
 static_assert(Planes::margin == row_margin);
-
-constexpr FilterSteps (*filters[target_count])() = {
-    scalar_filter,
-#if defined(TYNDALL_HAVE_SSE4)
-    sse4_filter,
-#else
-    nullptr,
-#endif
-#if defined(TYNDALL_HAVE_AVX2)
-    avx2_filter,
-#else
-    nullptr,
-#endif
-#if defined(TYNDALL_HAVE_AVX512)
-    avx512_filter,
-#else
-    nullptr,
-#endif
-#if defined(TYNDALL_HAVE_NEON)
-    neon_filter,
-#else
-    nullptr,
-#endif
-};
 
 /// The products of columns that cells sum, in the order that product_sum() and channel_sum() expect.
 std::vector<ColumnPair> column_pairs() {
@@ -149,7 +126,8 @@ struct Cleaner::Memory {
   FilterView view_of(const CleanInput& input);
 };
 
-Cleaner::Cleaner(Target target) : Cleaner(filters[static_cast<int>(target)]()) {}
+Cleaner::Cleaner(Target target)
+    : Cleaner(use_target<TYNDALL_BUILT_TARGETS>(target, [](auto built) { return filter_for<built()>(); })) {}
 Cleaner::Cleaner(const FilterSteps& steps) : memory_(std::make_unique<Memory>()) { memory_->steps = steps; }
 Cleaner::~Cleaner() = default;
 Cleaner::Cleaner(Cleaner&&) noexcept = default;

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/base/lanes.h"
+#include "core/base/target.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -84,11 +85,18 @@ struct FilterSteps {
   void (*tell)(const FilterView& view, int y, float* pixel_error);  ///< fills a row of CleanPicture::pixel_error
 };
 
-// Each function is in a file of its own, compiled with that instruction set's flags.
-FilterSteps scalar_filter();
-FilterSteps sse4_filter();
-FilterSteps avx2_filter();
-FilterSteps avx512_filter();
-FilterSteps neon_filter();
+/// Each is compiled with the flags of its instruction set. Call only what this build has and this CPU can run.
+template <Target>
+FilterSteps filter_for();
+template <>
+FilterSteps filter_for<Target::scalar>();
+template <>
+FilterSteps filter_for<Target::sse4>();
+template <>
+FilterSteps filter_for<Target::avx2>();
+template <>
+FilterSteps filter_for<Target::avx512>();
+template <>
+FilterSteps filter_for<Target::neon>();
 
 }  // namespace tyndall::filter

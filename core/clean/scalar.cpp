@@ -3,6 +3,9 @@
 
 namespace tyndall::filter {
 
-FilterSteps scalar_filter() { return filter_of<float>(); }
+template <>
+FilterSteps filter_for<Target::scalar>() {
+  return filter_of<float>();
+}
 
 }  // namespace tyndall::filter

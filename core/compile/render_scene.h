@@ -267,6 +267,10 @@ enum class KernelSet {
   guided_paths_only
 };
 inline constexpr int kernel_sets = 6;
+/// Whether the kernels of the set have the code for specular paths.
+constexpr bool solves_specular_paths(KernelSet set) {
+  return set != KernelSet::no_specular_paths && set != KernelSet::no_media_no_textures;
+}
 const char* name_of(KernelSet set);
 
 struct RenderScene {

@@ -1,50 +1,39 @@
-#include "core/base/target.h"
 #include "core/targets/kernels.h"
+
+#include <tyndall_targets.h>
 
 namespace tyndall {
 namespace {
 
-/// The kernels of each target, in the order of Target. Null: this build has no code for the target, and
-/// available_targets() does not list it.
-constexpr Kernels (*tables[target_count])() = {
-    scalar_kernels,
-#if defined(TYNDALL_HAVE_SSE4)
-    sse4_kernels,
-#else
-    nullptr,
-#endif
-#if defined(TYNDALL_HAVE_AVX2)
-    avx2_kernels,
-#else
-    nullptr,
-#endif
-#if defined(TYNDALL_HAVE_AVX512)
-    avx512_kernels,
-#else
-    nullptr,
-#endif
-#if defined(TYNDALL_HAVE_NEON)
-    neon_kernels,
-#else
-    nullptr,
-#endif
-};
+template <Target target>
+Kernels kernels_for() {
+  if constexpr (target == Target::scalar) {
+    return scalar_kernels();
+  } else {
+    Kernels kernels = full_kernel<target>();
+    if constexpr (floats_in(target) >= 8) add_kernel_sets<target>(kernels);
+    return kernels;
+  }
+}
 
-Kernels kernels_of(Target target) { return tables[static_cast<int>(target)](); }
+Kernels kernels_of(Target target) {
+  return use_target<TYNDALL_BUILT_TARGETS>(target, [](auto built) { return kernels_for<built()>(); });
+}
 
 }  // namespace
 
 void Kernels::render_tile(const SceneView& scene, const TileJob& job, double film_quantum, FilmPixel* pixels,
                           TileCounts& counts, EmissionSums* emission) const {
+  SceneView view = scene;
   // The pixels of a coarse pass are too far apart for reuse.
-  const bool reuses = scene.reuses_paths && job.step == 1;
-  const auto& render = reuses ? render_reusing : render_alone;
-  render[static_cast<int>(scene.kernel)](scene, job, film_quantum, pixels, emission, counts);
+  view.reuses_paths = scene.reuses_paths && job.step == 1;
+  render[static_cast<int>(set_for(view))](view, job, film_quantum, pixels, emission, counts);
 }
 
-KernelSet Kernels::set_for(KernelSet minimum) const {
-  const RenderTile full = render_alone[static_cast<int>(KernelSet::everything)];
-  return render_alone[static_cast<int>(minimum)] == full ? KernelSet::everything : minimum;
+KernelSet Kernels::set_for(const SceneView& scene) const {
+  const bool has_own = render[static_cast<int>(scene.kernel)] != render[static_cast<int>(KernelSet::everything)];
+  const bool serves = !scene.reuses_paths || !solves_specular_paths(scene.kernel);
+  return has_own && serves ? scene.kernel : KernelSet::everything;
 }
 
 std::vector<Kernels> available_kernels() {
@@ -54,7 +43,6 @@ std::vector<Kernels> available_kernels() {
 }
 
 std::optional<Kernels> choose_kernels(std::string_view isa) {
-  if (isa == "double") return double_kernels();
   if (const auto target = find_target(isa)) return kernels_of(*target);
   return std::nullopt;
 }

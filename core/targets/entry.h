@@ -70,7 +70,8 @@ TYNDALL_INLINE void first_hits(const SceneView& s, const Region& region, FirstHi
     }
 }
 
-/// Samples of either kind, for kernels that render scenes with and without reuse by one path loop.
+/// Samples of either kind, for kernels that render scenes with and without reuse by one path loop: a loop for each would
+/// take twice as long to compile.
 class EitherSamples {
  public:
   TYNDALL_INLINE explicit EitherSamples(AloneSamples& alone) : alone_(&alone) {}
@@ -112,14 +113,13 @@ class EitherSamples {
 // copy for all files, and a copy with wide instructions would crash older CPUs.
 
 template <class F>
-[[gnu::noinline]] static void follow_either(const SceneView& s, EitherSamples samples, TileCounts& counts,
-                                            auto& recorder) {
+[[gnu::noinline]] static void follow_either(const auto& s, EitherSamples samples, TileCounts& counts, auto& recorder) {
   follow_paths<F>(s, samples, counts, recorder);
 }
 
-/// Renders a tile job by the kernel with every model. s.reuses_paths: whether second vertices are reused.
+/// Renders a tile job by a kernel that reuses second vertices where s.reuses_paths says so.
 template <class F>
-static void render_any_tile(const SceneView& s, const TileJob& job, const TileFilm& film, auto& recorder) {
+static void render_either_tile(const auto& s, const TileJob& job, const TileFilm& film, auto& recorder) {
   if (!s.reuses_paths) {
     AloneSamples samples(s, job, film);
     return follow_either<F>(s, EitherSamples(samples), film.counts, recorder);
@@ -129,28 +129,24 @@ static void render_any_tile(const SceneView& s, const TileJob& job, const TileFi
 }
 
 // The functions in the table of an instruction set.
-template <class F, KernelSet set, bool reuse>
+template <class F, KernelSet set>
 static void render_tile_entry(const SceneView& scene, const TileJob& job, double film_quantum, FilmPixel* pixels,
                               EmissionSums* emission, TileCounts& counts) {
-  const SceneViewFor<set, reuse> s{{scene}};
+  const SceneViewFor<set> s{{scene}};
   const TileFilm film{1 / film_quantum, pixels, emission, counts};
   NoRecorder recorder;
-  if constexpr (reuse) {
-    render_tile_reusing<F>(
-        s, job,
-        film, [&](auto& samples) __attribute__((always_inline)) { follow_paths<F>(s, samples, counts, recorder); });
-  } else {
+  if constexpr (solves_specular_paths(set)) {
     AloneSamples samples(s, job, film);
     follow_paths<F>(s, samples, counts, recorder);
+  } else {
+    render_either_tile<F>(s, job, film, recorder);
   }
 }
-template <class F, class Recorder, bool reuse>
-static void render_any_entry(const SceneView& scene, const TileJob& job, double film_quantum, FilmPixel* pixels,
+template <class F, class Recorder>
+static void render_any_entry(const SceneView& s, const TileJob& job, double film_quantum, FilmPixel* pixels,
                              EmissionSums* emission, TileCounts& counts) {
-  SceneView s = scene;
-  s.reuses_paths = reuse;
   Recorder recorder{};
-  render_any_tile<F>(s, job, {1 / film_quantum, pixels, emission, counts}, recorder);
+  render_either_tile<F>(s, job, {1 / film_quantum, pixels, emission, counts}, recorder);
 }
 template <class F>
 static void trace_entry(const SceneView& s, const TraceRay* r, TraceHit* h, int n, bool brute_force) {
@@ -160,37 +156,28 @@ template <class F>
 static void first_hits_entry(const SceneView& s, const Region& r, FirstHit* h) {
   first_hits<F>(s, r, h);
 }
-/// A table in which one kernel with every model serves all KernelSets, with and without reuse. It gives the same
-/// pictures, a little slower, and compiles much sooner: for references and for old processors.
+/// A table in which one kernel with every model serves all KernelSets. It gives the same pictures, a little slower, and
+/// compiles much sooner: for references and for old processors.
 template <class F, class Recorder = NoRecorder>
 static Kernels full_kernel_of(const char* isa) {
-  const RenderTile render = render_any_entry<F, Recorder, false>, fraction = render_any_entry<F, Recorder, true>;
+  const RenderTile render = render_any_entry<F, Recorder>;
   return {isa,
           lanes_of<F>,
           {render, render, render, render, render, render},
-          {fraction, fraction, fraction, fraction, fraction, fraction},
           trace_entry<F>,
           first_hits_entry<F>};
 }
 
-/// Gives the table of the full kernel a separate kernel for each other KernelSet, for the instruction sets that most
-/// processors have. With reuse, all scenes with specular paths have one kernel, with or without media and textures:
-/// another one would make the build longer.
+/// See add_kernel_sets().
 template <class F>
-static Kernels with_kernel_sets(Kernels full) {
-  const auto give = [&](KernelSet set, RenderTile alone, RenderTile reusing) {
-    full.render_alone[static_cast<int>(set)] = alone, full.render_reusing[static_cast<int>(set)] = reusing;
-  };
+static void add_kernel_sets_of(Kernels& kernels) {
+  const auto add = [&](KernelSet set, RenderTile render) { kernels.render[static_cast<int>(set)] = render; };
   using enum KernelSet;
-  const RenderTile reusing = render_tile_entry<F, common_models, true>;
-  give(common_models, render_tile_entry<F, common_models, false>, reusing);
-  give(specular_paths_only, render_tile_entry<F, specular_paths_only, false>, reusing);
-  give(guided_paths_only, render_tile_entry<F, guided_paths_only, false>, reusing);  // guided light is never shared
-  give(no_specular_paths, render_tile_entry<F, no_specular_paths, false>,
-       render_tile_entry<F, no_specular_paths, true>);
-  give(no_media_no_textures, render_tile_entry<F, no_media_no_textures, false>,
-       render_tile_entry<F, no_media_no_textures, true>);
-  return full;
+  add(common_models, render_tile_entry<F, common_models>);
+  add(specular_paths_only, render_tile_entry<F, specular_paths_only>);
+  add(guided_paths_only, render_tile_entry<F, guided_paths_only>);
+  add(no_specular_paths, render_tile_entry<F, no_specular_paths>);
+  add(no_media_no_textures, render_tile_entry<F, no_media_no_textures>);
 }
 
 }  // namespace tyndall

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/base/target.h"
 #include "core/film/film.h"
 #include "core/trace/tile_job.h"
 
@@ -21,40 +22,47 @@ using TraceRays = void (*)(const SceneView& scene, const TraceRay* rays, TraceHi
 using FirstHits = void (*)(const SceneView& scene, const Region& region, FirstHit* hits);
 
 struct Kernels {
-  const char* isa;  ///< name of the instruction set: "scalar", "sse4", "avx2", "avx512", "neon" or "double"
+  const char* isa;  ///< name of the instruction set: "scalar", "sse4", "avx2", "avx512" or "neon"
   int lanes;        ///< number of paths that run together
-  /// By KernelSet: for scenes without, and with, reuse of second vertices (reuse.h). A set that was not compiled has
-  /// the full kernel.
-  RenderTile render_alone[kernel_sets], render_reusing[kernel_sets];
+  RenderTile render[kernel_sets];  ///< by KernelSet; a set that was not compiled has the full kernel
   TraceRays trace;
   FirstHits first_hits;
 
-  /// Renders a tile job with the kernel that SceneView::kernel names. Adds its samples to `pixels` (the tile, row by
+  /// Renders a tile job with the kernel of set_for(). Adds its samples to `pixels` (the tile, row by
   /// row, empty on entry) and to `counts`. emission: the same for EmissionSums; null: not recorded.
   void render_tile(const SceneView& scene, const TileJob& job, double film_quantum, FilmPixel* pixels,
                    TileCounts& counts, EmissionSums* emission = nullptr) const;
 
-  /// The set whose kernel runs for a scene that needs `minimum`: `minimum` itself, or `everything` for instruction sets
-  /// that have the full kernel only.
-  KernelSet set_for(KernelSet minimum) const;
+  /// The set whose kernel renders a scene: SceneView::kernel, or `everything` for instruction sets that have the full
+  /// kernel only, and for scenes that reuse paths and have specular paths, too: few do, and it serves them as well.
+  KernelSet set_for(const SceneView& scene) const;
 };
 
-// Each is in its own file, which is compiled with the flags of that instruction set. Call only what this CPU can run.
 Kernels scalar_kernels();
-Kernels sse4_kernels();
-Kernels avx2_kernels();
-Kernels avx512_kernels();
-Kernels neon_kernels();
-// The tables of two of them before with_kernel_sets(), in files of their own: compilers work on both at once.
-Kernels avx2_full_kernel();
-Kernels avx512_full_kernel();
-/// The same source over double, to see what rounding costs the other kernels. It reads the same columns of floats and
-/// draws the same random numbers, but is slow. Its name is "double"; available_kernels() does not list it.
-Kernels double_kernels();
+
+// Each is compiled with the flags of its instruction set. Call only what this build has and this CPU can run.
+/// The kernel with every model, for all KernelSets.
+template <Target>
+Kernels full_kernel();
+template <>
+Kernels full_kernel<Target::sse4>();
+template <>
+Kernels full_kernel<Target::avx2>();
+template <>
+Kernels full_kernel<Target::avx512>();
+template <>
+Kernels full_kernel<Target::neon>();
+/// Gives the table of the full kernel a kernel of its own for each other KernelSet. Targets of 8 lanes and more have them.
+template <Target>
+void add_kernel_sets(Kernels& kernels);
+template <>
+void add_kernel_sets<Target::avx2>(Kernels& kernels);
+template <>
+void add_kernel_sets<Target::avx512>(Kernels& kernels);
 
 /// All kernels that this build has and this CPU can run, the narrowest ("scalar", which is always there) first.
 std::vector<Kernels> available_kernels();
-/// The kernels of that name, "double" included; for "" the widest available ones; nothing for an unknown name.
+/// The kernels of that name; for "" the widest available ones; nothing where find_target() finds none.
 std::optional<Kernels> choose_kernels(std::string_view isa);
 
 }  // namespace tyndall

@@ -16,7 +16,7 @@ Vec3f sample_of(const FilmPixel& pixel, std::uint32_t half) {
 /// Renders a tile job of one sample of one pixel, and records the sample's path.
 void record_tile(const SceneView& s, const TileJob& job, const TileFilm& film, PathRecorder& recorder) {
   MaybeRecorder maybe{&recorder};
-  if (!s.reuses_paths) return render_any_tile<float>(s, job, film, maybe);
+  if (!s.reuses_paths) return render_either_tile<float>(s, job, film, maybe);
   render_tile_reusing<float>(s, job, film, [&](GroupSamples& samples) {
     recorder.reused = &samples.reused();
     follow_either<float>(s, EitherSamples(samples), film.counts, maybe);

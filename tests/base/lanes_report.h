@@ -1,4 +1,5 @@
 #pragma once
+#include "core/base/target.h"
 
 /// What the tests of the lanes report. They are compiled once for each instruction set, with its flags.
 namespace tyndall::test {
@@ -10,10 +11,16 @@ struct LanesReport {
   float functions;  ///< largest distance of the elementary functions, in units of the errors that math.h promises
 };
 
-// One per file that is compiled with its set's flags.
-LanesReport lanes_report_sse4();
-LanesReport lanes_report_avx2();
-LanesReport lanes_report_avx512();
-LanesReport lanes_report_neon();
+/// Of a wide target that this build has and this CPU can run.
+template <Target>
+LanesReport lanes_report_for();
+template <>
+LanesReport lanes_report_for<Target::sse4>();
+template <>
+LanesReport lanes_report_for<Target::avx2>();
+template <>
+LanesReport lanes_report_for<Target::avx512>();
+template <>
+LanesReport lanes_report_for<Target::neon>();
 
 }  // namespace tyndall::test

@@ -4,42 +4,26 @@
 #include <doctest/doctest.h>
 
 #include <string>
+#include <tyndall_targets.h>
 
 namespace tyndall::test::lanes_simd_test {
 
-namespace {
-
-[[maybe_unused]] void check_lanes(const char* isa, int lanes, test::LanesReport (*report_of)()) {
-  if (!choose_kernels(isa)) {
-    MESSAGE("not run on this CPU: ", std::string(isa));
-    return;
-  }
-  const test::LanesReport report = report_of();
-  CAPTURE(isa);
-  CHECK(report.lanes == lanes);
-  CHECK(report.lanes == choose_kernels(isa)->lanes);
-  CHECK(report.arithmetic == 0);
-  CHECK(report.whole_numbers == 0);
-  CHECK(report.masks == 0);
-  CHECK(report.memory == 0);
-  CHECK(report.functions <= 2);  // float and lanes may each err by what the function promises
-}
-
-}  // namespace
-
 TEST_CASE("lanes: every wide operation does what it does on float, lane by lane") {
-#if defined(TYNDALL_HAVE_SSE4)
-  check_lanes("sse4", 4, test::lanes_report_sse4);
-#endif
-#if defined(TYNDALL_HAVE_AVX2)
-  check_lanes("avx2", 16, test::lanes_report_avx2);
-#endif
-#if defined(TYNDALL_HAVE_AVX512)
-  check_lanes("avx512", 32, test::lanes_report_avx512);
-#endif
-#if defined(TYNDALL_HAVE_NEON)
-  check_lanes("neon", 4, test::lanes_report_neon);
-#endif
+  for (const Target target : available_targets()) {
+    if (target == Target::scalar) continue;
+    const auto report = use_target<TYNDALL_BUILT_TARGETS>(target, [](auto built) -> LanesReport {
+      if constexpr (built() == Target::scalar) return {};
+      else return lanes_report_for<built()>();
+    });
+    CAPTURE(std::string(name_of(target)));
+    CHECK(report.lanes == floats_in(target) * (floats_in(target) >= 8 ? 2 : 1));
+    CHECK(report.lanes == choose_kernels(name_of(target))->lanes);
+    CHECK(report.arithmetic == 0);
+    CHECK(report.whole_numbers == 0);
+    CHECK(report.masks == 0);
+    CHECK(report.memory == 0);
+    CHECK(report.functions <= 2);  // float and lanes may each err by what the function promises
+  }
 }
 
 }  // namespace tyndall::test::lanes_simd_test

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <string>
 
 namespace tyndall::test::target_test {
@@ -20,7 +21,17 @@ TEST_CASE("target: found by name, the widest without a name, and nothing for a n
   CHECK(find_target("") == available_targets().back());
   CHECK_FALSE(find_target("avx1024"));
   CHECK_FALSE(find_target("SSE4"));
-  CHECK_FALSE(find_target("double"));  // a way to compute for tests, not an instruction set
+}
+
+TEST_CASE("target: a missing one is not available, and what is expected in its place says how to build it") {
+  const std::vector<Target> available = available_targets();
+  for (const Target target : missing_targets()) {
+    CHECK(std::find(available.begin(), available.end(), target) == available.end());
+    CHECK(expected_targets(name_of(target)).find("TYNDALL_INSTRUCTION_SETS=all ./run") != std::string::npos);
+  }
+  CHECK(expected_targets("avx1024").find("TYNDALL_INSTRUCTION_SETS") == std::string::npos);
+  for (const Target target : available) CHECK(expected_targets("x").find(name_of(target)) != std::string::npos);
+  CHECK(slow_build_warning().empty() == (available.size() > 1 || missing_targets().empty()));
 }
 
 TEST_CASE("target: there are kernels for each of the available targets, of the same name and order") {

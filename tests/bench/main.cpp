@@ -17,6 +17,7 @@ const std::vector<Part>& parts() {
       {"tree", "build time, memory and speed of trees over spheres", measure_tree},
       {"edits", "milliseconds from an edit to its picture, interactive renderer", measure_edits},
       {"clean", "milliseconds that the clean view of a film takes", measure_clean},
+      {"approximations", "how far each approximation moves the mean of pictures; minutes", measure_approximations},
       {"start", "wall time of the smallest render as a process", measure_start},
       {"against", "speed and seconds to relMSE 0.01 beside the program that --against names, in pairs",
        measure_against},

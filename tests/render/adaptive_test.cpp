@@ -89,8 +89,7 @@ TEST_CASE("adaptive: a pass that is given up leaves prefixes, and goes on to the
   plan_round(film);
   stop.real = available_kernels().back();
   Kernels stopping = stop.real;
-  for (RenderTile& quantum : stopping.render_alone) quantum = stopping_tile;
-  for (RenderTile& quantum : stopping.render_reusing) quantum = stopping_tile;
+  for (RenderTile& quantum : stopping.render) quantum = stopping_tile;
   ThreadPool thread_pool(2);
   const std::vector<std::uint32_t> wanted = counts_at(film, 128);
   Pass pass(film, wanted);

@@ -120,8 +120,7 @@ TEST_CASE("same picture: passes given up any number of times; every pixel's samp
   ThreadPool thread_pool(2);
   const Kernels real = available_kernels().back();
   Kernels stopping = real;
-  for (auto* kernels : {&stopping.render_alone, &stopping.render_reusing})
-    std::fill(std::begin(*kernels), std::end(*kernels), stopping_tile);
+  std::fill(std::begin(stopping.render), std::end(stopping.render), stopping_tile);
   int abandoned = 0;
   for (const RenderScene& scene : scenes()) {
     const SceneViewOf view(scene);

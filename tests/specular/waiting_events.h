@@ -1,4 +1,5 @@
 #pragma once
+#include "core/base/target.h"
 #include "core/base/vec.h"
 #include "core/trace/scene_view.h"
 
@@ -18,10 +19,16 @@ struct WaitingEvent {
 using LightOfEvents = void (*)(const SceneView& scene, const WaitingEvent* events, int count, int together,
                                Vec3f* light);
 
-// One per file that is compiled with its set's flags.
-void light_of_events_sse4(const SceneView& scene, const WaitingEvent* events, int count, int together, Vec3f* light);
-void light_of_events_avx2(const SceneView& scene, const WaitingEvent* events, int count, int together, Vec3f* light);
-void light_of_events_avx512(const SceneView& scene, const WaitingEvent* events, int count, int together, Vec3f* light);
-void light_of_events_neon(const SceneView& scene, const WaitingEvent* events, int count, int together, Vec3f* light);
+/// The function of a wide target that this build has and this CPU can run.
+template <Target>
+void light_of_events_for(const SceneView& scene, const WaitingEvent* events, int count, int together, Vec3f* light);
+template <>
+void light_of_events_for<Target::sse4>(const SceneView& scene, const WaitingEvent* events, int count, int together, Vec3f* light);
+template <>
+void light_of_events_for<Target::avx2>(const SceneView& scene, const WaitingEvent* events, int count, int together, Vec3f* light);
+template <>
+void light_of_events_for<Target::avx512>(const SceneView& scene, const WaitingEvent* events, int count, int together, Vec3f* light);
+template <>
+void light_of_events_for<Target::neon>(const SceneView& scene, const WaitingEvent* events, int count, int together, Vec3f* light);
 
 }  // namespace tyndall::test

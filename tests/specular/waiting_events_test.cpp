@@ -1,7 +1,6 @@
 #include "tests/specular/waiting_events.h"
 
 #include "core/compile/compile.h"
-#include "core/targets/kernels.h"
 #include "tests/support/mixed_scene.h"
 #include "tests/support/prepared.h"
 #include "tests/support/random_glass.h"
@@ -12,7 +11,7 @@
 #include <bit>
 #include <numeric>
 #include <string>
-#include <string_view>
+#include <tyndall_targets.h>
 #include <vector>
 
 /// What an event gets from specular light paths is a function of the event and the scene alone, to the last bit: not of
@@ -21,22 +20,12 @@ namespace tyndall::test::waiting_events_test {
 
 namespace {
 
-/// Null for instruction sets whose kernels have one lane: there nothing waits.
-LightOfEvents function_for(std::string_view isa) {
-#if TYNDALL_HAVE_SSE4
-  if (isa == "sse4") return light_of_events_sse4;
-#endif
-#if TYNDALL_HAVE_AVX2
-  if (isa == "avx2") return light_of_events_avx2;
-#endif
-#if TYNDALL_HAVE_AVX512
-  if (isa == "avx512") return light_of_events_avx512;
-#endif
-#if TYNDALL_HAVE_NEON
-  if (isa == "neon") return light_of_events_neon;
-#endif
-  static_cast<void>(isa);
-  return nullptr;
+/// Null for the scalar target: its kernels have one lane, so that nothing waits.
+LightOfEvents function_for(Target target) {
+  return use_target<TYNDALL_BUILT_TARGETS>(target, [](auto built) -> LightOfEvents {
+    if constexpr (built() == Target::scalar) return nullptr;
+    else return light_of_events_for<built()>;
+  });
 }
 
 std::vector<WaitingEvent> random_events(Engine& engine, const RenderScene& scene, int count) {
@@ -88,10 +77,10 @@ void compare_with_groups(LightOfEvents find, unsigned seed, int count, Found& fo
 }  // namespace
 
 TEST_CASE("waiting events: each gets the same light beside any others as alone") {
-  for (const Kernels& kernels : available_kernels()) {
-    const LightOfEvents find = function_for(kernels.isa);
+  for (const Target target : available_targets()) {
+    const LightOfEvents find = function_for(target);
     if (!find) continue;
-    CAPTURE(std::string(kernels.isa));
+    CAPTURE(std::string(name_of(target)));
     Found found;
     for (unsigned seed = 1; seed <= 60; ++seed) compare_with_groups(find, seed, 600, found);
     CHECK(found.differ == 0);

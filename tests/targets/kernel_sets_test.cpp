@@ -6,8 +6,6 @@
 
 #include <doctest/doctest.h>
 
-#include <iterator>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -65,25 +63,34 @@ TEST_CASE("kernel sets: the one with a guide gives bit for bit what the full one
 }
 
 TEST_CASE("kernel sets: wide instruction sets have a kernel for each, the others the full one alone, and say so") {
+  const SceneViewOf box(compile(load_scene("cornell-box").scene));
   for (const Kernels& kernels : available_kernels()) {
     const std::string isa = kernels.isa;
     CAPTURE(isa);
     const bool wide = isa == "avx2" || isa == "avx512";
     for (int i = 0; i < kernel_sets; ++i) {
-      const KernelSet minimum = static_cast<KernelSet>(i);
-      CHECK(kernels.set_for(minimum) == (wide ? minimum : KernelSet::everything));
-      for (int k = 0; k < i; ++k) CHECK((kernels.render_alone[k] == kernels.render_alone[i]) != wide);
+      SceneView view = box.view();
+      view.kernel = static_cast<KernelSet>(i);
+      CHECK(kernels.set_for(view) == (wide ? view.kernel : KernelSet::everything));
+      view.reuses_paths = true;
+      const bool has_both = wide && !solves_specular_paths(view.kernel);
+      CHECK(kernels.set_for(view) == (has_both ? view.kernel : KernelSet::everything));
+      for (int k = 0; k < i; ++k) CHECK((kernels.render[k] == kernels.render[i]) != wide);
     }
   }
-  CHECK(double_kernels().set_for(KernelSet::no_media_no_textures) == KernelSet::everything);
 }
 
-TEST_CASE("kernel sets: wide instruction sets have four kernels that share, the others one") {
-  for (const Kernels& kernels : available_kernels()) {
-    const std::string isa = kernels.isa;
-    CAPTURE(isa);
-    const bool wide = isa == "avx2" || isa == "avx512";
-    CHECK(std::set(std::begin(kernels.render_reusing), std::end(kernels.render_reusing)).size() == (wide ? 4 : 1));
+TEST_CASE("kernel sets: a scene that reuses paths has the picture of the full kernel") {
+  for (const char* name : {"cornell-box", "cornell-smoke"}) {
+    Scene scene = load_scene(name).scene;
+    scene.width = scene.height = 32;
+    const auto prepared = prepare(scene);
+    CAPTURE(name);
+    REQUIRE(prepared->view().reuses_paths);
+    SceneView full = prepared->view();
+    full.kernel = KernelSet::everything;
+    for (const Kernels& kernels : available_kernels())
+      CHECK(picture(kernels, prepared->columns(), prepared->view()) == picture(kernels, prepared->columns(), full));
   }
 }
 

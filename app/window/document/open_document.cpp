@@ -3,6 +3,7 @@
 #include "app/files/outputs.h"
 #include "app/text/numbers.h"
 #include "core/base/fnv1a.h"
+#include "core/base/target.h"
 #include "core/base/text.h"
 #include "core/files/film_files.h"
 #include "core/image/image_io.h"
@@ -35,7 +36,7 @@ std::string obstacle(const StoredFilm& stored, const Scene& scene, const std::st
   if (!whole || film.first_sample != 0 || film.width != scene.width || film.height != scene.height)
     return "its film is a part of a picture";
   if (stored.label.version != TYNDALL_VERSION) return "its film is of version " + stored.label.version;
-  if (stored.label.isa != isa) return "its film is of instruction set " + stored.label.isa + ", this is " + isa;
+  if (stored.label.isa != isa) return "its film is of instruction set " + stored.label.isa + ", this is " + isa + how_to_build(stored.label.isa);
   return "";
 }
 

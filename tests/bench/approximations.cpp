@@ -1,16 +1,15 @@
-#include "app/cli/commands.h"
-#include "app/files/open_scene.h"
-#include "app/text/standard_streams.h"
-#include "core/base/text.h"
 #include "core/image/tonemap.h"
+#include "core/render/progression.h"
 #include "core/render/render.h"
-
-#include <fmt/core.h>
+#include "core/scene/load.h"
+#include "tests/bench/bench.h"
+#include "tests/support/double_kernels.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
-namespace tyndall {
+namespace tyndall::bench {
 namespace {
 
 /// A relative root mean square difference (as sqrt of relMSE) between two ways to render, and its standard error.
@@ -30,11 +29,14 @@ struct Accuracy {
 constexpr int picture_pixels = 96 * 72;  // roughly: each scene keeps its ratio of width to height
 constexpr std::uint32_t picture_spp = 256, clean_spp = 16;
 
-Film film_of(const Scene& scene, bool reference = false) {
-  RenderOptions options;
-  options.spp = picture_spp;
-  if (reference) options.isa = "double";
-  return render(*prepare(scene), options).film;
+Film film_of(const Scene& scene, const Kernels& kernels = *choose_kernels("")) {
+  const auto prepared = prepare(scene);
+  ThreadPool thread_pool(thread_count(0).count);
+  Progression picture;
+  picture.start(prepared->columns(), {0, 0, scene.width, scene.height}, 0, {});
+  while (!picture.reached({.spp = picture_spp}))
+    picture.run_pass({thread_pool, kernels, prepared->view()}, {.spp = picture_spp}, false);
+  return picture.film();
 }
 
 /// From one squared relative difference a pixel: the root of their mean, and the standard error of that root.
@@ -120,7 +122,7 @@ Shift shift_of_depth(Scene scene, const Film& exact, int depth) {
 
 /// Renders the scene small, each way with the same random numbers: where both ways take the same path, noise cancels.
 /// The noise that is left differs between the two halves, so it averages to 0 in the product of their differences.
-Accuracy measure_accuracy(Scene scene) {
+Accuracy accuracy_of(Scene scene) {
   const double scale =
       std::sqrt(static_cast<double>(picture_pixels) / (static_cast<double>(scene.width) * scene.height));
   scene.width = std::max(static_cast<int>(std::lround(scene.width * scale)), 1);
@@ -131,40 +133,46 @@ Accuracy measure_accuracy(Scene scene) {
   Scene books = scene;
   books.render.fresnel = FresnelKind::schlick;
   return {shift(exact, film_of(books)),     shift_of_depth(scene, exact, 5),    shift_of_depth(scene, exact, 10),
-          shift_of_depth(scene, exact, 50), shift(film_of(scene, true), exact), shift_of_bytes(exact),
+          shift_of_depth(scene, exact, 50), shift(film_of(scene, test::double_kernels()), exact), shift_of_bytes(exact),
           shift_of_clean(scene, exact)};
 }
 
-/// A cell of the table, 16 letters wide: "0.18 ± 0.02", "< 0.01" where nothing is seen above the noise, or "0".
+/// "0.18 ± 0.02", "< 0.01" where nothing is seen above the noise, or "0".
 std::string cell(const Shift& s) {
-  if (s.rms == 0 && s.error == 0) return fmt::format("{:>7}{:>9}", "0", "");
-  if (s.rms > s.error) return fmt::format("{:7.2g} ± {:<6.1g}", 100 * s.rms, 100 * s.error);
-  return fmt::format("{:>7} {:<8.1g}", "<", 100 * (s.rms + 2 * s.error));
-}
-
-const char* heading =
-    "relative RMS difference in %, ± standard error, from exact Fresnel terms, 1000 events, linear floats, no filter\n"
-    "scene                       schlick         depth 5         depth 10  "
-    "      depth 50        float lanes     8 bit           clean, 16 spp\n";
-
-std::string row(const std::string& name, const Accuracy& a) {
-  std::string text = name + std::string(name.size() < 25 ? 25 - name.size() : 1, ' ');
-  for (const Shift& s : {a.schlick, a.depth5, a.depth10, a.depth50, a.single, a.bytes, a.clean}) text += cell(s);
-  return text.substr(0, text.find_last_not_of(' ') + 1) + "\n";
+  if (s.rms == 0 && s.error == 0) return "0";
+  char text[64];
+  if (s.rms > s.error)
+    std::snprintf(text, sizeof text, "%.2g ± %.1g", 100 * s.rms, 100 * s.error);
+  else
+    std::snprintf(text, sizeof text, "< %.1g", 100 * (s.rms + 2 * s.error));
+  return text;
 }
 
 }  // namespace
 
-int print_accuracy(const SceneRequest& request) {
-  write_standard_output(heading);
-  if (!request.what.empty()) {
-    const LoadedScene loaded = open_scene(request);
-    write_standard_output(row(printable(loaded.name), measure_accuracy(loaded.scene)));
-    return 0;
+Json measure_approximations(const Settings& settings) {
+  Table table("Relative RMS difference in %, ± standard error, from exact Fresnel terms, 1000 events, linear floats",
+              {{"scene", "scene", -1, 24},
+               {"schlick", "schlick", -1, 14},
+               {"depth_5", "depth 5", -1, 14},
+               {"depth_10", "depth 10", -1, 14},
+               {"depth_50", "depth 50", -1, 16},
+               {"float_lanes", "float lanes", -1, 18},
+               {"bytes", "8 bit", -1, 14},
+               {"clean", "clean, 16 spp", -1, 14}});
+  for (const BuiltIn& built_in : built_in_scenes()) {
+    if (settings.quick && built_in.name != "showroom" && built_in.name != "cornell-box") continue;
+    const Accuracy a = accuracy_of(load_scene(built_in.name).scene);
+    table.add({{"scene", built_in.name},
+               {"schlick", cell(a.schlick)},
+               {"depth_5", cell(a.depth5)},
+               {"depth_10", cell(a.depth10)},
+               {"depth_50", cell(a.depth50)},
+               {"float_lanes", cell(a.single)},
+               {"bytes", cell(a.bytes)},
+               {"clean", cell(a.clean)}});
   }
-  for (const BuiltIn& built_in : built_in_scenes())
-    write_standard_output(row(built_in.name, measure_accuracy(load_scene(built_in.name).scene)));
-  return 0;
+  return table.rows();
 }
 
-}  // namespace tyndall
+}  // namespace tyndall::bench
