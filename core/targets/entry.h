@@ -71,18 +71,20 @@ TYNDALL_INLINE void first_hits(const SceneView& s, const Region& region, FirstHi
 }
 
 /// Samples of either kind, for kernels that render scenes with and without reuse by one path loop: a loop for each would
-/// take twice as long to compile.
+/// take twice as long to compile. It holds the samples of paths that share nothing, which makes them as quick as in a
+/// loop of their own but for a few percent.
 class EitherSamples {
  public:
-  TYNDALL_INLINE explicit EitherSamples(AloneSamples& alone) : alone_(&alone) {}
-  TYNDALL_INLINE explicit EitherSamples(GroupSamples& groups) : groups_(&groups) {}
-  TYNDALL_INLINE bool empty() const { return groups_ ? groups_->empty() : alone_->empty(); }
+  /// groups: null, or what is taken in place of the tile job's samples.
+  TYNDALL_INLINE EitherSamples(const SceneView& s, const TileJob& job, const TileFilm& film, GroupSamples* groups)
+      : alone_(s, groups ? TileJob{} : job, film), groups_(groups) {}
+  TYNDALL_INLINE bool empty() const { return groups_ ? groups_->empty() : alone_.empty(); }
   TYNDALL_INLINE const SubpixelLights& subpixel_lights() const {
-    return groups_ ? groups_->subpixel_lights() : alone_->subpixel_lights();
+    return groups_ ? groups_->subpixel_lights() : alone_.subpixel_lights();
   }
   template <int lanes>
   TYNDALL_INLINE void take(CameraSamples<lanes>& to) {
-    groups_ ? groups_->take(to) : alone_->take(to);
+    groups_ ? groups_->take(to) : alone_.take(to);
   }
   template <class F>
   TYNDALL_INLINE void on_event(const auto& s, Paths<F>& p, const Event<F>& e, MaskOf<F> met) {
@@ -90,63 +92,74 @@ class EitherSamples {
   }
   template <class F>
   TYNDALL_INLINE MaskOf<F> on_scatter(const auto& s, Paths<F>& p, const Event<F>& e, MaskOf<F> scattering) {
-    return groups_ ? groups_->on_scatter(s, p, e, scattering) : alone_->on_scatter(s, p, e, scattering);
+    return groups_ ? groups_->on_scatter(s, p, e, scattering) : alone_.on_scatter(s, p, e, scattering);
   }
   template <class F>
   TYNDALL_INLINE IntOf<F> slot_of(const Paths<F>& p) const {
-    return groups_ ? groups_->slot_of(p) : alone_->slot_of(p);
+    return groups_ ? groups_->slot_of(p) : alone_.slot_of(p);
   }
   template <class F>
   TYNDALL_INLINE void on_end(const auto& s, const Paths<F>& p, std::uint32_t ended, std::uint32_t cut) {
-    groups_ ? groups_->on_end(s, p, ended, cut) : alone_->on_end(s, p, ended, cut);
+    groups_ ? groups_->on_end(s, p, ended, cut) : alone_.on_end(s, p, ended, cut);
   }
   TYNDALL_INLINE void add(std::int32_t slot, Vec3f light) {
-    groups_ ? groups_->add(slot, light) : alone_->add(slot, light);
+    groups_ ? groups_->add(slot, light) : alone_.add(slot, light);
   }
 
  private:
-  AloneSamples* alone_ = nullptr;
-  GroupSamples* groups_ = nullptr;  ///< null: alone_ is used
+  AloneSamples alone_;
+  GroupSamples* groups_;
 };
 
 // The functions below are static, so that each file has its own copies: of an ordinary template the linker keeps one
 // copy for all files, and a copy with wide instructions would crash older CPUs.
 
 template <class F>
-[[gnu::noinline]] static void follow_either(const auto& s, EitherSamples samples, TileCounts& counts, auto& recorder) {
-  follow_paths<F>(s, samples, counts, recorder);
+[[gnu::noinline]] static void follow_either(const auto& s, const TileJob& job, const TileFilm& film,
+                                            GroupSamples* groups, auto& recorder) {
+  EitherSamples samples(s, job, film, groups);
+  follow_paths<F>(s, samples, film.counts, recorder);
 }
 
-/// Renders a tile job by a kernel that reuses second vertices where s.reuses_paths says so.
+/// Renders a tile job by a path loop for scenes with and without reuse. on_groups(groups): called before each group of
+/// pixels that share second vertices.
 template <class F>
-static void render_either_tile(const auto& s, const TileJob& job, const TileFilm& film, auto& recorder) {
-  if (!s.reuses_paths) {
-    AloneSamples samples(s, job, film);
-    return follow_either<F>(s, EitherSamples(samples), film.counts, recorder);
-  }
-  render_tile_reusing<F>(
-      s, job, film, [&](GroupSamples& samples) { follow_either<F>(s, EitherSamples(samples), film.counts, recorder); });
+static void render_either_tile(const auto& s, const TileJob& job, const TileFilm& film, auto& recorder,
+                               const auto& on_groups) {
+  if (!s.reuses_paths) return follow_either<F>(s, job, film, nullptr, recorder);
+  render_tile_reusing<F>(s, job, film, [&](GroupSamples& groups) {
+    on_groups(groups);
+    follow_either<F>(s, job, film, &groups, recorder);
+  });
 }
 
 // The functions in the table of an instruction set.
 template <class F, KernelSet set>
 static void render_tile_entry(const SceneView& scene, const TileJob& job, double film_quantum, FilmPixel* pixels,
                               EmissionSums* emission, TileCounts& counts) {
-  const SceneViewFor<set> s{{scene}};
   const TileFilm film{1 / film_quantum, pixels, emission, counts};
   NoRecorder recorder;
-  if constexpr (solves_specular_paths(set)) {
-    AloneSamples samples(s, job, film);
-    follow_paths<F>(s, samples, counts, recorder);
-  } else {
-    render_either_tile<F>(s, job, film, recorder);
+  if constexpr (set == KernelSet::no_specular_paths) {
+    const SceneViewFor<set, Reuse::either> s{{scene}};
+    return render_either_tile<F>(s, job, film, recorder, [](const GroupSamples&) {});
   }
+  // Its scenes are so cheap that the question which samples they are would cost them up to a seventh of their time.
+  if constexpr (set == KernelSet::no_media_no_textures)
+    if (scene.reuses_paths) {
+      const SceneViewFor<set, Reuse::always> s{{scene}};
+      return render_tile_reusing<F>(
+          s, job,
+          film, [&](auto& samples) __attribute__((always_inline)) { follow_paths<F>(s, samples, counts, recorder); });
+    }
+  const SceneViewFor<set, Reuse::never> s{{scene}};
+  AloneSamples samples(s, job, film);
+  follow_paths<F>(s, samples, counts, recorder);
 }
 template <class F, class Recorder>
 static void render_any_entry(const SceneView& s, const TileJob& job, double film_quantum, FilmPixel* pixels,
                              EmissionSums* emission, TileCounts& counts) {
   Recorder recorder{};
-  render_either_tile<F>(s, job, {1 / film_quantum, pixels, emission, counts}, recorder);
+  render_either_tile<F>(s, job, {1 / film_quantum, pixels, emission, counts}, recorder, [](const GroupSamples&) {});
 }
 template <class F>
 static void trace_entry(const SceneView& s, const TraceRay* r, TraceHit* h, int n, bool brute_force) {

@@ -16,11 +16,7 @@ Vec3f sample_of(const FilmPixel& pixel, std::uint32_t half) {
 /// Renders a tile job of one sample of one pixel, and records the sample's path.
 void record_tile(const SceneView& s, const TileJob& job, const TileFilm& film, PathRecorder& recorder) {
   MaybeRecorder maybe{&recorder};
-  if (!s.reuses_paths) return render_either_tile<float>(s, job, film, maybe);
-  render_tile_reusing<float>(s, job, film, [&](GroupSamples& samples) {
-    recorder.reused = &samples.reused();
-    follow_either<float>(s, EitherSamples(samples), film.counts, maybe);
-  });
+  render_either_tile<float>(s, job, film, maybe, [&](GroupSamples& groups) { recorder.reused = &groups.reused(); });
 }
 
 }  // namespace
@@ -41,7 +37,7 @@ void trace_groups(const SceneView& scene, ReusedPaths& paths, TileCounts& counts
   const TileFilm film{1, nullptr, nullptr, counts};
   GroupSamples samples(paths, {nullptr, nullptr}, film);
   MaybeRecorder none;
-  follow_either<float>(scene, EitherSamples(samples), counts, none);
+  follow_either<float>(scene, {}, film, &samples, none);
   add_specular_paths_to_leaving(scene, paths);
 }
 
