@@ -73,6 +73,14 @@ install(CODE "execute_process(COMMAND ${CMAKE_CROSSCOMPILING_EMULATOR} \"$<TARGE
                               OUTPUT_FILE \"${manual}/tyndall.1.gz\" COMMAND_ERROR_IS_FATAL ANY)")
 install(FILES ${manual}/tyndall.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 
+# A package is for processors of all kinds: a folder that lacks instruction sets is refused.
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/check_package.cmake @ONLY CONTENT [[
+if(NOT "@instruction_sets@" STREQUAL "@all_instruction_sets@")
+  message(FATAL_ERROR "this folder lacks kernels that other processors need (it has: scalar @instruction_sets@); "
+                      "\"cmake --preset package && cmake --build --preset package\" builds one that can be packed")
+endif()
+]])
+set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_BINARY_DIR}/check_package.cmake)
 set(CPACK_GENERATOR "DEB;TGZ")
 set(CPACK_PACKAGE_NAME tyndall)
 set(CPACK_PACKAGE_VENDOR Tyndall)

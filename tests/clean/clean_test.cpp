@@ -299,7 +299,7 @@ namespace {
 
 /// The filter's steps, which count the rows that they take, and set `give_up` when a chosen number of them is done.
 struct CountedRows {
-  filter::FilterSteps real = filter::scalar_filter();
+  filter::FilterSteps real = filter::filter_for<Target::scalar>();
   std::atomic<int> rows = 0, last = 0;
   std::atomic<bool> give_up = false;
 };
