@@ -1,5 +1,6 @@
 #include "app/manual/page.h"
 #include "core/base/target.h"
+#include "core/system/guard.h"
 
 namespace tyndall {
 namespace {
@@ -32,7 +33,8 @@ std::string names_of(const std::vector<Target>& targets) {
 
 std::string version_text() {
   return "tyndall " TYNDALL_VERSION "\ncompiler   " + compiler_text() + "\nkernels    " + names_of(built_targets()) +
-         "; this CPU runs " + names_of(available_targets()) + "\nlibraries  " TYNDALL_LIBRARIES "\n";
+         "; this CPU runs " + names_of(available_targets()) + "\nguard      " + guard_text(available_guard()) +
+         "\nlibraries  " TYNDALL_LIBRARIES "\n";
 }
 
 }  // namespace tyndall

@@ -1,4 +1,4 @@
-#include "app/book/child.h"
+#include "core/system/child.h"
 
 #include <sys/resource.h>
 #include <sys/syscall.h>
@@ -11,10 +11,10 @@
 #endif
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <utility>
@@ -28,49 +28,15 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t max_messages = std::size_t(300) << 20;  // more than the largest scene
 
-std::atomic<int> received_signal{0};  // a signal handler can reach nothing but globals
-constexpr int watched[] = {SIGINT, SIGTERM, SIGHUP};
-struct sigaction before[3];
-
-/// Keeps the signal in mind, and passes it on to who watched before.
-void on_signal_number(int number) {
-  received_signal = number;
-  for (std::size_t k = 0; k < 3; ++k)
-    if (watched[k] == number && before[k].sa_handler != SIG_DFL && before[k].sa_handler != SIG_IGN)
-      before[k].sa_handler(number);
-}
-
-/// Watches signals that ask for the end while it lives. What is ignored stays so, but for SIGINT: shells ignore it for
-/// jobs in the background, which "kill -INT" must still reach.
-class EndWatch {
- public:
-  explicit EndWatch(bool watches) : watches_(watches) {
-    received_signal = 0;
-    struct sigaction action {};
-    action.sa_handler = on_signal_number;
-    for (std::size_t k = 0; watches_ && k < 3; ++k) {
-      sigaction(watched[k], nullptr, &before[k]);
-      const bool ignored = before[k].sa_handler == SIG_IGN;
-      if (!ignored || watched[k] == SIGINT) sigaction(watched[k], &action, nullptr);
-    }
-  }
-  ~EndWatch() {
-    for (std::size_t k = 0; watches_ && k < 3; ++k) sigaction(watched[k], &before[k], nullptr);
-  }
-  EndWatch(const EndWatch&) = delete;
-  EndWatch& operator=(const EndWatch&) = delete;
-  int received() const { return watches_ ? received_signal.load() : 0; }
-
- private:
-  bool watches_;
-};
-
 /// Both ends of a pipe, closed at the end.
 struct Pipe {
-  int read = -1, write = -1;
+  int read = -1, write = -1, error = 0;
   Pipe() {
     int ends[2];
-    if (pipe2(ends, O_CLOEXEC) == 0) read = ends[0], write = ends[1];
+    if (pipe2(ends, O_CLOEXEC) == 0)
+      read = ends[0], write = ends[1];
+    else
+      error = errno;
   }
   ~Pipe() { close_end(read), close_end(write); }
   Pipe(const Pipe&) = delete;
@@ -85,6 +51,8 @@ struct ProcessStart {
   std::vector<std::string> environment;
   std::vector<char*> arguments, variables;
   std::string folder;
+  Guard guard;
+  int input, errors, messages, report;  ///< descriptors; messages: -1, none
 };
 
 std::vector<char*> pointers(std::vector<std::string>& arguments) {
@@ -107,26 +75,87 @@ std::vector<std::string> with(const std::vector<std::string>& additions) {
   return all;
 }
 
-[[noreturn]] void become(const ProcessStart& start, const Pipe& input, const Pipe& errors, int messages, int report) {
-  setpgid(0, 0);
+void die_with_parent(int signal) {
 #ifdef __linux__
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  prctl(PR_SET_PDEATHSIG, signal);
 #endif
-  for (const int number : watched) std::signal(number, SIG_DFL);
-  for (const int number : {SIGPIPE, SIGXFSZ}) std::signal(number, SIG_DFL);
+}
+
+void close_on_exec() {
+#ifdef __linux__
+  syscall(SYS_close_range, 3U, ~0U, 1U << 2);  // CLOSE_RANGE_CLOEXEC, Linux 5.11
+#endif
+}
+
+/// Tells run_child() the number of the program's process, or that of an error, negative.
+void report(const ProcessStart& start, int number) {
+  [[maybe_unused]] const auto told = write(start.report, &number, sizeof number);
+}
+
+/// The new process becomes the program.
+[[noreturn]] void become(const ProcessStart& start) {
+  setsid();  // no terminal
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ}) std::signal(number, SIG_DFL);
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
+  dup2(start.input, STDIN_FILENO);
+  dup2(open("/dev/null", O_WRONLY), STDOUT_FILENO);
+  dup2(start.errors, STDERR_FILENO);
+  close_on_exec();
+  if (start.messages >= 0) fcntl(start.messages, F_SETFD, 0);
+  int error = chdir(start.folder.c_str()) == 0 ? 0 : errno;
+  if (error == 0 && start.guard.restrict_self() != 0) error = EPERM;
+  die_with_parent(SIGKILL);
+  if (error == 0) {
+    execvpe(start.arguments[0], start.arguments.data(), start.variables.data());
+    error = errno;
+  }
+  report(start, -error);
+  _exit(127);
+}
+
+/// Waits for the program; ends it, with all that it has started, when this process gets SIGTERM. Returns how it ended.
+int wait_for(pid_t program, const sigset_t& watched) {
+  int status = 0, number = 0;
+  for (bool ended = false; !ended;) {
+    sigwait(&watched, &number);
+    if (number == SIGTERM) kill(program, SIGKILL);
+    for (pid_t one = 1; one > 0 && !ended;) {
+      one = waitpid(-1, &status, WNOHANG);
+      ended = one == program && (WIFEXITED(status) || WIFSIGNALED(status));
+    }
+  }
+  kill(-program, SIGKILL);
+  return status;
+}
+
+/// The new process starts the program, and ends as the program does, after all that the program has started. It ends
+/// it on SIGTERM, which it also gets when its parent dies.
+[[noreturn]] void supervise(const ProcessStart& start, pid_t parent) {
+  setsid();
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
-  const int nowhere = open("/dev/null", O_WRONLY);
-  dup2(input.read, STDIN_FILENO);
-  dup2(nowhere, STDOUT_FILENO);
-  dup2(errors.write, STDERR_FILENO);
-  if (messages >= 0) fcntl(messages, F_SETFD, 0);
-  if (chdir(start.folder.c_str()) == 0) execvpe(start.arguments[0], start.arguments.data(), start.variables.data());
-  const int error = errno;
-  [[maybe_unused]] const auto told = write(report, &error, sizeof error);
+  sigset_t watched;
+  sigemptyset(&watched);
+  for (const int number : {SIGTERM, SIGCHLD}) std::signal(number, SIG_DFL), sigaddset(&watched, number);
+  sigprocmask(SIG_SETMASK, &watched, nullptr);
+  die_with_parent(SIGTERM);
+  int life = -1;
+  if (getppid() != parent || start.guard.enter_namespaces(life) != 0) report(start, -EPERM), _exit(127);
+  const pid_t program = fork();
+  if (program == 0) become(start);
+  report(start, program > 0 ? program : -errno);
+  for (const int end : {start.input, start.errors, start.messages, start.report}) close(end);
+  const int status = program > 0 ? wait_for(program, watched) : 0;
+  close(life);
+  while (life >= 0 && waitpid(-1, nullptr, 0) > 0) {  // the namespaces' first process ends last
+  }
+  if (!WIFSIGNALED(status)) _exit(WEXITSTATUS(status));
+  std::signal(WTERMSIG(status), SIG_DFL);
+  sigemptyset(&watched);
+  sigprocmask(SIG_SETMASK, &watched, nullptr);
+  kill(getpid(), WTERMSIG(status));
   _exit(127);
 }
 
@@ -136,6 +165,18 @@ bool awaits_input(pid_t process) {
   long call = -1;
   std::string descriptor;
   return file >> call >> descriptor && call == SYS_read && descriptor == "0x0";
+}
+
+/// What report() has told, when nobody can tell any more: the program has begun, or there is none.
+std::vector<int> all_numbers(int from) {
+  std::vector<int> numbers;
+  for (int number = 0;;) {
+    const ssize_t size = read(from, &number, sizeof number);
+    if (size == sizeof number)
+      numbers.push_back(number);
+    else if (size >= 0 || errno != EINTR)
+      return numbers;
+  }
 }
 
 /// Appends what the pipe has; closes it at its end.
@@ -154,11 +195,11 @@ void drain(int& from, std::string& text, std::size_t limit, bool keep_last) {
 
 class Child {
  public:
-  Child(const ChildPlan& plan, pid_t process, Pipe& errors, Pipe& messages)
-      : plan_(plan), process_(process), errors_(errors), messages_(messages) {}
+  Child(const ChildPlan& plan, pid_t supervisor, pid_t program, Pipe& errors, Pipe& messages)
+      : plan_(plan), supervisor_(supervisor), program_(program), errors_(errors), messages_(messages) {}
 
   /// Until it has ended, or is to be ended.
-  void follow(const EndWatch& signals, ChildEnd& end) {
+  void follow(ChildEnd& end) {
     Clock::time_point deadline = in(plan_.seconds);
     bool told = false;
     int waits = 0;  // how often in a row it was seen to wait for input
@@ -166,19 +207,18 @@ class Child {
       take(end, 20);
       if (!std::exchange(told, !end.messages.empty()) && !end.messages.empty())
         deadline = std::min(deadline, in(plan_.seconds_after_message));
-      waits = awaits_input(process_) ? waits + 1 : 0;
-      end.interrupted = signals.received();
+      waits = awaits_input(program_) ? waits + 1 : 0;
       end.given_up = plan_.go_on && !plan_.go_on();
       end.timed_out = Clock::now() > deadline;
       end.awaited_input = waits > 5;
       if (end.ended()) return;
     }
   }
-  /// Ends all processes of the group, and takes what they have written.
+  /// Ends all processes, and takes what they have written.
   void finish(ChildEnd& end) {
-    kill(-process_, SIGKILL);
+    if (!ended_) kill(supervisor_, SIGTERM);
     int status = 0;
-    while (!ended_ && waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    while (!ended_ && waitpid(supervisor_, &status, 0) < 0 && errno == EINTR) {
     }
     const Clock::time_point deadline = Clock::now() + std::chrono::milliseconds(500);
     while ((errors_.read >= 0 || messages_.read >= 0) && Clock::now() < deadline) take(end, 50);
@@ -190,7 +230,7 @@ class Child {
   }
   bool collect(ChildEnd& end) {
     int status = 0;
-    if (waitpid(process_, &status, WNOHANG) != process_) return false;
+    if (waitpid(supervisor_, &status, WNOHANG) != supervisor_) return false;
     ended_ = true;
     if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
     if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
@@ -204,7 +244,7 @@ class Child {
   }
 
   const ChildPlan& plan_;
-  pid_t process_;
+  pid_t supervisor_, program_;
   Pipe &errors_, &messages_;
   bool ended_ = false;
 };
@@ -213,28 +253,36 @@ class Child {
 
 ChildEnd run_child(const ChildPlan& plan) {
   ChildEnd end;
-  const EndWatch signals(plan.watch_signals);
-  Pipe input, errors, messages, report;
-  if (report.read < 0 || messages.read < 0) {
-    end.start_error = errno;
-    return end;
-  }
+  Pipe input, errors, messages, reports;
+  for (const Pipe* pipe : {&input, &errors, &messages, &reports})
+    if (pipe->read < 0) {
+      end.start_error = pipe->error;
+      return end;
+    }
   std::vector<std::string> command = plan.command, additions = plan.environment;
-  if (!plan.pipe_variable.empty()) additions.push_back(plan.pipe_variable + "=" + std::to_string(messages.write));
-  ProcessStart start{with(additions), pointers(command), {}, plan.folder.string()};
+  const bool has_messages = !plan.pipe_variable.empty();
+  if (has_messages) additions.push_back(plan.pipe_variable + "=" + std::to_string(messages.write));
+  ProcessStart start{with(additions),
+                     pointers(command),
+                     {},
+                     plan.folder.string(),
+                     Guard(plan.guard, plan.own_folder.string()),
+                     input.read,
+                     errors.write,
+                     has_messages ? messages.write : -1,
+                     reports.write};
   start.variables = pointers(start.environment);
-  const pid_t process = fork();
-  if (process == 0) become(start, input, errors, plan.pipe_variable.empty() ? -1 : messages.write, report.write);
-  if (process < 0) {
+  const pid_t parent = getpid(), supervisor = fork();
+  if (supervisor == 0) supervise(start, parent);
+  if (supervisor < 0) {
     end.start_error = errno;
     return end;
   }
-  setpgid(process, process);  // here, too: whoever comes first
-  Pipe::close_end(errors.write), Pipe::close_end(messages.write), Pipe::close_end(report.write);
-  Child child(plan, process, errors, messages);
-  int error = 0;
-  if (read(report.read, &error, sizeof error) == sizeof error) end.start_error = error;
-  if (end.start_error == 0) child.follow(signals, end);
+  Pipe::close_end(errors.write), Pipe::close_end(messages.write), Pipe::close_end(reports.write);
+  pid_t program = 0;
+  for (const int number : all_numbers(reports.read)) (number > 0 ? program : end.start_error) = std::abs(number);
+  Child child(plan, supervisor, program, errors, messages);
+  if (end.start_error == 0) child.follow(end);
   child.finish(end);
   return end;
 }
