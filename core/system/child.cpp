@@ -17,6 +17,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <utility>
 
 extern char** environ;
@@ -33,10 +34,12 @@ struct Pipe {
   int read = -1, write = -1, error = 0;
   Pipe() {
     int ends[2];
-    if (pipe2(ends, O_CLOEXEC) == 0)
-      read = ends[0], write = ends[1];
-    else
+    if (pipe(ends) != 0) {
       error = errno;
+      return;
+    }
+    read = ends[0], write = ends[1];
+    for (const int end : ends) fcntl(end, F_SETFD, FD_CLOEXEC);
   }
   ~Pipe() { close_end(read), close_end(write); }
   Pipe(const Pipe&) = delete;
@@ -81,9 +84,17 @@ void die_with_parent(int signal) {
 #endif
 }
 
-void close_on_exec() {
+/// Closes all but the standard streams and the ends of pipes that are needed; those of other children would not end.
+void close_others(const ProcessStart& start) {
 #ifdef __linux__
-  syscall(SYS_close_range, 3U, ~0U, 1U << 2);  // CLOSE_RANGE_CLOEXEC, Linux 5.11
+  int kept[] = {start.input, start.errors, start.messages, start.report};
+  std::sort(std::begin(kept), std::end(kept));
+  int from = 3;
+  for (const int end : kept) {
+    if (end > from) syscall(SYS_close_range, from, end - 1, 0);
+    from = std::max(from, end + 1);
+  }
+  syscall(SYS_close_range, from, ~0U, 0);
 #endif
 }
 
@@ -100,15 +111,16 @@ void report(const ProcessStart& start, int number) {
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   dup2(start.input, STDIN_FILENO);
-  dup2(open("/dev/null", O_WRONLY), STDOUT_FILENO);
+  dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDOUT_FILENO);
   dup2(start.errors, STDERR_FILENO);
-  close_on_exec();
   if (start.messages >= 0) fcntl(start.messages, F_SETFD, 0);
-  int error = chdir(start.folder.c_str()) == 0 ? 0 : errno;
-  if (error == 0 && start.guard.restrict_self() != 0) error = EPERM;
-  die_with_parent(SIGKILL);
-  if (error == 0) {
-    execvpe(start.arguments[0], start.arguments.data(), start.variables.data());
+  int error = EPERM;
+  if (chdir(start.folder.c_str()) != 0) {
+    error = errno;
+  } else if (start.guard.restrict_self() == 0) {
+    die_with_parent(SIGKILL);
+    environ = const_cast<char**>(start.variables.data());
+    execvp(start.arguments[0], start.arguments.data());
     error = errno;
   }
   report(start, -error);
@@ -133,6 +145,7 @@ int wait_for(pid_t program, const sigset_t& watched) {
 /// The new process starts the program, and ends as the program does, after all that the program has started. It ends
 /// it on SIGTERM, which it also gets when its parent dies.
 [[noreturn]] void supervise(const ProcessStart& start, pid_t parent) {
+  close_others(start);
   setsid();
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
@@ -167,16 +180,12 @@ bool awaits_input(pid_t process) {
   return file >> call >> descriptor && call == SYS_read && descriptor == "0x0";
 }
 
-/// What report() has told, when nobody can tell any more: the program has begun, or there is none.
-std::vector<int> all_numbers(int from) {
-  std::vector<int> numbers;
-  for (int number = 0;;) {
-    const ssize_t size = read(from, &number, sizeof number);
-    if (size == sizeof number)
-      numbers.push_back(number);
-    else if (size >= 0 || errno != EINTR)
-      return numbers;
-  }
+/// The next number that report() tells; false: none will come, as the program has begun, or cannot begin.
+bool next_number(int from, int& number) {
+  ssize_t size = -1;
+  do size = read(from, &number, sizeof number);
+  while (size < 0 && errno == EINTR);
+  return size == sizeof number;
 }
 
 /// Appends what the pipe has; closes it at its end.
@@ -238,7 +247,8 @@ class Child {
   }
   void take(ChildEnd& end, int milliseconds) {
     pollfd polled[2] = {{errors_.read, POLLIN, 0}, {messages_.read, POLLIN, 0}};
-    if (poll(polled, 2, milliseconds) <= 0) return;
+    const bool is_ending = errors_.read < 0 && messages_.read < 0;
+    if (poll(polled, 2, is_ending ? 1 : milliseconds) <= 0) return;
     if (polled[0].revents) drain(errors_.read, end.errors, plan_.max_errors, plan_.keep_last_errors);
     if (polled[1].revents) drain(messages_.read, end.messages, max_messages, false);
   }
@@ -280,7 +290,7 @@ ChildEnd run_child(const ChildPlan& plan) {
   }
   Pipe::close_end(errors.write), Pipe::close_end(messages.write), Pipe::close_end(reports.write);
   pid_t program = 0;
-  for (const int number : all_numbers(reports.read)) (number > 0 ? program : end.start_error) = std::abs(number);
+  for (int number = 0; next_number(reports.read, number);) (number > 0 ? program : end.start_error) = std::abs(number);
   Child child(plan, supervisor, program, errors, messages);
   if (end.start_error == 0) child.follow(end);
   child.finish(end);

@@ -1,5 +1,7 @@
 #include "core/system/guard.h"
 
+#include <unistd.h>
+
 #include <utility>
 
 #ifdef __linux__
@@ -15,7 +17,6 @@
 #include <sys/wait.h>
 #include <fcntl.h>
 #include <sched.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
@@ -31,6 +32,11 @@ namespace tyndall {
 std::string guard_text(const GuardLayers& layers) {
   if (layers.namespaces) return layers.landlock > 0 ? "namespaces and Landlock" : "namespaces";
   return layers.landlock > 0 ? "Landlock" : "none";
+}
+
+Guard::Guard(const GuardLayers& layers, std::string folder) : layers_(layers), folder_(std::move(folder)) {
+  const std::string user = std::to_string(geteuid()), group = std::to_string(getegid());
+  user_map_ = user + " " + user + " 1\n", group_map_ = group + " " + group + " 1\n";
 }
 
 #ifdef __linux__
@@ -71,7 +77,7 @@ bool lock_files(const char* folder) {
 [[noreturn]] void be_first_process(int pipe) {
   std::signal(SIGCHLD, SIG_IGN);  // nobody waits for orphans
   dup2(pipe, 0);
-  syscall(SYS_close_range, 1U, ~0U, 0U);
+  syscall(SYS_close_range, 1U, ~0U, 0U);  // also the end of the pipe that this process has
   char nothing;
   while (read(0, &nothing, 1) < 0 && errno == EINTR) {
   }
@@ -258,11 +264,6 @@ const GuardLayers& available_guard() {
   return layers;
 }
 
-Guard::Guard(const GuardLayers& layers, std::string folder) : layers_(layers), folder_(std::move(folder)) {
-  const std::string user = std::to_string(geteuid()), group = std::to_string(getegid());
-  user_map_ = user + " " + user + " 1\n", group_map_ = group + " " + group + " 1\n";
-}
-
 int Guard::enter_namespaces(int& life) const {
   if (!layers_.namespaces) return 0;
   int ends[2];
@@ -295,8 +296,6 @@ const GuardLayers& available_guard() {
   static const GuardLayers none;
   return none;
 }
-
-Guard::Guard(const GuardLayers& layers, std::string folder) : layers_(layers), folder_(std::move(folder)) {}
 
 int Guard::enter_namespaces(int&) const { return 0; }
 

@@ -6,7 +6,8 @@ namespace tyndall {
 /// What keeps a program from changing anything outside one folder, whatever it calls and starts. Each layer is enough
 /// by itself, as far as the kernel has it.
 struct GuardLayers {
-  /// Namespaces (Linux 5.12): all files read-only but the folder, no devices, own processes, own IPC, no network.
+  /// Namespaces (Linux 5.12): all files read-only but the folder, no devices, own processes, own IPC, no network. They
+  /// alone leave a named pipe that somebody reads open to be written to.
   bool namespaces = false;
   /// The version of Landlock (1: Linux 5.13); 0: none. What it lets through a filter of system calls refuses.
   int landlock = 0;
