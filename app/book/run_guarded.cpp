@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <utility>
 
 namespace tyndall {
 namespace {
@@ -61,6 +62,21 @@ ChildEnd run_guarded(const ProgramTask& task, ChildPlan plan, const std::string&
   if (signals.received() != 0) throw ProgramInterrupted(task.name + ": interrupted while " + doing, signals.received());
   if (end.given_up) throw ProgramInterrupted(task.name + ": given up while " + doing, SIGTERM);
   return end;
+}
+
+std::string signal_name(int signal) {
+  constexpr std::pair<int, const char*> names[] = {{SIGSEGV, "SIGSEGV, a pointer to nowhere"},
+                                                   {SIGABRT, "SIGABRT"},
+                                                   {SIGFPE, "SIGFPE, a division by 0"},
+                                                   {SIGBUS, "SIGBUS"},
+                                                   {SIGILL, "SIGILL"},
+                                                   {SIGKILL, "SIGKILL, often for lack of memory"},
+                                                   {SIGTERM, "SIGTERM"},
+                                                   {SIGXCPU, "SIGXCPU"},
+                                                   {SIGXFSZ, "SIGXFSZ, a file that is too large"}};
+  for (const auto& [number, name] : names)
+    if (number == signal) return name;
+  return "signal " + std::to_string(signal);
 }
 
 }  // namespace tyndall

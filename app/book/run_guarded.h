@@ -28,4 +28,7 @@ struct ProgramTask {
 /// Throws ProgramInterrupted; UsageError where the system has no guard, and the program is not trusted.
 ChildEnd run_guarded(const ProgramTask& task, ChildPlan plan, const std::string& doing);
 
+/// The signal's name, and what it is mostly for: "SIGFPE, a division by 0".
+std::string signal_name(int signal);
+
 }  // namespace tyndall

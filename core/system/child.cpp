@@ -297,19 +297,4 @@ ChildEnd run_child(const ChildPlan& plan) {
   return end;
 }
 
-std::string signal_name(int signal) {
-  constexpr std::pair<int, const char*> names[] = {{SIGSEGV, "SIGSEGV, a pointer to nowhere"},
-                                                   {SIGABRT, "SIGABRT"},
-                                                   {SIGFPE, "SIGFPE, a division by 0"},
-                                                   {SIGBUS, "SIGBUS"},
-                                                   {SIGILL, "SIGILL"},
-                                                   {SIGKILL, "SIGKILL, often for lack of memory"},
-                                                   {SIGTERM, "SIGTERM"},
-                                                   {SIGXCPU, "SIGXCPU"},
-                                                   {SIGXFSZ, "SIGXFSZ, a file that is too large"}};
-  for (const auto& [number, name] : names)
-    if (number == signal) return name;
-  return "signal " + std::to_string(signal);
-}
-
 }  // namespace tyndall

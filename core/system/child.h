@@ -41,7 +41,4 @@ struct ChildEnd {
 /// process if that is killed; without a guard only what has not left its process group. Standard output goes nowhere.
 ChildEnd run_child(const ChildPlan& plan);
 
-/// The signal's name, and what it is mostly for: "SIGFPE, a division by 0".
-std::string signal_name(int signal);
-
 }  // namespace tyndall
