@@ -160,6 +160,8 @@ class Commands:
             small = small + ["--spp", "1"]
         if name == "compare" and "image.ppm" in words:
             small = ["--time", "1"]
+        if "main.cc" in words:
+            small = [*small, "--trust"]  # also where the system has no guard
         checks = name == "verify" or any(word.startswith("--max-") for word in words)
         opens_window = not through_run and (not words or name == "view" or (not name and words[0] != "help" and words[0][0] != "-"))
         if opens_window or name == "inspect":

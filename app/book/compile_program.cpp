@@ -1,6 +1,5 @@
 #include "app/book/compile_program.h"
 
-#include "app/book/child.h"
 #include "app/book/own_names.h"
 #include "app/book/scratch_folder.h"
 #include "app/book/source_text.h"
@@ -116,8 +115,6 @@ std::vector<std::vector<std::string>> compilers(const std::string& wanted) {
 /// Throws for what has nothing to do with the reader's code.
 void check_end(const ProgramTask& task, const std::string& compiler, const ChildEnd& end) {
   const std::string& name = task.name;
-  if (end.interrupted != 0) throw ProgramInterrupted(name + ": interrupted while it was compiled", end.interrupted);
-  if (end.given_up) throw ProgramInterrupted(name + ": given up while it was compiled", SIGTERM);
   if (end.timed_out) throw IoError(compiler + " took more than 120 s to compile " + name + ", and was ended");
   if (end.errors.find("No space left on device") != std::string::npos)
     throw IoError(task.folder.parent_path().string() + ": temporary folder: No space left on device");
@@ -134,12 +131,10 @@ ChildEnd compile(const ProgramTask& task, const std::vector<std::string>& argume
     plan.command = compiler;
     plan.command.insert(plan.command.end(), arguments.begin(), arguments.end());
     plan.folder = task.folder / "code";
-    plan.environment = {"LC_ALL=C", "TMPDIR=" + task.folder.string()};  // what it leaves behind goes with the folder
+    plan.environment = {"LC_ALL=C", "TMPDIR=" + task.folder.string(), "CCACHE_DISABLE=1"};
     plan.seconds = max_seconds;
     plan.max_errors = max_output;
-    plan.go_on = task.go_on;
-    plan.watch_signals = task.watch_signals;
-    ChildEnd end = run_child(plan);
+    ChildEnd end = run_guarded(task, plan, "it was compiled");
     if (end.start_error == ENOENT || end.start_error == EACCES) continue;
     if (end.start_error != 0)
       throw IoError(compiler[0] + " cannot be started: " + std::generic_category().message(end.start_error));
@@ -244,7 +239,12 @@ void compile_program(const ProgramTask& task, const ProgramLayout& layout, const
     arguments.insert(arguments.end(), layout.compiled_files.begin(), layout.compiled_files.end());
     arguments.insert(arguments.end(), {"-o", program.string()});
     const std::string error = compile_with_own_names(task, layout, arguments);
-    if (error.empty()) return;
+    if (error.empty()) {
+      std::error_code ignored;  // what is no program cannot be started
+      fs::permissions(program, fs::perms::owner_exec, fs::perm_options::add,
+                      ignored);  // a guard may refuse linkers that
+      return;
+    }
     errors.push_back(all_printable(error));
   }
   // What is wrong at the same place for both is told in the words of the older one, which are plainer. Else the code is

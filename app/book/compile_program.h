@@ -1,30 +1,14 @@
 #pragma once
 #include "app/book/program_layout.h"
+#include "app/book/run_guarded.h"
 
-#include <functional>
-#include <stdexcept>
 #include <string>
 
 namespace tyndall {
 
-/// The user asked for an end, by a signal, while a program was compiled or run.
-struct ProgramInterrupted : std::runtime_error {
-  ProgramInterrupted(const std::string& text, int number) : std::runtime_error(text), signal(number) {}
-  int signal;
-};
-
-/// What compiling and running have in common.
-struct ProgramTask {
-  std::string name;              ///< what messages call the program
-  std::filesystem::path folder;  ///< of temporary files, that exists
-  std::function<bool()> go_on;   ///< see ChildPlan
-  bool watch_signals = true;
-  std::string compiler{};  ///< see ProgramBuild
-};
-
 /// Compiles a program whose texts are in the folder `code` of the task's. include_folders: whole paths. By $CXX, else
 /// by c++, g++ or clang++, as C++17, else as C++20. Throws UsageError with the first error of the reader's code,
-/// IoError where there is no compiler or it fails by itself, ProgramInterrupted.
+/// IoError where there is no compiler or it fails by itself, and as run_guarded() does.
 void compile_program(const ProgramTask& task, const ProgramLayout& layout,
                      const std::vector<std::filesystem::path>& include_folders, const std::filesystem::path& program);
 

@@ -1,7 +1,6 @@
 #include "app/book/load_program.h"
 
 #include "app/book/book_folder.h"
-#include "app/book/child.h"
 #include "app/book/scratch_folder.h"
 #include "app/text/values.h"
 #include "core/base/error.h"
@@ -9,7 +8,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <csignal>
 #include <cstdlib>
 #include <system_error>
 
@@ -56,8 +54,6 @@ constexpr const char* goal = "camera::render() or the pixels of a loop";
 /// Why there is no scene.
 [[noreturn]] void fail(const ProgramRequest& request, const ProgramTask& task, const ChildEnd& end) {
   const std::string& name = task.name;
-  if (end.interrupted != 0) throw ProgramInterrupted(name + ": interrupted while it ran", end.interrupted);
-  if (end.given_up) throw ProgramInterrupted(name + ": given up while it ran", SIGTERM);
   if (end.start_error == EACCES)
     throw IoError(printable(task.folder.parent_path().string()) +
                   ": programs cannot be run in this temporary folder (is it mounted noexec?); TMPDIR names another");
@@ -74,8 +70,8 @@ constexpr const char* goal = "camera::render() or the pixels of a loop";
 }
 
 /// The folder that the program runs in, with copies of what it may read.
-fs::path running_folder(const ScratchFolder& scratch, const ProgramLayout& layout, const fs::path& reader) {
-  fs::path folder = scratch.path() / "run" / "here";
+fs::path running_folder(const fs::path& scratch, const ProgramLayout& layout, const fs::path& reader) {
+  fs::path folder = scratch / "run" / "here";
   std::error_code error;
   fs::create_directories(folder, error);
   for (const fs::path& file : layout.data) {
@@ -87,21 +83,20 @@ fs::path running_folder(const ScratchFolder& scratch, const ProgramLayout& layou
   return folder;
 }
 
-ChildEnd run(const ProgramRequest& request, const ProgramLayout& layout, const fs::path& program,
-             const fs::path& folder) {
+ChildEnd run(const ProgramRequest& request, const ProgramTask& task, const ProgramLayout& layout,
+             const fs::path& program) {
   const fs::path reader = fs::absolute(request.sources.files.front()).parent_path();
   ChildPlan plan;
   plan.command = {program.string()};
-  plan.folder = folder;
-  plan.environment = {"TYNDALL_BOOK_FOLDERS=" + reader.string() + "\n" + fs::current_path().string() + "\n"};
+  plan.folder = running_folder(task.folder, layout, request.sources.files.front().parent_path());
+  plan.environment = {"TYNDALL_BOOK_FOLDERS=" + reader.string() + "\n" + fs::current_path().string() + "\n",
+                      "TMPDIR=" + plan.folder.string()};
   if (!layout.sky.empty()) plan.environment.push_back("TYNDALL_BOOK_SKY=" + layout.sky);
   plan.pipe_variable = "TYNDALL_BOOK_PIPE";
   plan.seconds = request.seconds;
   plan.seconds_after_message = 2;
   plan.keep_last_errors = true;
-  plan.go_on = request.go_on;
-  plan.watch_signals = request.watch_signals;
-  return run_child(plan);
+  return run_guarded(task, plan, "it ran");
 }
 
 void choose_generator(ProgramLayout& layout, const std::vector<std::string>& options) {
@@ -132,16 +127,14 @@ ProgramScene load_program(const ProgramRequest& request) {
   if (request.build.random) choose_generator(layout, *request.build.random);
   const ScratchFolder scratch;
   for (const auto& [name, text] : layout.texts) scratch.write(fs::path("code") / name, text);
-  const ProgramTask task{printable(main.string()), scratch.path(), request.go_on, request.watch_signals,
-                         request.build.compiler};
+  const ProgramTask task{printable(main.string()), scratch.path(),  request.go_on,
+                         request.watch_signals,    request.trusted, request.build.compiler};
   std::vector<fs::path> folders{headers};  // ours first
   for (const fs::path& folder : whole_paths(request.sources.include_folders)) folders.push_back(folder);
   const fs::path program = scratch.path() / "program";
   compile_program(task, layout, folders, program);
-  const fs::path folder = running_folder(scratch, layout, main.parent_path());
-  const ChildEnd end = run(request, layout, program, folder);
+  const ChildEnd end = run(request, task, layout, program);
   Messages told = read_messages(end.messages);
-  if (end.interrupted != 0 || end.given_up) fail(request, task, end);
   if (told.scene.empty() && !told.refusal.empty()) throw UsageError(task.name + ": " + printable(told.refusal));
   if (told.scene.empty()) fail(request, task, end);
   ProgramScene scene{std::move(told.scene), {}, layout.files};

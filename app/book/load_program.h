@@ -16,7 +16,8 @@ struct ProgramRequest {
   ProgramBuild build{};
   double seconds = 20;          ///< that the program may run
   std::function<bool()> go_on;  ///< asked now and then; false gives up; may be empty
-  bool watch_signals = true;    ///< SIGINT, SIGTERM and SIGHUP end it; false where a window watches them
+  bool watch_signals = true;    ///< see ProgramTask; false where a window watches them
+  bool trusted = false;         ///< see ProgramTask
 };
 
 /// What a program has described.
@@ -27,9 +28,9 @@ struct ProgramScene {
 };
 
 /// Compiles the program and runs it in an empty temporary folder, where it finds copies of the files that its strings
-/// name. No file of the reader's is written to. This runs the reader's code: only for files that the user has named.
-/// Throws UsageError where the program cannot be taken over, IoError where the system fails, ProgramInterrupted; all in
-/// one line.
+/// name. It can change nothing outside that folder, unless there is no guard and it is trusted. This runs the reader's
+/// code: only for files that the user has named. Throws UsageError where the program cannot be taken over, IoError
+/// where the system fails, ProgramInterrupted; all in one line.
 ProgramScene load_program(const ProgramRequest& request);
 
 }  // namespace tyndall

@@ -206,6 +206,8 @@ void add_scene_options(CLI::App& app, SceneRequest& scene) {
              [&scene](Text t) { scene.overrides.push_back(read_override(t)); });
   add_values(app, "-I,--include", "DIR", "of a program: a folder of headers; repeatable",
              [&scene](Text t) { scene.program.include_folders.emplace_back(t); });
+  app.add_flag("--trust", scene.program.trusted,
+               "run a program also where the system cannot keep it from changing\nyour files (see tyndall --version)");
 }
 
 Command read_view(const std::vector<std::string>& arguments) {

@@ -39,6 +39,7 @@ LoadedScene load_program_scene(const SceneRequest& request) {
   parts.build = request.program.build;
   parts.go_on = request.program.go_on;
   parts.watch_signals = !parts.go_on;
+  parts.trusted = request.program.trusted;
   const ProgramScene made = load_program(parts);
   for (const std::string& note : made.notes)
     if (!request.program.told) complain(note);

@@ -48,6 +48,7 @@ struct ProgramParts {
   std::vector<std::filesystem::path> more_files, include_folders;  ///< beside the file with main()
   /// Whether a C++ source file may be compiled and run at all: only one that the user has named for that.
   bool allowed = false;
+  bool trusted = false;  ///< it is also run where the system has no guard
   ProgramBuild build{};
   bool told = false;            ///< what is to be told of it was told before
   std::function<bool()> go_on;  ///< false gives up; empty: signals do, which a window watches itself

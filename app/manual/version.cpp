@@ -1,5 +1,6 @@
 #include "app/manual/page.h"
 #include "core/base/target.h"
+#include "core/system/guard.h"
 
 namespace tyndall {
 namespace {
@@ -28,7 +29,8 @@ std::string version_text() {
   const std::vector<Target> missing = missing_targets();
   return "tyndall " TYNDALL_VERSION "\ncompiler   " + compiler_text() + "\nkernels    " + names_of(built_targets()) +
          "; this CPU runs " + names_of(available_targets()) +
-         (missing.empty() ? "" : ", and could run " + names_of(missing) + how_to_build(name_of(missing.back()))) + "\nlibraries  " TYNDALL_LIBRARIES "\n";
+         (missing.empty() ? "" : ", and could run " + names_of(missing) + how_to_build(name_of(missing.back()))) +
+         "\nguard      " + guard_text(available_guard()) + "\nlibraries  " TYNDALL_LIBRARIES "\n";
 }
 
 }  // namespace tyndall

@@ -93,18 +93,16 @@ if unshare -rm true 2>/dev/null; then
 fi
 
 # Signals, while it is compiled and while it runs.
-program endless <<<'int main() { std::ofstream(getenv("MARK")) << 1; for (volatile int i = 0;;) i = 1; }'
-printf '#!/bin/sh\necho 1 >"$MARK"; sleep 1000 & sleep 1000\n' >compiler
-export MARK=$PWD/mark
+program endless <<<'int main() { std::ofstream("mark") << 1; for (volatile int i = 0;;) i = 1; }'
+printf '#!/bin/sh\necho 1 >mark; sleep 1000 & sleep 1000\n' >compiler
 interrupted() { # SIGNAL CODE TEXT: what runs in the background ends so
   local code=0
-  for _ in $(seq 600); do [ -s "$MARK" ] && break || sleep 0.1; done
+  for _ in $(seq 600); do [ -n "$(find temporary -name mark -size +0)" ] && break || sleep 0.1; done
   kill -"$1" "$!"
   wait "$!" || code=$?
   same "exit code after SIG$1 $3" "$code" "$2"
   complains "$3"
   left "SIG$1"
-  rm -f "$MARK"
 }
 for signal in INT:130 TERM:143 HUP:129; do
   CXX=$PWD/compiler "$tyndall" inspect good.cc >out 2>err </dev/null &

@@ -3,22 +3,27 @@
 # file never starts a compiler.
 . "$(dirname "$0")/_program.sh"
 mkdir folder
-program folder/main <<<'int main() { std::ofstream(getenv("MARK")) << "ran"; }'
-export MARK=$PWD/mark
-printf '#!/bin/sh\necho compiled >"%s"\nexit 1\n' "$MARK" >compiler
-chmod +x compiler
-export CXX=$PWD/compiler
+program folder/main <<<'int main() {}'
+mkdir temporary
+export TMPDIR=$PWD/temporary
 
+# compiled: whether a temporary folder was made for a compiler since the last question.
+compiled() {
+  local changed
+  changed=$(stat -c %Y temporary)
+  touch -d 2000-01-01 temporary
+  [ "$changed" != "$(stat -c %Y temporary)" ]
+}
 refuses() { # CODE COMMAND...: fails so, and nothing was compiled
   expect "$@"
-  [ ! -e "$MARK" ] || fail "compiled by: ${*:2}"
-  rm -f "$MARK"
+  if compiled; then fail "compiled by: ${*:2}"; fi
 }
+compiled
 echo '{ "tyndall": 1, "textures": { "t": { "type": "image", "file": "folder/main.cc" } } }' >texture.json
 refuses 2 "$tyndall" inspect texture.json
 refuses 2 "$tyndall" convert texture.json -o out.json
 expect 2 "$tyndall" inspect - <folder/main.cc
-[ ! -e "$MARK" ] || fail 'compiled from standard input'
+if compiled; then fail 'compiled from standard input'; fi
 cp folder/main.cc renamed.json
 refuses 2 "$tyndall" inspect renamed.json
 "$tyndall" render showroom --size 8x8 --spp 1 -q -o picture.png
@@ -33,8 +38,8 @@ refuses 2 "$tyndall" denoise folder/main.cc -o out.png
 refuses 2 "$tyndall" render showroom --set /textures/t='{"type":"image","file":"folder/main.cc"}' -o out.png
 grep -rlE '\.(cc|cpp|cxx)|c\+\+' "$source_root/assets/desktop" && fail 'the desktop opens C++ files by the program'
 
-# Named as the scene it is compiled: the mark is one.
+# Named as the scene it is compiled.
 expect 2 "$tyndall" inspect folder/main.cc
-[ -e "$MARK" ] || fail 'the mark is never made'
+compiled || fail 'no temporary folder is made'
 
 finish

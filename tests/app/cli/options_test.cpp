@@ -55,6 +55,8 @@ TEST_CASE("programs: more source files and folders of headers, and leave to comp
   CHECK(parts.allowed);
   CHECK(std::get<ViewCommand>(read_command({"main.cc"})).scene.program.allowed);
   CHECK_FALSE(std::get<ViewCommand>(read_command({})).scene.program.allowed);
+  CHECK_FALSE(parts.trusted);
+  CHECK(std::get<InspectCommand>(read_command({"inspect", "main.cc", "--trust"})).scene.program.trusted);
   CHECK_FALSE(std::get<VerifyCommand>(read_command({"verify"})).method.program.allowed);
   for (const Arguments& arguments :
        {Arguments{"inspect", "main.cc", "a.json"}, Arguments{"inspect", "a.json", "main.cc"}})

@@ -33,7 +33,7 @@ struct OpenedProgram : OpenedSession {
   void open_program() {
     SceneRequest request;
     request.what = "main.cc";
-    request.program.allowed = true;
+    request.program.allowed = request.program.trusted = true;
     WindowOptions options;
     options.scene = open_scene(request);
     options.reload = [request](const std::function<bool()>& go_on) mutable {

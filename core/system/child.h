@@ -1,4 +1,6 @@
 #pragma once
+#include "core/system/guard.h"
+
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -6,7 +8,7 @@
 
 namespace tyndall {
 
-/// A program to be run, in a process group of its own, without input.
+/// A program to be run, in a session of its own, without input and with no file open but those named here.
 struct ChildPlan {
   std::vector<std::string> command;      ///< the program, by its path or as PATH finds it, and its arguments
   std::filesystem::path folder;          ///< where it runs
@@ -17,7 +19,8 @@ struct ChildPlan {
   std::size_t max_errors = 65536;        ///< bytes of its standard error that are kept
   bool keep_last_errors = false;         ///< the last bytes, else the first
   std::function<bool()> go_on;           ///< asked now and then; false ends it; may be empty
-  bool watch_signals = true;             ///< SIGINT, SIGTERM and SIGHUP of this program end it, too
+  GuardLayers guard;                     ///< those that act
+  std::filesystem::path own_folder;      ///< all that a guarded program may change; a whole path without links
 };
 
 /// How it ended.
@@ -28,18 +31,14 @@ struct ChildEnd {
   bool timed_out = false;        ///< it took too long, and was ended
   bool awaited_input = false;    ///< it read standard input, where nothing ever comes, and was ended
   bool given_up = false;         ///< go_on said so, and it was ended
-  int interrupted = 0;           ///< the signal of this program for which it was ended; 0: none
   std::string errors, messages;  ///< what it wrote on standard error and into the pipe
 
   bool succeeded() const { return exit_code == 0 && signal == 0 && start_error == 0 && !ended(); }
-  bool ended() const { return timed_out || awaited_input || given_up || interrupted != 0; }
+  bool ended() const { return timed_out || awaited_input || given_up; }
 };
 
-/// Runs it to its end, or ends it. In any case all processes of its group are gone when this returns. Standard output
-/// goes nowhere.
+/// Runs it to its end, or ends it. In any case all that it has started is gone when this returns, or ends with this
+/// process if that is killed; without a guard only what has not left its process group. Standard output goes nowhere.
 ChildEnd run_child(const ChildPlan& plan);
-
-/// The signal's name, and what it is mostly for: "SIGFPE, a division by 0".
-std::string signal_name(int signal);
 
 }  // namespace tyndall

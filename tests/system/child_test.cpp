@@ -1,10 +1,17 @@
-#include "app/book/child.h"
+#include "core/system/child.h"
+
+#include "tests/support/guards.h"
+#include "tests/support/scratch.h"
 
 #include <doctest/doctest.h>
 
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -34,6 +41,15 @@ bool is_gone(int process) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   return false;
+}
+
+/// How many processes of "sleep SECONDS" there are.
+int count_sleeping(const std::string& seconds) {
+  int count = 0;
+  std::error_code error;
+  for (const auto& process : std::filesystem::directory_iterator("/proc", error))
+    count += read_text(process.path() / "cmdline") == std::string("sleep\0", 6) + seconds + '\0' ? 1 : 0;
+  return count;
 }
 
 double seconds_of(const ChildPlan& plan, ChildEnd& end) {
@@ -108,26 +124,57 @@ TEST_CASE("a child that nobody wants any more is ended") {
   CHECK(end.given_up);
 }
 
-TEST_CASE("a signal ends the child, and whoever watched before learns of it, too") {
-  static volatile std::sig_atomic_t seen = 0;
-  const auto before = std::signal(SIGTERM, [](int number) { seen = number; });
-  ChildPlan plan = shell("kill -TERM " + std::to_string(getpid()) + "; sleep 60");
-  ChildEnd end;
-  CHECK(seconds_of(plan, end) < 10);
-  CHECK(end.interrupted == SIGTERM);
-  CHECK(seen == SIGTERM);
-  seen = 0;
-  std::raise(SIGTERM);
-  CHECK(seen == SIGTERM);  // it is in its place again
-  std::signal(SIGTERM, before);
-}
-
 TEST_CASE("a child that waits for input is ended, where the system tells") {
   if (!std::filesystem::exists("/proc/self/syscall")) return;
   ChildPlan plan = shell("read word");
   ChildEnd end;
   CHECK(seconds_of(plan, end) < 10);
   CHECK(end.awaited_input);
+}
+
+TEST_CASE("a child's process has no open file but its own") {
+  const int open_file = open("/dev/null", O_RDONLY);  // not closed by exec
+  const ChildEnd end = run_child(shell("test ! -e /proc/self/fd/" + std::to_string(open_file)));
+  close(open_file);
+  CHECK(end.exit_code == 0);
+}
+
+TEST_CASE("a child is not started without all of its pipes") {
+  rlimit limit{};
+  REQUIRE(getrlimit(RLIMIT_NOFILE, &limit) == 0);
+  const int first_free = dup(0);
+  close(first_free);
+  for (int free = 0; free < 8; ++free) {
+    const rlimit few{static_cast<rlim_t>(first_free + free), limit.rlim_max};
+    setrlimit(RLIMIT_NOFILE, &few);
+    const ChildEnd end = run_child(shell(""));
+    setrlimit(RLIMIT_NOFILE, &limit);
+    CHECK(end.start_error == EMFILE);
+  }
+}
+
+TEST_CASE("a child ends with all that it has started, also with what has left its group, if this process is killed") {
+  for (const GuardLayers& layers : guards()) {
+    CAPTURE(layers.namespaces);
+    CAPTURE(layers.landlock);
+    const std::string seconds = "60." + std::to_string(getpid());
+    const auto wait_for = [&](int count) {
+      for (int k = 0; k < 300 && count_sleeping(seconds) != count; ++k)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      return count_sleeping(seconds) == count;
+    };
+    const pid_t parent = fork();
+    if (parent == 0) {
+      ChildPlan plan = shell("setsid -f sleep " + seconds + "; sleep " + seconds + "; true");
+      plan.own_folder = std::filesystem::canonical(scratch_folder("child_killed"));
+      plan.guard = layers;
+      run_child(plan);
+      _exit(0);
+    }
+    CHECK(wait_for(layers.namespaces ? 2 : 1));  // without namespaces nothing may leave its group
+    kill(parent, SIGKILL), waitpid(parent, nullptr, 0);
+    CHECK(wait_for(0));
+  }
 }
 
 }  // namespace tyndall::test::child_test

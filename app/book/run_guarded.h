@@ -1,0 +1,34 @@
+#pragma once
+#include "core/system/child.h"
+
+#include <filesystem>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace tyndall {
+
+/// The user asked for an end, by a signal, while a program was compiled or run.
+struct ProgramInterrupted : std::runtime_error {
+  ProgramInterrupted(const std::string& text, int number) : std::runtime_error(text), signal(number) {}
+  int signal;
+};
+
+/// What compiling and running have in common.
+struct ProgramTask {
+  std::string name;              ///< what messages call the program
+  std::filesystem::path folder;  ///< of temporary files, that exists; a whole path without links
+  std::function<bool()> go_on;   ///< see ChildPlan
+  bool watch_signals = true;     ///< SIGINT, SIGTERM and SIGHUP end it
+  bool trusted = false;          ///< it is also run where the system has no guard
+  std::string compiler{};        ///< see ProgramBuild
+};
+
+/// Runs the compiler or the program, which can change nothing outside the task's folder. doing: "it ran", for messages.
+/// Throws ProgramInterrupted; UsageError where the system has no guard, and the program is not trusted.
+ChildEnd run_guarded(const ProgramTask& task, ChildPlan plan, const std::string& doing);
+
+/// The signal's name, and what it is mostly for: "SIGFPE, a division by 0".
+std::string signal_name(int signal);
+
+}  // namespace tyndall

@@ -1,0 +1,300 @@
+#include "core/system/child.h"
+
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+extern char** environ;
+
+namespace tyndall {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t max_messages = std::size_t(300) << 20;  // more than the largest scene
+
+/// Both ends of a pipe, closed at the end.
+struct Pipe {
+  int read = -1, write = -1, error = 0;
+  Pipe() {
+    int ends[2];
+    if (pipe(ends) != 0) {
+      error = errno;
+      return;
+    }
+    read = ends[0], write = ends[1];
+    for (const int end : ends) fcntl(end, F_SETFD, FD_CLOEXEC);
+  }
+  ~Pipe() { close_end(read), close_end(write); }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  static void close_end(int& end) {
+    if (end >= 0) close(std::exchange(end, -1));
+  }
+};
+
+/// What the new process needs, made before it begins: there only functions that are safe in handlers may be called.
+struct ProcessStart {
+  std::vector<std::string> environment;
+  std::vector<char*> arguments, variables;
+  std::string folder;
+  Guard guard;
+  int input, errors, messages, report;  ///< descriptors; messages: -1, none
+};
+
+std::vector<char*> pointers(std::vector<std::string>& arguments) {
+  std::vector<char*> all;
+  for (std::string& word : arguments) all.push_back(word.data());
+  all.push_back(nullptr);
+  return all;
+}
+
+/// The environment with the additions, each variable once.
+std::vector<std::string> with(const std::vector<std::string>& additions) {
+  std::vector<std::string> all = additions;
+  for (char** one = environ; *one; ++one) {
+    const std::string variable = *one;
+    const std::string name = variable.substr(0, variable.find('=') + 1);
+    bool replaced = false;
+    for (const std::string& addition : additions) replaced = replaced || addition.rfind(name, 0) == 0;
+    if (!replaced) all.push_back(variable);
+  }
+  return all;
+}
+
+void die_with_parent(int signal) {
+#ifdef __linux__
+  prctl(PR_SET_PDEATHSIG, signal);
+#endif
+}
+
+/// Closes all but the standard streams and the ends of pipes that are needed; those of other children would not end.
+void close_others(const ProcessStart& start) {
+#ifdef __linux__
+  int kept[] = {start.input, start.errors, start.messages, start.report};
+  std::sort(std::begin(kept), std::end(kept));
+  int from = 3;
+  for (const int end : kept) {
+    if (end > from) syscall(SYS_close_range, from, end - 1, 0);
+    from = std::max(from, end + 1);
+  }
+  syscall(SYS_close_range, from, ~0U, 0);
+#endif
+}
+
+/// Tells run_child() the number of the program's process, or that of an error, negative.
+void report(const ProcessStart& start, int number) {
+  [[maybe_unused]] const auto told = write(start.report, &number, sizeof number);
+}
+
+/// The new process becomes the program.
+[[noreturn]] void become(const ProcessStart& start) {
+  setsid();  // no terminal
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ}) std::signal(number, SIG_DFL);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  dup2(start.input, STDIN_FILENO);
+  dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDOUT_FILENO);
+  dup2(start.errors, STDERR_FILENO);
+  if (start.messages >= 0) fcntl(start.messages, F_SETFD, 0);
+  int error = EPERM;
+  if (chdir(start.folder.c_str()) != 0) {
+    error = errno;
+  } else if (start.guard.restrict_self() == 0) {
+    die_with_parent(SIGKILL);
+    environ = const_cast<char**>(start.variables.data());
+    execvp(start.arguments[0], start.arguments.data());
+    error = errno;
+  }
+  report(start, -error);
+  _exit(127);
+}
+
+/// Waits for the program; ends it, with all that it has started, when this process gets SIGTERM. Returns how it ended.
+int wait_for(pid_t program, const sigset_t& watched) {
+  int status = 0, number = 0;
+  for (bool ended = false; !ended;) {
+    sigwait(&watched, &number);
+    if (number == SIGTERM) kill(program, SIGKILL);
+    for (pid_t one = 1; one > 0 && !ended;) {
+      one = waitpid(-1, &status, WNOHANG);
+      ended = one == program && (WIFEXITED(status) || WIFSIGNALED(status));
+    }
+  }
+  kill(-program, SIGKILL);
+  return status;
+}
+
+/// The new process starts the program, and ends as the program does, after all that the program has started. It ends
+/// it on SIGTERM, which it also gets when its parent dies.
+[[noreturn]] void supervise(const ProcessStart& start, pid_t parent) {
+  close_others(start);
+  setsid();
+  const rlimit no_core{0, 0};
+  setrlimit(RLIMIT_CORE, &no_core);
+  sigset_t watched;
+  sigemptyset(&watched);
+  for (const int number : {SIGTERM, SIGCHLD}) std::signal(number, SIG_DFL), sigaddset(&watched, number);
+  sigprocmask(SIG_SETMASK, &watched, nullptr);
+  die_with_parent(SIGTERM);
+  int life = -1;
+  if (getppid() != parent || start.guard.enter_namespaces(life) != 0) report(start, -EPERM), _exit(127);
+  const pid_t program = fork();
+  if (program == 0) become(start);
+  report(start, program > 0 ? program : -errno);
+  for (const int end : {start.input, start.errors, start.messages, start.report}) close(end);
+  const int status = program > 0 ? wait_for(program, watched) : 0;
+  close(life);
+  while (life >= 0 && waitpid(-1, nullptr, 0) > 0) {  // the namespaces' first process ends last
+  }
+  if (!WIFSIGNALED(status)) _exit(WEXITSTATUS(status));
+  std::signal(WTERMSIG(status), SIG_DFL);
+  sigemptyset(&watched);
+  sigprocmask(SIG_SETMASK, &watched, nullptr);
+  kill(getpid(), WTERMSIG(status));
+  _exit(127);
+}
+
+/// Whether the process waits for a read of its standard input, as far as the system tells.
+bool awaits_input(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/syscall");
+  long call = -1;
+  std::string descriptor;
+  return file >> call >> descriptor && call == SYS_read && descriptor == "0x0";
+}
+
+/// The next number that report() tells; false: none will come, as the program has begun, or cannot begin.
+bool next_number(int from, int& number) {
+  ssize_t size = -1;
+  do size = read(from, &number, sizeof number);
+  while (size < 0 && errno == EINTR);
+  return size == sizeof number;
+}
+
+/// Appends what the pipe has; closes it at its end.
+void drain(int& from, std::string& text, std::size_t limit, bool keep_last) {
+  char buffer[65536];
+  const ssize_t size = read(from, buffer, sizeof buffer);
+  if (size < 0 && (errno == EINTR || errno == EAGAIN)) return;
+  if (size <= 0) return Pipe::close_end(from);
+  text.append(buffer, static_cast<std::size_t>(size));
+  if (text.size() <= limit) return;
+  if (keep_last)
+    text.erase(0, text.size() - limit);
+  else
+    text.resize(limit);
+}
+
+class Child {
+ public:
+  Child(const ChildPlan& plan, pid_t supervisor, pid_t program, Pipe& errors, Pipe& messages)
+      : plan_(plan), supervisor_(supervisor), program_(program), errors_(errors), messages_(messages) {}
+
+  /// Until it has ended, or is to be ended.
+  void follow(ChildEnd& end) {
+    Clock::time_point deadline = in(plan_.seconds);
+    bool told = false;
+    int waits = 0;  // how often in a row it was seen to wait for input
+    while (!collect(end)) {
+      take(end, 20);
+      if (!std::exchange(told, !end.messages.empty()) && !end.messages.empty())
+        deadline = std::min(deadline, in(plan_.seconds_after_message));
+      waits = awaits_input(program_) ? waits + 1 : 0;
+      end.given_up = plan_.go_on && !plan_.go_on();
+      end.timed_out = Clock::now() > deadline;
+      end.awaited_input = waits > 5;
+      if (end.ended()) return;
+    }
+  }
+  /// Ends all processes, and takes what they have written.
+  void finish(ChildEnd& end) {
+    if (!ended_) kill(supervisor_, SIGTERM);
+    int status = 0;
+    while (!ended_ && waitpid(supervisor_, &status, 0) < 0 && errno == EINTR) {
+    }
+    const Clock::time_point deadline = Clock::now() + std::chrono::milliseconds(500);
+    while ((errors_.read >= 0 || messages_.read >= 0) && Clock::now() < deadline) take(end, 50);
+  }
+
+ private:
+  static Clock::time_point in(double seconds) {
+    return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  }
+  bool collect(ChildEnd& end) {
+    int status = 0;
+    if (waitpid(supervisor_, &status, WNOHANG) != supervisor_) return false;
+    ended_ = true;
+    if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
+    if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
+    return true;
+  }
+  void take(ChildEnd& end, int milliseconds) {
+    pollfd polled[2] = {{errors_.read, POLLIN, 0}, {messages_.read, POLLIN, 0}};
+    const bool is_ending = errors_.read < 0 && messages_.read < 0;
+    if (poll(polled, 2, is_ending ? 1 : milliseconds) <= 0) return;
+    if (polled[0].revents) drain(errors_.read, end.errors, plan_.max_errors, plan_.keep_last_errors);
+    if (polled[1].revents) drain(messages_.read, end.messages, max_messages, false);
+  }
+
+  const ChildPlan& plan_;
+  pid_t supervisor_, program_;
+  Pipe &errors_, &messages_;
+  bool ended_ = false;
+};
+
+}  // namespace
+
+ChildEnd run_child(const ChildPlan& plan) {
+  ChildEnd end;
+  Pipe input, errors, messages, reports;
+  for (const Pipe* pipe : {&input, &errors, &messages, &reports})
+    if (pipe->read < 0) {
+      end.start_error = pipe->error;
+      return end;
+    }
+  std::vector<std::string> command = plan.command, additions = plan.environment;
+  const bool has_messages = !plan.pipe_variable.empty();
+  if (has_messages) additions.push_back(plan.pipe_variable + "=" + std::to_string(messages.write));
+  ProcessStart start{with(additions),
+                     pointers(command),
+                     {},
+                     plan.folder.string(),
+                     Guard(plan.guard, plan.own_folder.string()),
+                     input.read,
+                     errors.write,
+                     has_messages ? messages.write : -1,
+                     reports.write};
+  start.variables = pointers(start.environment);
+  const pid_t parent = getpid(), supervisor = fork();
+  if (supervisor == 0) supervise(start, parent);
+  if (supervisor < 0) {
+    end.start_error = errno;
+    return end;
+  }
+  Pipe::close_end(errors.write), Pipe::close_end(messages.write), Pipe::close_end(reports.write);
+  pid_t program = 0;
+  for (int number = 0; next_number(reports.read, number);) (number > 0 ? program : end.start_error) = std::abs(number);
+  Child child(plan, supervisor, program, errors, messages);
+  if (end.start_error == 0) child.follow(end);
+  child.finish(end);
+  return end;
+}
+
+}  // namespace tyndall
