@@ -64,13 +64,13 @@ bool same_scene(const Scene& film, const Scene& requested) {
 }
 
 /// The first setting that differs, such as "other settings (seed 0)", expected "seed 9".
-std::optional<Difference> differing_setting(const RenderSettings& film, const RenderSettings& requested) {
-  std::optional<Difference> first;
+std::optional<Mismatch> differing_setting(const RenderSettings& film, const RenderSettings& requested) {
+  std::optional<Mismatch> first;
   for_each_field(fields_of<RenderSettings>(), [&](const auto& field) {
     const std::string a = setting_text(film.*field.value), b = setting_text(requested.*field.value);
     if (first || a == b || std::string_view(field.name) == "spp") return;
     const std::string name = std::string(field.name) + " ";
-    first = Difference{"a film of other settings (" + name + a + ")", name + b};
+    first = Mismatch{"a film of other settings (" + name + a + ")", name + b};
   });
   return first;
 }
@@ -136,23 +136,23 @@ FilmLabel label_for(const Scene& scene, const std::string& isa, bool unfinished)
   return {TYNDALL_VERSION, isa, unfinished, contents_hash(scene)};
 }
 
-std::optional<Difference> differing_samples(const Scene& film, const FilmLabel& label, const Scene& requested,
-                                            const FilmLabel& requested_label) {
+std::optional<Mismatch> differing_samples(const Scene& film, const FilmLabel& label, const Scene& requested,
+                                          const FilmLabel& requested_label) {
   const auto size = [](const Scene& s) { return std::to_string(s.width) + "x" + std::to_string(s.height); };
-  if (size(film) != size(requested)) return Difference{"a film of another image size, " + size(film), size(requested)};
+  if (size(film) != size(requested)) return Mismatch{"a film of another image size, " + size(film), size(requested)};
   if (!same_scene(film, requested))
     return differing_setting(film.render, requested.render)
-        .value_or(Difference{"a film of another scene", "the same scene"});
+        .value_or(Mismatch{"a film of another scene", "the same scene"});
   const auto contents = [](const Scene& s, const FilmLabel& l) {
     return l.contents.empty() ? contents_hash(s) : l.contents;
   };
   if (contents(film, label) != contents(requested, requested_label))
-    return Difference{"a film of other pixels in its textures or sky", "the same pixels"};
+    return Mismatch{"a film of other pixels in its textures or sky", "the same pixels"};
   const auto differs = [](const std::string& a, const std::string& b) { return !a.empty() && !b.empty() && a != b; };
   if (differs(label.version, requested_label.version))
-    return Difference{"a film of version " + label.version, requested_label.version};
+    return Mismatch{"a film of version " + label.version, requested_label.version};
   if (differs(label.isa, requested_label.isa))
-    return Difference{"a film of instruction set " + label.isa, requested_label.isa};
+    return Mismatch{"a film of instruction set " + label.isa, requested_label.isa};
   return {};
 }
 

@@ -34,15 +34,15 @@ Film read_film_alone(const std::filesystem::path& file);
 FilmLabel label_for(const Scene& scene, const std::string& isa, bool unfinished = false);
 
 /// What keeps a film from being gone on with or added: "found X, expected Y".
-struct Difference {
+struct Mismatch {
   std::string found, expected;
 };
 /// How the samples of a film differ from those of another one or of a render; nothing: they are the same. Image size,
 /// scene, settings, pixels of textures and sky, version and instruction set are compared; names, display, the number
 /// of samples, and how caustics are found where no chains would be looked for, are not. A version or instruction set
 /// that one label does not say fits any; where it does not say the pixels, those are taken that the scene has now.
-std::optional<Difference> differing_samples(const Scene& film, const FilmLabel& label, const Scene& requested,
-                                            const FilmLabel& requested_label);
+std::optional<Mismatch> differing_samples(const Scene& film, const FilmLabel& label, const Scene& requested,
+                                          const FilmLabel& requested_label);
 
 /// The scene's text for an image of `film` at `image`: with the number of samples that the film has, and how caustics
 /// were found even where that is the default. textures: the folder that the scene's texture files are relative to.

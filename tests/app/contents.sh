@@ -21,7 +21,8 @@ cmp -s grey.png again.png && fail 'again.png is the same file as grey.png'
 # scene TEXTURE SKY: a quad with a texture beneath a sky.
 scene() {
   cat <<JSON
-{ "tyndall": 1, "image": { "width": 8, "height": 8 }, "background": { "type": "image", "file": "$2" },
+{ "tyndall": 1, "image": { "width": 8, "height": 8 }, "camera": { "vfov": 40 },
+  "background": { "type": "image", "file": "$2" },
   "textures": { "t": { "type": "image", "file": "$1" } }, "materials": { "m": { "type": "lambertian", "albedo": "t" } },
   "objects": [{ "type": "quad", "corner": [-9, -1, -9], "u": [18, 0, 0], "v": [0, 0, 18], "material": "m" }] }
 JSON
@@ -43,13 +44,13 @@ PY
 }
 render() { "$tyndall" render tex.json -q "$@"; }
 animate() { "$tyndall" animate tex.json --turntable --frames 2 --spp 4 -q -o "$@"; }
-sweep() { "$tyndall" sweep tex.json --vary /camera/vfov=30,40 --spp 4 -q --each 'v%s.exr' "$@"; }
+sweep() { "$tyndall" sweep tex.json --vary "/camera/vfov=[30,40]" --spp 4 -q --each 'v%v.exr' "$@"; }
 other='other pixels in its textures or sky'
 silent='does not say which pixels its textures and sky had; those of now are taken'
 
 for what in texture sky; do
   old
-  render --spp 400000 --threads 1 --checkpoint 0 -o a.exr 2>interrupted.err &
+  "$tyndall" render tex.json -q --spp 400000 --threads 1 --checkpoint 0 -o a.exr &
   wait_worked $! 0.3
   kill -INT $! && wait $!
   expect 0 render --samples 0:4 -o first.exr
