@@ -25,13 +25,13 @@ int whole_number(const JsonValue* value) {
 /// The frame of a film that a picture without a film would have been made from, by the figures that it carries.
 StoredFilm described_film(const std::filesystem::path& file, const JsonValue& stats) {
   const LoadedScene loaded = load_scene("./" / file);
-  StoredFilm film{{file.string(), {}}, move_textures(loaded.scene, loaded.folder, "."), {}};
+  StoredFilm film{{file.string(), {}}, loaded.scene, {}, contents_remark(loaded)};
   if (const JsonValue* region = find(&stats, "region"))
     if (const auto* numbers = std::get_if<JsonArray>(&region->value); numbers && numbers->size() == 4)
       film.part.film.region = {whole_number(&(*numbers)[0]), whole_number(&(*numbers)[1]), whole_number(&(*numbers)[2]),
                                whole_number(&(*numbers)[3])};
   film.part.film.first_sample = static_cast<std::uint32_t>(whole_number(find(&stats, "first_sample")));
-  film.label = {text_of(find(&stats, "version")), text_of(find(&stats, "isa")), false};
+  film.label = {text_of(find(&stats, "version")), text_of(find(&stats, "isa")), false, loaded.contents.value_or("")};
   return film;
 }
 
@@ -62,6 +62,7 @@ PictureState look(const std::filesystem::path& file, const RenderJob& job) {
   std::string found = differing_film(stored, job.command, job.loaded, job.options, job.kernels);
   if (found.empty() && !unfinished) found = differing_picture(stored, stats.root, job, !is_exr(file));
   if (!found.empty()) throw UsageError(file.string() + ": found " + found);
+  tell_contents(stored);
   return unfinished ? PictureState::unfinished : PictureState::whole;
 }
 
@@ -107,7 +108,7 @@ std::string picture_mark(const RenderJob& job) {
   return mark_of(fmt::format("{} {} {} {} {} {},{},{},{} {} {} ", TYNDALL_VERSION, job.kernels.isa, *job.options.spp,
                              c.time_limit, c.target_error, r.x0, r.y0, r.x1, r.y1, c.denoise,
                              static_cast<int>(c.form.ppm)) +
-                 write_scene(scene));
+                 write_scene(scene) + contents_hash(scene));
 }
 
 }  // namespace tyndall

@@ -8,8 +8,6 @@
 #include "core/files/stats.h"
 #include "core/render/clean_film.h"
 
-#include <fmt/core.h>
-
 namespace tyndall {
 namespace {
 
@@ -28,7 +26,9 @@ struct Parts {
   std::vector<FilmPart> frames;
   Scene scene;
   FilmLabel label;
-  std::string version, of_version;  ///< of the first part that says its version, and that part's name
+  FilmLabel expected;  ///< what labels of parts must agree with: of the first one that says its version
+  std::string name;    ///< of that part
+  std::string remark;  ///< of the first part that has one
 };
 
 /// Throws UsageError unless the part is of the same scene, settings and version as those before.
@@ -36,11 +36,10 @@ void check_part(const Parts& parts, const StoredFilm& part) {
   const std::string& name = part.part.name;
   if (part.scene.render.adaptive)
     throw UsageError(name + ": found an adaptive render, expected a range of samples that every pixel has");
-  const std::string found = parts.frames.empty() ? "" : differing_scene(part.scene, parts.scene);
-  if (!found.empty()) throw UsageError(name + ": found " + found + " as in " + parts.frames.front().name);
-  if (!part.label.version.empty() && !parts.version.empty() && part.label.version != parts.version)
-    throw UsageError(fmt::format("{}: found a film of version {}, expected {} as in {}", name, part.label.version,
-                                 parts.version, parts.of_version));
+  if (parts.frames.empty()) return;
+  const auto other = differing_samples(part.scene, part.label, parts.scene, parts.expected);
+  if (other)
+    throw UsageError(name + ": found " + other->found + ", expected " + other->expected + " as in " + parts.name);
 }
 
 Parts read_parts(const std::vector<std::filesystem::path>& files) {
@@ -50,7 +49,9 @@ Parts read_parts(const std::vector<std::filesystem::path>& files) {
     check_part(parts, part);
     parts.label = parts.frames.empty() ? part.label : merged_label(parts.label, part.label);
     if (parts.frames.empty()) parts.scene = part.scene;
-    if (parts.version.empty()) parts.version = part.label.version, parts.of_version = part.part.name;
+    if (parts.expected.version.empty()) parts.expected = part.label, parts.name = part.part.name;
+    parts.expected.isa.clear();  // those of several instruction sets are added
+    if (parts.remark.empty()) parts.remark = part.remark;
     parts.frames.push_back(std::move(part.part));
   }
   return parts;
@@ -82,6 +83,7 @@ int run(const MergeCommand& command) {
   if (parts.label.isa.starts_with("several"))
     complain("the parts are of instruction sets that differ in a few bits (" + parts.label.isa +
              "); the sum is as right as each, but no render on one machine gives its bits");
+  if (!parts.remark.empty() && (command.denoise || parts.label.contents.empty())) complain(parts.remark);
   std::optional<CleanOfFilm> clean;
   if (command.denoise) clean = clean_view(film, parts.scene, command.parts.front().string());
   return write(film, parts.scene, parts.label, command.outputs, command.form, clean);
@@ -98,6 +100,7 @@ int run(const DenoiseCommand& command) {
   MemoryPlan plan = memory_plan(stored.part, stored.scene, command.outputs, command.form);
   plan.clean = true;
   check_memory(plan, free_memory());
+  if (!stored.remark.empty()) complain(stored.remark);
   const Film film = read_film_alone(command.film);
   const CleanOfFilm clean = clean_view(film, stored.scene, command.film.string(), command.threads, command.isa);
   const int code = write(film, stored.scene, stored.label, command.outputs, command.form, clean);

@@ -53,9 +53,8 @@ RunFigures figures(const RenderJob& job, const RenderOutcome& outcome) {
 /// What an image or film at that place carries beside the picture.
 Embedded embedded_in(const RenderJob& job, const Film& film, const std::filesystem::path& file, std::string stats,
                      bool unfinished) {
-  return {embedded_scene(job.loaded.scene, job.loaded.folder, film, file),
-          std::move(stats),
-          {TYNDALL_VERSION, job.kernels.isa, unfinished}};
+  return {embedded_scene(job.loaded.scene, job.loaded.folder, film, file), std::move(stats),
+          label_for(job.loaded.scene, job.kernels.isa, unfinished)};
 }
 
 /// Writes the picture so far in the middle of a render. What cannot be written is told, and the render goes on.

@@ -1,6 +1,5 @@
 #include "app/cli/render_setup.h"
 
-#include "app/cli/setting_options.h"
 #include "app/report/contents.h"
 #include "app/text/standard_streams.h"
 #include "core/base/target.h"
@@ -32,17 +31,6 @@ void check_region(const Region& region, const Scene& scene) {
 void refuse_adaptive(const char* option, const char* why) {
   throw UsageError(std::string(option) + " and adaptive sampling exclude each other: " + why +
                    " (it comes from --adaptive, or from /render/adaptive of the scene)");
-}
-
-/// The first setting that differs, such as "other settings (seed 0), expected seed 9"; "": none does.
-std::string differing_settings(const RenderSettings& film, const RenderSettings& requested) {
-  std::string text;
-  for_each_field(fields_of<RenderSettings>(), [&](const auto& field) {
-    const std::string a = default_text(film.*field.value), b = default_text(requested.*field.value);
-    if (!text.empty() || a == b || std::string_view(field.name) == "spp") return;
-    text = std::string("a film of other settings (") + field.name + " " + a + "), expected " + field.name + " " + b;
-  });
-  return text;
 }
 
 std::string differing(const std::string& what, const std::string& film, const std::string& requested) {
@@ -82,17 +70,23 @@ bool invites(const std::filesystem::path& file, const RenderOptions& options, co
   }
 }
 
-/// Throws UsageError if a render would replace an unfinished film that it does not go on from. on: the scene of the
-/// film in `kept` that it goes on from; null: it starts anew.
+/// Whether a file holds a film of the same samples, from when the render was interrupted.
+bool is_copy(const StoredFilm& film, const std::filesystem::path& file) {
+  const StoredFilm other = read_stored_frame(file);
+  return !differing_samples(other.scene, other.label, film.scene, film.label);
+}
+
+/// Throws UsageError if a render would replace an unfinished film that it does not go on from. on: the film in `kept`
+/// that it goes on from; null: it starts anew.
 void spare_unfinished(const std::vector<std::filesystem::path>& outputs, const std::filesystem::path& kept,
-                      const Scene* on) {
+                      const StoredFilm* on) {
   for (const auto& file : outputs) {
     std::error_code error;
     if (file == kept || !is_exr(file) || !std::filesystem::is_regular_file(file, error)) continue;
     try {
       const auto label = read_film_label(file);
       if (!label || !label->unfinished) continue;
-      if (on && same_samples(*on, read_stored_frame(file).scene)) continue;  // a copy from when it was interrupted
+      if (on && is_copy(*on, file)) continue;
     } catch (const ImageFileError&) {
       continue;  // no film
     }
@@ -137,6 +131,7 @@ std::optional<StoredFilm> find_film(const std::filesystem::path& file, const Ren
   const std::string found = differing_film(stored, command, loaded, options, kernels);
   if (!found.empty() && !command.resume && !stored.label.unfinished) return {};
   if (!found.empty()) throw UsageError(file.string() + ": found " + found + advice);
+  tell_contents(stored);
   return stored;
 }
 
@@ -156,13 +151,11 @@ Kernels kernels_to_render(const std::string& isa) {
 std::string differing_film(const StoredFilm& stored, const RenderCommand& command, const LoadedScene& loaded,
                            const RenderOptions& options, const Kernels& kernels) {
   const Film& film = stored.part.film;
-  std::string text = differing_scene(stored.scene, move_textures(loaded.scene, loaded.folder, "."));
+  const auto other = differing_samples(stored.scene, stored.label, loaded.scene, label_for(loaded.scene, kernels.isa));
+  std::string text = other ? other->found + ", expected " + other->expected : "";
   const auto look = [&text](const std::string& found) {
     if (text.empty()) text = found;
   };
-  if (!stored.label.version.empty()) look(differing("a film of version", stored.label.version, TYNDALL_VERSION));
-  if (!stored.label.isa.empty() && stored.label.isa != kernels.isa)
-    look(differing("a film of instruction set", stored.label.isa, kernels.isa) + how_to_build(stored.label.isa));
   look(differing("a film of another region,", region_text(film.region), region_text(*options.region)));
   look(differing("samples from", std::to_string(film.first_sample), std::to_string(options.first_sample)));
   const std::uint32_t maximum = totals(film).max_taken;
@@ -202,18 +195,13 @@ RenderOptions render_options(const RenderCommand& command, const LoadedScene& lo
   return options;
 }
 
+void tell_contents(const StoredFilm& film) {
+  if (film.label.contents.empty() && !film.remark.empty()) complain(film.remark);
+}
+
 void tell_alpha(const LoadedScene& loaded) {
   const std::string note = alpha_note(contents_of(loaded.scene).with_alpha);
   if (!note.empty()) complain(loaded.name + ": " + note);
-}
-
-std::string differing_scene(const Scene& film, const Scene& requested) {
-  if (same_samples(film, requested)) return "";
-  const auto size = [](const Scene& s) { return std::to_string(s.width) + "x" + std::to_string(s.height); };
-  if (size(film) != size(requested))
-    return "a film of another image size, " + size(film) + ", expected " + size(requested);
-  const std::string settings = differing_settings(film.render, requested.render);
-  return settings.empty() ? "a film of another scene, expected the same scene" : settings;
 }
 
 RenderStart find_start(const RenderCommand& command, const LoadedScene& loaded, const RenderOptions& options,
@@ -229,7 +217,7 @@ RenderStart find_start(const RenderCommand& command, const LoadedScene& loaded, 
   const std::filesystem::path& file = apart ? place.unfinished : place.output;
   std::optional<StoredFilm> stored;
   if (!file.empty()) stored = find_film(file, command, loaded, options, kernels);
-  spare_unfinished(command.outputs, place.output, stored ? &stored->scene : nullptr);
+  spare_unfinished(command.outputs, place.output, stored ? &*stored : nullptr);
   if (stored) start = start_with(std::move(*stored), command, loaded, options);
   start.place = place;
   return start;

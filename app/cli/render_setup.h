@@ -41,6 +41,9 @@ struct RenderStart {
 RenderStart find_start(const RenderCommand& command, const LoadedScene& loaded, const RenderOptions& options,
                        const Kernels& kernels);
 
+/// One line on standard error if a film that fits does not say which pixels its textures and sky had.
+void tell_contents(const StoredFilm& film);
+
 /// One line on standard error if textures of the scene have an alpha channel, which is not looked at.
 void tell_alpha(const LoadedScene& loaded);
 
@@ -51,9 +54,5 @@ std::vector<std::string> remarks_on_outputs(const RenderCommand& command, const 
 /// What keeps a render from going on with a film, as "found X, expected Y" without "found"; "": nothing does.
 std::string differing_film(const StoredFilm& stored, const RenderCommand& command, const LoadedScene& loaded,
                            const RenderOptions& options, const Kernels& kernels);
-
-/// How a film's scene differs from the one that is asked for if their samples do, as "found X, expected Y" without
-/// "found"; "": they are the same.
-std::string differing_scene(const Scene& film, const Scene& requested);
 
 }  // namespace tyndall

@@ -76,25 +76,12 @@ std::vector<std::string> choices(const T&) {
   }
 }
 
-inline std::string default_text(double value) { return number_text(value); }
-inline std::string default_text(bool value) { return value ? "on" : "off"; }
-template <NamedEnum E>
-std::string default_text(E value) {
-  return name_of(value);
-}
-template <class T>
-requires(std::is_integral_v<T>) std::string default_text(T value) { return std::to_string(value); }
-template <class T>
-std::string default_text(const std::optional<T>& value) {
-  return value ? default_text(*value) : "not given";
-}
-
 /// One option. A switch that is off by default needs no value.
 template <class Owner, class T>
 void add_setting(CLI::App& app, Changes<Owner>& changes, const Field<Owner, T>& field) {
   const T usual = Owner().*field.value;
   const std::string help =
-      wrapped(field.help + choices_text(usual) + " [from the scene, else " + default_text(usual) + "]", help_width);
+      wrapped(field.help + choices_text(usual) + " [from the scene, else " + setting_text(usual) + "]", help_width);
   if constexpr (std::is_same_v<T, bool>)
     if (!usual) {
       const auto switch_on = [&changes, field](std::int64_t) { set(changes, field.value, true); };

@@ -8,6 +8,7 @@
 #include "app/text/standard_streams.h"
 #include "core/accuracy/error.h"
 #include "core/base/error.h"
+#include "core/base/fnv1a.h"
 #include "core/base/text.h"
 #include "core/scene/json_tree.h"
 
@@ -240,7 +241,8 @@ void write_sheet(const Sweeping& sweep) {
   const Scene scene = move_textures(middle.scene, middle.folder, file.parent_path());
   const bool png = image_ending(file, {}) == ".png";
   write_or_rescue(file, [&](const std::filesystem::path& to) {
-    png ? write_png(to, image, 0, ToneMap::srgb, {write_scene(scene), ""}) : write_ppm(to, image, 0, ToneMap::srgb);
+    png ? write_png(to, image, 0, ToneMap::srgb, {write_scene(scene), "", label_for(scene, "")})
+        : write_ppm(to, image, 0, ToneMap::srgb);
   });
 }
 

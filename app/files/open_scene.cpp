@@ -66,8 +66,9 @@ LoadedScene open_scene(const SceneRequest& request) {
   LoadedScene loaded =
       is_program(request.what) ? load_program_scene(request) : load_scene(request.what, request.overrides);
   apply_options(request, loaded);
-  for (const std::string& remark : texture_remarks(loaded.scene))
-    if (!request.program.told) complain(remark);
+  if (request.program.told) return loaded;
+  for (const std::string& remark : texture_remarks(loaded.scene)) complain(remark);
+  if (const std::string remark = contents_remark(loaded); !remark.empty()) complain(remark);
   return loaded;
 }
 

@@ -1,4 +1,5 @@
 #include "core/api/data.h"
+#include "core/base/fnv1a.h"
 #include "core/base/target.h"
 
 #include <cmath>
@@ -69,14 +70,9 @@ inner::CoreFilm begun(const Scene::Data& scene, const RenderOptions& options, co
   const Film::Data& begun = *Access::of(*options.film);
   const inner::CoreFilm& film = *begun.film;
   const Scene::Data& stored = Access::of(begun.scene);
-  const auto here = move_textures(scene.scene, scene.folder, "."),
-             there = move_textures(stored.scene, stored.folder, ".");
-  const std::string isa = choose_kernels(core.isa)->isa;
-  if (!same_samples(there, here)) refuse("film", "a film of another scene", "one of the scene that is rendered");
-  if (!begun.label.isa.empty() && begun.label.isa != isa)
-    refuse("film", "a film of instruction set " + begun.label.isa, "one of " + isa + ", which mixes no bits" + how_to_build(begun.label.isa));
-  if (!begun.label.version.empty() && begun.label.version != TYNDALL_VERSION)
-    refuse("film", "a film of version " + begun.label.version, "one of version " TYNDALL_VERSION);
+  const FilmLabel label = label_for(scene.scene, choose_kernels(core.isa)->isa);
+  if (const auto other = differing_samples(stored.scene, begun.label, scene.scene, label))
+    refuse("film", other->found, other->expected);
   if (film.region != *core.region) refuse("film", "a film of region " + text_of(film.region), text_of(*core.region));
   if (film.first_sample != core.first_sample)
     refuse("film", "samples from " + std::to_string(film.first_sample), "samples from first_sample");
@@ -93,7 +89,7 @@ ProgressCallback progress_of(const RenderOptions& options) {
 Vec3 to_vec(const Vec3d& v) { return {v.x, v.y, v.z}; }
 
 FilmLabel label_of(const Picture::Data& data) {
-  return {TYNDALL_VERSION, data.result.kernels.isa, data.result.interrupted};
+  return label_for(Access::of(data.scene).scene, data.result.kernels.isa, data.result.interrupted);
 }
 
 }  // namespace
@@ -208,12 +204,15 @@ Film Film::merge(const std::vector<Film>& parts) {
     Data merged{nullptr, first.scene, first.label};
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const Data& part = *parts[i].data_;
-      const Scene::Data &a = Access::of(first.scene), &b = Access::of(part.scene);
-      if (!same_samples(move_textures(a.scene, a.folder, "."), move_textures(b.scene, b.folder, ".")))
-        refuse("parts", "part " + std::to_string(i) + " of another scene", "films of one scene");
+      const std::string name = "part " + std::to_string(i);
+      FilmLabel label = part.label;
+      label.isa.clear();  // those of several instruction sets are added
+      if (const auto other =
+              differing_samples(Access::of(part.scene).scene, label, Access::of(first.scene).scene, first.label))
+        refuse("parts", name + ": " + other->found, other->expected);
       inner::CoreFilm frame = *part.film;
       frame.pixels.clear(), frame.emission.clear();
-      frames.push_back({"part " + std::to_string(i), std::move(frame)});
+      frames.push_back({name, std::move(frame)});
       merged.label = merged_label(merged.label, part.label);
     }
     merged.film = std::make_shared<const inner::CoreFilm>(

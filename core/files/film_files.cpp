@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/seconds.h"
+#include "core/base/target.h"
 #include "core/base/text.h"
 #include "core/compile/compile.h"
 #include "core/files/stats.h"
@@ -19,13 +20,15 @@
 namespace tyndall {
 namespace {
 
-/// The scene with everything at its default that changes no sample: names, display, number of samples.
-void strip(Scene& scene) {
+/// The scene with everything at its default that changes no sample: names, display, number of samples; and without the
+/// pixels of its pictures, of which labels have the hash.
+Scene stripped(Scene scene) {
   scene.name.clear();
   scene.display = {};
   scene.animation.reset();
   scene.render.spp.reset();
-  each_picture(scene, [](auto& picture) { picture.file.clear(); });  // its pixels are compared
+  each_picture(scene, [](auto& picture) { picture.file.clear(), picture.pixels.reset(); });
+  return scene;
 }
 
 constexpr const char *caustics_pointer = "/render/caustics", *sharing_pointer = "/render/sharing";
@@ -48,6 +51,29 @@ bool caustics_matter(Scene scene) {
 bool could_reuse_paths(Scene scene) {
   scene.render.sharing = true;
   return prepare(scene)->reuses_paths();
+}
+
+/// Whether the samples of both scenes are the same if the pixels of their pictures are.
+bool same_scene(const Scene& film, const Scene& requested) {
+  const Scene a = stripped(film);
+  Scene b = stripped(requested);
+  const bool other_caustics = a.render.caustics != b.render.caustics;
+  const bool other_sharing = a.render.sharing != b.render.sharing;
+  b.render.caustics = a.render.caustics, b.render.sharing = a.render.sharing;
+  if (!(a == b)) return false;
+  return !(other_caustics && caustics_matter(film)) && !(other_sharing && could_reuse_paths(film));
+}
+
+/// The first setting that differs, such as "other settings (seed 0)", expected "seed 9".
+std::optional<Mismatch> differing_setting(const RenderSettings& film, const RenderSettings& requested) {
+  std::optional<Mismatch> first;
+  for_each_field(fields_of<RenderSettings>(), [&](const auto& field) {
+    const std::string a = setting_text(film.*field.value), b = setting_text(requested.*field.value);
+    if (first || a == b || std::string_view(field.name) == "spp") return;
+    const std::string name = std::string(field.name) + " ";
+    first = Mismatch{"a film of other settings (" + name + a + ")", name + b};
+  });
+  return first;
 }
 
 Film found_film(const std::filesystem::path& file, std::optional<Film> film) {
@@ -74,7 +100,7 @@ StoredFilm with_scene(const std::filesystem::path& file, Film film) {
   Scene scene = move_textures(loaded.scene, loaded.folder, ".");
   if (!says(loaded.text, "caustics")) scene.render.caustics = Caustics::scatter;
   if (!says(loaded.text, "sharing")) scene.render.sharing = false;
-  return {{file.string(), std::move(film)}, scene, label_of(file)};
+  return {{file.string(), std::move(film)}, scene, label_of(file), contents_remark(loaded)};
 }
 
 constexpr std::string_view several = "several: ";
@@ -107,14 +133,28 @@ StoredFilm read_stored_frame(const std::filesystem::path& file) {
   return with_scene(file, found_film(file, read_film_frame(file)));
 }
 
-bool same_samples(Scene a, Scene b) {
-  strip(a);
-  strip(b);
-  const bool other_caustics = a.render.caustics != b.render.caustics;
-  const bool other_sharing = a.render.sharing != b.render.sharing;
-  b.render.caustics = a.render.caustics, b.render.sharing = a.render.sharing;
-  if (!(a == b)) return false;
-  return !(other_caustics && caustics_matter(a)) && !(other_sharing && could_reuse_paths(a));
+FilmLabel label_for(const Scene& scene, const std::string& isa, bool unfinished) {
+  return {TYNDALL_VERSION, isa, unfinished, contents_hash(scene)};
+}
+
+std::optional<Mismatch> differing_samples(const Scene& film, const FilmLabel& label, const Scene& requested,
+                                          const FilmLabel& requested_label) {
+  const auto size = [](const Scene& s) { return std::to_string(s.width) + "x" + std::to_string(s.height); };
+  if (size(film) != size(requested)) return Mismatch{"a film of another image size, " + size(film), size(requested)};
+  if (!same_scene(film, requested))
+    return differing_setting(film.render, requested.render)
+        .value_or(Mismatch{"a film of another scene", "the same scene"});
+  const auto contents = [](const Scene& s, const FilmLabel& l) {
+    return l.contents.empty() ? contents_hash(s) : l.contents;
+  };
+  if (contents(film, label) != contents(requested, requested_label))
+    return Mismatch{"a film of other pixels in its textures or sky", "the same pixels"};
+  const auto differs = [](const std::string& a, const std::string& b) { return !a.empty() && !b.empty() && a != b; };
+  if (differs(label.version, requested_label.version))
+    return Mismatch{"a film of version " + label.version, requested_label.version};
+  if (differs(label.isa, requested_label.isa))
+    return Mismatch{"a film of instruction set " + label.isa, requested_label.isa + how_to_build(label.isa)};
+  return {};
 }
 
 std::string embedded_scene(Scene scene, const std::filesystem::path& textures, const Film& film,
@@ -135,7 +175,8 @@ std::string uneven_text(const Scene& scene, const FilmTotals& totals) {
 }
 
 FilmLabel merged_label(const FilmLabel& a, const FilmLabel& b) {
-  return {both_of(a.version, b.version), both_of(a.isa, b.isa), a.unfinished || b.unfinished};
+  return {both_of(a.version, b.version), both_of(a.isa, b.isa), a.unfinished || b.unfinished,
+          a.contents == b.contents ? a.contents : ""};
 }
 
 CleanOfFilm clean_view(const Film& film, const Scene& scene, const std::string& file, int threads,

@@ -10,14 +10,16 @@
 
 /// This room keeps pictures and films in files, with what is said beside them: scene, figures, layers.
 ///
-/// Films in files: what --resume goes on from and merge adds.
+/// Films in files: what --resume goes on from and merge adds. Whether films belong together is said here, for all:
+/// see differing_samples().
 namespace tyndall {
 
 /// A film, and the scene that it is of; texture files relative to the current folder.
 struct StoredFilm {
   FilmPart part;
   Scene scene;
-  FilmLabel label{};  ///< of films from before there were labels: what their figures say
+  FilmLabel label{};     ///< of films from before there were labels: what their figures say
+  std::string remark{};  ///< see contents_remark()
 };
 
 /// Reads an EXR that render wrote. A film whose text does not say how caustics were found is of scattering: it is from
@@ -28,9 +30,19 @@ StoredFilm read_stored_frame(const std::filesystem::path& file);
 /// The film alone.
 Film read_film_alone(const std::filesystem::path& file);
 
-/// Whether the samples of both scenes are the same: all but names, display and the number of samples is equal. How
-/// caustics are found may differ where no chains would be looked for.
-bool same_samples(Scene a, Scene b);
+/// The label of a film that this program makes of the scene. isa: of the kernels.
+FilmLabel label_for(const Scene& scene, const std::string& isa, bool unfinished = false);
+
+/// What keeps a film from being gone on with or added: "found X, expected Y".
+struct Mismatch {
+  std::string found, expected;
+};
+/// How the samples of a film differ from those of another one or of a render; nothing: they are the same. Image size,
+/// scene, settings, pixels of textures and sky, version and instruction set are compared; names, display, the number
+/// of samples, and how caustics are found where no chains would be looked for, are not. A version or instruction set
+/// that one label does not say fits any; where it does not say the pixels, those are taken that the scene has now.
+std::optional<Mismatch> differing_samples(const Scene& film, const FilmLabel& label, const Scene& requested,
+                                          const FilmLabel& requested_label);
 
 /// The scene's text for an image of `film` at `image`: with the number of samples that the film has, and how caustics
 /// were found even where that is the default. textures: the folder that the scene's texture files are relative to.

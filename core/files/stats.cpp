@@ -1,5 +1,6 @@
 #include "core/files/stats.h"
 
+#include "core/base/fnv1a.h"
 #include "core/base/text.h"
 #include "core/render/plan.h"
 #include "core/scene/json_tree.h"
@@ -78,13 +79,6 @@ Layer variance_layer(const Film& film) {
 }
 
 }  // namespace
-
-std::string hash_text(std::uint64_t hash) {
-  constexpr const char* digits = "0123456789abcdef";
-  std::string text(16, '0');
-  for (std::size_t i = 16; i-- > 0; hash >>= 4) text[i] = digits[hash & 15];
-  return text;
-}
 
 std::string stats_text(const RunFigures& run) {
   const Film& film = run.result.film;

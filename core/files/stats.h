@@ -23,9 +23,6 @@ struct RunFigures {
   std::string threads_from{};        ///< what decided the number of threads: see ThreadCount
 };
 
-/// A picture's hash as --stats says it: 16 hexadecimal digits.
-std::string hash_text(std::uint64_t hash);
-
 /// All figures, as a JSON object. What is not known is null.
 std::string stats_text(const RunFigures& run);
 

@@ -1,5 +1,6 @@
 #include "core/film/film.h"
 
+#include "core/base/checksum.h"
 #include "core/base/fnv1a.h"
 
 #include <algorithm>
@@ -22,38 +23,6 @@ std::uint64_t hash_of(std::uint32_t word, std::uint64_t before) {
   for (int k = 0; k < 4; ++k) bytes[k] = static_cast<char>(word >> 8 * k & 0xffu);
   return fnv1a({bytes, 4}, before);
 }
-
-/// Mixes in 8 bytes at a time. Each step is invertible, so that films that differ in one word always get different
-/// sums. Four sums in turn, so that the processor can start the next multiplication before the last one is done.
-class Checksum {
- public:
-  void add(const void* data, std::size_t size) {
-    const auto* bytes = static_cast<const char*>(data);
-    for (; size >= 32; bytes += 32, size -= 32) {
-      std::uint64_t words[4];
-      std::memcpy(words, bytes, sizeof words);
-      for (int i = 0; i < 4; ++i) mix(sums_[i], words[i]);
-    }
-    for (; size > 0; ++bytes, --size) mix(sums_[0], static_cast<unsigned char>(*bytes));
-  }
-  template <class Number>
-  void add_number(Number number) {
-    mix(sums_[1], static_cast<std::uint64_t>(number));
-  }
-  std::uint64_t value() const {
-    std::uint64_t sum = 0;
-    for (const std::uint64_t part : sums_) mix(sum, part);
-    return sum;
-  }
-
- private:
-  static void mix(std::uint64_t& sum, std::uint64_t word) {
-    sum = (sum ^ word) * 0x9e3779b97f4a7c15u;  // odd, so that the step is invertible
-    sum ^= sum >> 29;
-  }
-
-  std::uint64_t sums_[4] = {1, 2, 3, 4};
-};
 
 }  // namespace
 

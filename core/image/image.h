@@ -43,11 +43,12 @@ struct Layer {
 };
 
 /// What a film's file says about how the film was made. Films may only be gone on with by the same version and
-/// instruction set: others would mix bits.
+/// instruction set, and with the same pixels of textures and sky: others would mix bits.
 struct FilmLabel {
   std::string version;      ///< of the program; "": not known; "several": of merged parts that differ
   std::string isa;          ///< instruction set of the kernels; likewise
   bool unfinished = false;  ///< more samples were asked for than the film has: a checkpoint, or an interrupted render
+  std::string contents{};   ///< see contents_hash(); "": the scene has no pictures, or the film is older than this
   bool operator==(const FilmLabel&) const = default;
 };
 
@@ -55,7 +56,7 @@ struct FilmLabel {
 struct Embedded {
   std::string scene;  ///< JSON; empty: none
   std::string stats;  ///< JSON; empty: none
-  FilmLabel label{};  ///< for EXR
+  FilmLabel label{};  ///< for EXR; of a PNG `contents` alone
   bool film = true;   ///< whether an EXR holds the film itself
 };
 

@@ -30,6 +30,17 @@ PictureFile read_by_kind(const std::filesystem::path& file, ImageKind kind, std:
   cannot_read(file, "found no image, expected PNG, PPM, JPEG, BMP, TGA, PFM, HDR or EXR");
 }
 
+/// A text that Tyndall has written into a PNG or EXR; nothing if it is not there.
+std::optional<std::string> embedded_text(const std::filesystem::path& file, const std::string& name) {
+  // Pipes are left alone: what is read from one here could not be read as a scene afterwards.
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return {};
+  const ImageKind kind = image_kind(read_bytes(file, kind_size));
+  if (kind == ImageKind::png) return png_text(file, read_bytes(file), name);
+  if (kind == ImageKind::exr) return exr_text(file, name);
+  return {};
+}
+
 }  // namespace
 
 PictureName picture_name(const std::filesystem::path& name) {
@@ -93,22 +104,13 @@ PictureFile read_sky(const std::filesystem::path& name) {
 LinearImage read_image(const std::filesystem::path& file) { return read_picture(file).image; }
 
 std::optional<std::string> read_embedded_scene(const std::filesystem::path& file) {
-  // Pipes are left alone: what is read from one here could not be read as a scene afterwards.
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return {};
-  const ImageKind kind = image_kind(read_bytes(file, kind_size));
-  if (kind == ImageKind::png) return png_text(file, read_bytes(file), "tyndall:scene");
-  if (kind == ImageKind::exr) return exr_text(file, "tyndall:scene");
-  return {};
+  return embedded_text(file, "tyndall:scene");
 }
-
 std::optional<std::string> read_embedded_stats(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return {};
-  const ImageKind kind = image_kind(read_bytes(file, kind_size));
-  if (kind == ImageKind::png) return png_text(file, read_bytes(file), "tyndall:stats");
-  if (kind == ImageKind::exr) return exr_text(file, "tyndall:stats");
-  return {};
+  return embedded_text(file, "tyndall:stats");
+}
+std::optional<std::string> read_embedded_contents(const std::filesystem::path& file) {
+  return embedded_text(file, "tyndall:contents");
 }
 
 bool is_image_output(const std::filesystem::path& file) {

@@ -63,6 +63,8 @@ std::optional<FilmLabel> read_film_label(const std::filesystem::path& file);
 std::optional<std::string> read_embedded_stats(const std::filesystem::path& file);
 /// The scene text in a PNG or EXR that Tyndall wrote; nothing if it holds none or is no such file.
 std::optional<std::string> read_embedded_scene(const std::filesystem::path& file);
+/// FilmLabel::contents of a PNG or EXR that Tyndall wrote; nothing if it holds none or is no such file.
+std::optional<std::string> read_embedded_contents(const std::filesystem::path& file);
 
 /// True for an ending that write_* knows: .png .exr .pfm .hdr .ppm (any case).
 bool is_image_output(const std::filesystem::path& file);

@@ -1,6 +1,7 @@
 #include "core/image/image_io_exr.h"
 #include "core/image/image_io.h"
 
+#include "core/base/fnv1a.h"
 #include "core/image/image_io_file.h"
 #include "core/image/whole_file.h"
 
@@ -18,7 +19,6 @@
 
 #include <bit>
 #include <cassert>
-#include <cstdio>
 #include <cstring>
 #include <deque>
 #include <exception>
@@ -31,9 +31,7 @@ bool has_openexr() { return true; }
 std::string checksum_text(const Film& film, const Embedded& embedded) {
   const FilmLabel& label = embedded.label;
   const std::string with = embedded.scene + '\0' + label.version + '\0' + label.isa + (label.unfinished ? "1" : "0");
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(film_checksum(film, with)));
-  return text;
+  return hash_text(film_checksum(film, with + label.contents));
 }
 
 std::vector<FilmChannel> film_channels() {
@@ -138,6 +136,8 @@ Imf::Header make_header(const Film& film, const Embedded& embedded) {
   if (embedded.film) describe_film(header, film, embedded);
   if (!embedded.scene.empty()) header.insert(exr_name::scene, Imf::StringAttribute(embedded.scene));
   if (!embedded.stats.empty()) header.insert(exr_name::stats, Imf::StringAttribute(embedded.stats));
+  const std::string& contents = embedded.label.contents;
+  if (!contents.empty()) header.insert(exr_name::contents, Imf::StringAttribute(contents));
   return header;
 }
 

@@ -38,6 +38,7 @@ inline constexpr int film_format = 1;
 namespace exr_name {
 inline constexpr const char* scene = "tyndall:scene";
 inline constexpr const char* stats = "tyndall:stats";
+inline constexpr const char* contents = "tyndall:contents";          // FilmLabel::contents; absent: ""
 inline constexpr const char* width = "tyndall:width";                // of the full image
 inline constexpr const char* height = "tyndall:height";              // of the full image
 inline constexpr const char* first_sample = "tyndall:first_sample";  // a double, to hold all of 32 bits

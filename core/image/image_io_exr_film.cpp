@@ -104,7 +104,7 @@ std::string text_in(const Imf::Header& header, const char* name) {
 FilmLabel label_in(const Imf::Header& header) {
   const auto* unfinished = header.findTypedAttribute<Imf::IntAttribute>(exr_name::unfinished);
   return {text_in(header, exr_name::version), text_in(header, exr_name::isa),
-          unfinished != nullptr && unfinished->value() != 0};
+          unfinished != nullptr && unfinished->value() != 0, text_in(header, exr_name::contents)};
 }
 
 /// Refuses a film that is not bit for bit the one that was written. Files from before there was a checksum have none.

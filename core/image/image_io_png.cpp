@@ -104,6 +104,7 @@ Bytes png_bytes(const std::filesystem::path& name, const LinearImage& image, dou
   put_chunk(extra, "sRGB", {std::string_view("\0", 1)});  // rendering intent: perceptual
   put_text(extra, "tyndall:scene", embedded.scene);
   put_text(extra, "tyndall:stats", embedded.stats);
+  put_text(extra, "tyndall:contents", embedded.label.contents);
   png.insert(png.begin() + header_end, extra.begin(), extra.end());
   return png;
 }

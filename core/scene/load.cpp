@@ -1,5 +1,7 @@
 #include "core/scene/load.h"
 
+#include "core/base/checksum.h"
+#include "core/base/fnv1a.h"
 #include "core/base/text.h"
 #include "core/image/image_io.h"
 #include "core/image/image_io_file.h"
@@ -194,6 +196,7 @@ LoadedScene load_scene(const std::string& what, const std::vector<Override>& ove
     const bool image = fs::is_regular_file(status) && is_image(read_file(what, kind_size));
     loaded.text = image ? scene_in_image(what) : read_file(what);
     if (!image && is_image(loaded.text)) loaded.text = scene_in_image(what);
+    if (image) loaded.contents = read_embedded_contents(what).value_or("");
     if (!image) loaded.source = what;
     loaded.files = {what};
   }
@@ -253,6 +256,29 @@ std::vector<std::string> texture_remarks(const Scene& scene) {
       if (std::find(remarks.begin(), remarks.end(), remark) == remarks.end()) remarks.push_back(remark);
   });
   return remarks;
+}
+
+std::string contents_hash(const Scene& scene) {
+  Checksum sum;
+  bool any = false;
+  each_picture(scene, [&](const auto& picture) {
+    if (!picture.pixels) return;
+    any = true;
+    sum.add_number(picture.pixels->width);
+    sum.add_number(picture.pixels->height);
+    sum.add(picture.pixels->rgb.data(), picture.pixels->rgb.size() * sizeof(float));
+  });
+  return any ? hash_text(sum.value()) : "";
+}
+
+std::string contents_remark(const LoadedScene& loaded) {
+  if (!loaded.contents) return "";
+  const std::string now = contents_hash(loaded.scene);
+  if (now.empty() || now == *loaded.contents) return "";
+  return loaded.name +
+         (loaded.contents->empty() ? ": does not say which pixels its textures and sky had"
+                                   : ": its textures or sky have other pixels now than when the picture was made") +
+         "; those of now are taken";
 }
 
 Scene move_textures(Scene scene, const fs::path& from, const fs::path& to) {

@@ -2,6 +2,7 @@
 #include "core/scene/json.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct LoadedScene {
   std::string text;              ///< the scene file's text, before overrides
   std::vector<std::filesystem::path> files;    ///< all that was read: the scene's file or image, and its textures
   std::vector<std::filesystem::path> sources;  ///< of the program that wrote the scene; empty: none did
+  /// Of a scene in an image: what contents_hash() was when the picture was made; "": the image does not say. Nothing
+  /// for all other scenes.
+  std::optional<std::string> contents{};
   bool is_picture = false;  ///< there is none, but a picture that is shown in its place; `scene` has its size alone
 };
 
@@ -38,6 +42,14 @@ std::vector<std::filesystem::path> files_of_scene(const std::filesystem::path& f
 
 /// What a user should know of how the pictures of the scene's textures and sky were read: a line each, each once.
 std::vector<std::string> texture_remarks(const Scene& scene);
+
+/// 16 hexadecimal digits that differ with the pixels of the scene's textures and sky, whatever their files are called
+/// and however they are stored; "": it has none. Pictures and films carry it, as part of what they are made of.
+std::string contents_hash(const Scene& scene);
+
+/// One line if the textures or the sky of a scene in an image are not those that its picture was made with, or if that
+/// is not known; "": they are.
+std::string contents_remark(const LoadedScene& loaded);
 
 struct BuiltIn {
   std::string name;   ///< what load_scene takes

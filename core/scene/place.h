@@ -1,5 +1,7 @@
 #pragma once
+#include "core/base/choice.h"
 #include "core/base/fields.h"
+#include "core/base/text.h"
 #include "core/base/vec.h"
 
 #include <cstddef>
@@ -8,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
 
 /// Messages about a scene's values: where a value stands, what it means, what was expected. Reading, checking and the
 /// command line use the same words.
@@ -68,6 +71,20 @@ template <class T>
 constexpr Form form_of(const std::optional<T>*) {
   return form_of(static_cast<const T*>(nullptr));
 }
+/// A setting's value in a message.
+inline std::string setting_text(double value) { return number_text(value); }
+inline std::string setting_text(bool value) { return value ? "on" : "off"; }
+template <NamedEnum E>
+std::string setting_text(E value) {
+  return name_of(value);
+}
+template <class T>
+requires(std::is_integral_v<T>) std::string setting_text(T value) { return std::to_string(value); }
+template <class T>
+std::string setting_text(const std::optional<T>& value) {
+  return value ? setting_text(*value) : "not given";
+}
+
 /// "a number >= 0 (mean number of events per unit length)".
 std::string expected_text(const Meaning& meaning, Form form);
 

@@ -70,6 +70,32 @@ TEST_CASE("a film file says how caustics were found; files that do not are older
   CHECK_FALSE(same_samples(old.scene, scene));
 }
 
+TEST_CASE("films of one scene belong together if its pictures have the same pixels; what labels do not say fits") {
+  const auto folder = scratch_folder("contents");
+  const Scene scene = small_scene("earth", 2, 1, 1);
+  const std::string hash = contents_hash(scene);
+  CHECK(hash.size() == 16);
+  CHECK(contents_hash(small_scene("cornell-box", 2, 1, 1)).empty());
+  const FilmLabel label{"1.0", "avx2", false, hash}, nothing{};
+  const auto found = [&](const FilmLabel& other) {
+    const auto difference = differing_samples(scene, other, scene, label);
+    return difference ? difference->found : "";
+  };
+  CHECK(found(label).empty());
+  CHECK(found(nothing).empty());
+  CHECK(found({"1.0", "avx2", false, std::string(16, '0')}) == "a film of other pixels in its textures or sky");
+  CHECK(found({"1.1", "avx2", false, hash}) == "a film of version 1.1");
+  CHECK(found({"1.0", "sse4", false, hash}) == "a film of instruction set sse4");
+  const auto remark = [&](const FilmLabel& written) {
+    write_png(folder / "a.png", {1, 1, {1, 1, 1}}, 0, ToneMap::srgb,
+              {embedded_scene(scene, load_scene("earth").folder, small_film(), folder / "a.png"), "", written});
+    return contents_remark(load_scene((folder / "a.png").string()));
+  };
+  CHECK(remark(label).empty());
+  CHECK(remark(nothing).find("does not say which pixels") != std::string::npos);
+  CHECK(remark({"", "", false, std::string(16, '0')}).find("have other pixels now") != std::string::npos);
+}
+
 TEST_CASE("a film that is added from others says of which instruction sets they are") {
   const FilmLabel avx2{"1.0", "avx2", false}, scalar{"1.0", "scalar", true}, old{};
   CHECK(merged_label(avx2, avx2).isa == "avx2");

@@ -23,7 +23,7 @@ Film adaptive_film() {
   return film;
 }
 
-const FilmLabel film_label = {"1.2.3", "scalar", true};
+const FilmLabel film_label = {"1.2.3", "scalar", true, "0123456789abcdef"};
 
 }  // namespace
 
@@ -38,6 +38,7 @@ TEST_CASE("film label: version, instruction set and whether it is unfinished com
     CHECK(read_film_label(folder / name) == film_label);
     CHECK(read_film(folder / name) == film);
     CHECK(read_embedded_scene(folder / name) == "{}");
+    CHECK(read_embedded_contents(folder / name) == "0123456789abcdef");
   }
   CHECK(read_embedded_stats(folder / "whole.exr") == "{\"spp\": 1}");
   CHECK_FALSE(read_embedded_stats(folder / "checkpoint.exr"));

@@ -240,6 +240,29 @@ TEST_CASE("library: films go on, are saved, read and merged with the same bits")
         }).what() != std::string());
 }
 
+TEST_CASE("library: a film of a texture that has changed since is neither gone on with nor merged") {
+  const std::string texture = scratch("texture.png"), file = scratch("textured.exr");
+  const auto paint = [&texture](const char* scene) { render(small(scene), samples(1)).save(texture); };
+  const auto textured = [&texture] {
+    Scene scene = small("earth");
+    scene.set("/textures/planet/file", std::filesystem::absolute(texture).string());
+    return scene;
+  };
+  paint("cornell-box");
+  tyndall::RenderOptions rest = samples(2);
+  rest.first_sample = 1;
+  const tyndall::Film old = render(textured(), rest).film();
+  render(textured(), samples(1)).film().save(file);
+  paint("cover");
+  tyndall::RenderOptions more = samples(3);
+  more.film = tyndall::Film::load(file);
+  const tyndall::Error wrong = error_of([&] { render(textured(), more); });
+  CHECK(wrong.place == "film");
+  CHECK(wrong.found == "a film of other pixels in its textures or sky");
+  CHECK(error_of([&] { tyndall::Film::merge({render(textured(), samples(1)).film(), old}); }).place == "parts");
+  CHECK(tyndall::Film::merge({*more.film, old}).spp() == 3);
+}
+
 TEST_CASE("library: pictures have the sizes that are promised, and stop when asked") {
   Scene scene = small("showroom");
   tyndall::RenderOptions options = samples(4);

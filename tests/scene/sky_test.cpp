@@ -1,6 +1,7 @@
 #include "core/files/film_files.h"
 #include "core/image/image_io.h"
 #include "core/scene/load.h"
+#include "tests/support/pictures.h"
 #include "tests/support/scratch.h"
 #include "tests/support/skies.h"
 

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/compile/compile.h"
+#include "core/files/film_files.h"
 #include "core/film/film.h"
 #include "core/render/render.h"
 #include "core/scene/load.h"
@@ -36,6 +37,9 @@ inline Scene caustic_close_up(int width, int height) {
   scene.camera.vfov = 5;
   return scene;
 }
+
+/// Whether films of both scenes could be added.
+inline bool same_samples(const Scene& a, const Scene& b) { return !differing_samples(a, {}, b, {}); }
 
 /// The picture that every other way of rendering must reproduce: one thread, one go.
 inline std::vector<float> reference_picture(const Scene& scene, const std::string& isa = "") {

@@ -27,7 +27,11 @@ std::optional<Scene> scene_in(const fs::path& file, const Document& document) {
   try {
     if (!read_embedded_scene(file)) return {};
     const LoadedScene loaded = load_scene(fs::absolute(file).string());
-    return move_textures(loaded.scene, loaded.folder, document.origin->folder);
+    Scene scene = move_textures(loaded.scene, loaded.folder, document.origin->folder);
+    // Pixels that are not those of the picture any more are left out, and so differ from all.
+    if (loaded.contents && !loaded.contents->empty() && *loaded.contents != contents_hash(scene))
+      each_picture(scene, [](auto& picture) { picture.pixels.reset(); });
+    return scene;
   } catch (const std::exception&) {
     return {};  // the picture is of use without
   }

@@ -115,8 +115,7 @@ std::string write_snapshot(const Snapshot& snapshot, Film film) {
   const Picture picture{result.film, finished.image, scene.display,
                         [&](const fs::path& file) {
                           return Embedded{embedded_scene(scene, snapshot.document.origin->folder, result.film, file),
-                                          stats,
-                                          {TYNDALL_VERSION, result.kernels.isa, false}};
+                                          stats, label_for(scene, result.kernels.isa)};
                         },
                         [&] { return layers_of(*prepared, result.film, result.kernels); }};
   const std::string files = write_files(snapshot, picture);

@@ -3,7 +3,6 @@
 #include "app/files/outputs.h"
 #include "app/text/numbers.h"
 #include "core/base/fnv1a.h"
-#include "core/base/target.h"
 #include "core/base/text.h"
 #include "core/files/film_files.h"
 #include "core/image/image_io.h"
@@ -28,16 +27,16 @@ std::string what_opens(const LoadedScene& loaded) {
   return built_in ? loaded.name : fs::absolute(loaded.name).lexically_normal().string();
 }
 
-/// Why a film cannot go on; "": it can.
-std::string obstacle(const StoredFilm& stored, const Scene& scene, const std::string& isa) {
-  const Film& film = stored.part.film;
-  const Region& region = film.region;
-  const bool whole = region.x0 == 0 && region.y0 == 0 && region.x1 == scene.width && region.y1 == scene.height;
-  if (!whole || film.first_sample != 0 || film.width != scene.width || film.height != scene.height)
-    return "its film is a part of a picture";
-  if (stored.label.version != TYNDALL_VERSION) return "its film is of version " + stored.label.version;
-  if (stored.label.isa != isa) return "its film is of instruction set " + stored.label.isa + ", this is " + isa + how_to_build(stored.label.isa);
-  return "";
+/// Whether a film has all pixels of the scene's picture, from the first sample on.
+bool is_whole(const Film& film, const Scene& scene) {
+  return film.region == Region{0, 0, scene.width, scene.height} && film.width == scene.width &&
+         film.height == scene.height && film.first_sample == 0;
+}
+
+/// The text, and what is to be told of the scene's textures.
+std::string with_contents_remark(const std::string& text, const LoadedScene& loaded) {
+  const std::string remark = contents_remark(loaded);
+  return remark.empty() ? text : text + "; " + remark;
 }
 
 }  // namespace
@@ -123,18 +122,19 @@ OpenedFilm read_opened_film(const LoadedScene& loaded, const std::string& isa) {
   try {
     const ImageKind kind = image_kind(read_bytes(file, kind_size));
     if (kind == ImageKind::unknown) return {};
-    if (kind == ImageKind::png) return {nullptr, "it starts over, as a PNG holds no film; the EXR beside it does"};
+    if (kind == ImageKind::png)
+      return {nullptr, with_contents_remark("it starts over, as a PNG holds no film; the EXR beside it does", loaded)};
     StoredFilm stored = read_stored_film(file);
-    // Textures in both scenes are named from different folders; all else is the same if the samples are.
+    if (!is_whole(stored.part.film, loaded.scene))
+      return {nullptr, "it starts over, as its film is a part of a picture"};
     const auto chosen = choose_kernels(isa);
-    const std::string wrong = obstacle(stored, loaded.scene, chosen ? chosen->isa : isa);
-    if (!wrong.empty()) return {nullptr, "it starts over, as " + wrong};
-    Scene scene = move_textures(loaded.scene, loaded.folder, ".");
-    if (!same_samples(std::move(scene), stored.scene)) return {nullptr, "it starts over with the changed settings"};
+    const FilmLabel label = label_for(loaded.scene, chosen ? chosen->isa : isa);
+    if (const auto other = differing_samples(stored.scene, stored.label, loaded.scene, label))
+      return {nullptr, "it starts over, as it is " + other->found + ", not " + other->expected};
     auto film = std::make_shared<Film>(std::move(stored.part.film));
     const std::uint32_t spp = totals(*film).min_taken;
     if (spp == 0) return {nullptr, "it starts over, as its film is empty"};
-    return {std::move(film), "it goes on from " + format_count(spp) + " spp"};
+    return {std::move(film), with_contents_remark("it goes on from " + format_count(spp) + " spp", loaded)};
   } catch (const std::exception& error) {
     return {nullptr, std::string("it starts over: ") + error.what()};
   }

@@ -119,6 +119,18 @@ TEST_CASE("an image of Tyndall belongs to its own scene, textures and all; the s
   }
 }
 
+TEST_CASE("a picture of a texture that has changed since is a reference of another scene") {
+  const fs::path file = scratch("stale") / "a.png";
+  const Document document = small_document("earth");
+  const Film film = two_halves(document.scene);
+  for (const std::string& contents : {contents_hash(document.scene), std::string(16, '0')}) {
+    write_png(file, {8, 6, resolve(film)}, 0, ToneMap::srgb,
+              {embedded_scene(document.scene, document.origin->folder, film, file), "", {"", "", false, contents}});
+    const bool same = contents == contents_hash(document.scene);
+    CHECK((fit_of(read_reference(file, document), document.scene) == ReferenceFit::other_scene) != same);
+  }
+}
+
 TEST_CASE("which dropped images hold no scene") {
   const fs::path folder = scratch("dropped");
   write_pfm(folder / "a.pfm", grey_image(2, 2));
