@@ -33,7 +33,12 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
       kept_(state_folder(), wake),
       picture_(options.picture),
       function_(options.function),
-      references_(editor_, accuracy_, messages_, wake),
+      references_(
+          editor_,
+          [this] {
+            return Document{*rendered_scene(), editor_.document().origin};
+          },
+          accuracy_, messages_, wake),
       snapshots_({".png", ".exr"}, saving_, messages_, log),
       charts_({".csv", ".svg"}, saving_, messages_, log),
       loading_(wake),
