@@ -131,6 +131,7 @@ void Commands::act_on_document(const Request& request) {
 }
 
 void Commands::open_palette() {
+  objects_.look_under_mouse();
   palette_.open(palette_items(session_.editor().scene(), panels_.selected, listed_scenes()));
 }
 
