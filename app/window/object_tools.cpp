@@ -38,6 +38,7 @@ PictureClick ObjectTools::click_in(const Scene& scene, const Rect& image, float 
 void ObjectTools::look_under_mouse() {
   const Scene& scene = session_.editor().scene();
   const Rect& image = layout_.image;
+  if (!(image.width() > 0)) return;  // nothing was drawn yet
   const bool over = image.contains(mouse_.x, mouse_.y);
   const float at_x = over ? mouse_.x : (image.x0 + image.x1) / 2, at_y = over ? mouse_.y : (image.y0 + image.y1) / 2;
   const PictureClick click = click_in(scene, image, at_x, at_y);
