@@ -77,7 +77,7 @@ bool ObjectTools::act(Action action) {
   }
   constexpr Action of_selection[] = {Action::grab, Action::duplicate, Action::remove, Action::rename,
                                      Action::own_material};
-  if (std::ranges::find(of_selection, action) == std::end(of_selection)) return false;
+  if (std::count(std::begin(of_selection), std::end(of_selection), action) == 0) return false;
   if (selected().empty()) return session_.messages().say("select an object first: click on it"), true;
   if (action == Action::grab) handles_.grab(mouse_, selected(), session_.editor().scene());
   if (action == Action::duplicate) duplicate();
