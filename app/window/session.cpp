@@ -264,8 +264,8 @@ void Session::render_reference() {
   const bool newest = frame && frame->edit == renderers_.edit(Half::current) && !timer_.waits();
   if (!newest || frame->spp == 0) return messages_.say("there is no picture yet");
   constexpr std::uint32_t minimum = 64;
-  const Scene& scene = *rendered_scene();
-  references_.render({scene, std::max(minimum, frame->spp), wanted_.threads, isa_, "", scene});
+  const std::shared_ptr<const Scene> scene = rendered_scene();
+  references_.render({*scene, std::max(minimum, frame->spp), wanted_.threads, isa_, "", *scene});
 }
 
 void Session::snapshot() {

@@ -240,7 +240,6 @@ TEST_CASE("the menu of a row has each line once, also where the row has three nu
   };
   const float slider = first_line("gold.fuzz", "gold.fuzz.vary");
   CHECK(first_line("camera.look_from.y", "camera.look_from.key") == doctest::Approx(slider).epsilon(0.1));
-  CHECK(first_line("gold.albedo.g", "gold.albedo.key") == doctest::Approx(slider).epsilon(0.1));
 }
 
 }  // namespace tyndall::test::panels_test
