@@ -1,6 +1,14 @@
 # "cmake --install" and, by CPack, a Debian package and an archive. Included by CMakeLists.txt.
 # The parts are those of Debian's packages: tyndall, libtyndall0, libtyndall-dev, python3-tyndall.
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME tyndall)
+# "./run" builds the program alone: without the libraries it is installed all the same.
+foreach(target IN ITEMS tyndall_library tyndall_watch tyndall_python)
+  if(TARGET ${target})
+    install(CODE "if(NOT EXISTS \"$<TARGET_FILE:${target}>\")
+      message(NOTICE \"not built, so not installed: $<TARGET_FILE_NAME:${target}> (cmake --build ${PROJECT_BINARY_DIR} --target ${target})\")
+    endif()" ALL_COMPONENTS)
+  endif()
+endforeach()
 install(TARGETS tyndall RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES assets/scene.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/tyndall)
 install(DIRECTORY assets/scenes assets/textures assets/verify DESTINATION ${CMAKE_INSTALL_DATADIR}/tyndall
@@ -21,10 +29,10 @@ include(CMakePackageConfigHelpers)
 set(package ${PROJECT_BINARY_DIR}/package)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/tyndall)
 install(TARGETS tyndall_library EXPORT tyndallTargets
-        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libtyndall NAMELINK_COMPONENT libtyndall-dev)
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libtyndall NAMELINK_COMPONENT libtyndall-dev OPTIONAL)
 # The window belongs to the program's package: programs without one need no libraries of a display.
 install(TARGETS tyndall_watch EXPORT tyndallTargets
-        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT tyndall NAMELINK_COMPONENT libtyndall-dev)
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT tyndall NAMELINK_COMPONENT libtyndall-dev OPTIONAL)
 install(DIRECTORY core/api/tyndall app/watch/tyndall DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT libtyndall-dev
         FILES_MATCHING PATTERN "*.h")
 install(EXPORT tyndallTargets NAMESPACE tyndall:: DESTINATION ${package_folder} COMPONENT libtyndall-dev)

@@ -2,6 +2,9 @@
 # Sourced by run and test: the system packages that Tyndall needs, and how they get installed.
 # Debian 12 and later, Ubuntu 22.04 and later: installed as root or through sudo. Other systems: the list is printed.
 # TYNDALL_SKIP_PACKAGES=1 skips all of it.
+. "$(dirname "${BASH_SOURCE[0]}")/switches.sh"
+skip_packages=0
+! is_on TYNDALL_SKIP_PACKAGES || skip_packages=1
 
 # Used by the scripts that source this file.
 # shellcheck disable=SC2034
@@ -19,7 +22,7 @@ packages_changed=0 # 1 after something was installed
 
 # ensure_packages NAME...: returns 1, after saying what to do, when a package is missing and cannot be installed.
 ensure_packages() {
-  [ "${TYNDALL_SKIP_PACKAGES:-0}" = 1 ] && return 0
+  [ "$skip_packages" = 1 ] && return 0
   if ! command -v dpkg-query >/dev/null 2>&1; then
     other_systems
     return 1

@@ -111,7 +111,8 @@ Command read_sweep(const std::vector<std::string>& arguments) {
   if (auto help = parse(*app, arguments)) return PrintCommand{*help};
   require(*app, !render.scene.what.empty(), "SCENE");
   require(*app, !command.axes.empty(), "a value to vary (--vary POINTER=FROM:TO:STEPS)");
-  if (command.axes.size() > 2) throw UsageError("--vary: found it three times, expected it once or twice");
+  if (command.axes.size() > 2)
+    throw UsageError("--vary: found it " + std::to_string(command.axes.size()) + " times, expected it once or twice");
   require(*app, !command.sheet.empty() || !command.csv.empty() || !render.outputs.empty(), "an output (-o SHEET.png)");
   refuse_conflicts(render);
   return command;

@@ -5,6 +5,7 @@
 #include "app/files/open_scene.h"
 #include "app/files/outputs.h"
 #include "app/window/window.h"
+#include "core/base/environment.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/image_io.h"
@@ -19,7 +20,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <utility>
 
@@ -63,11 +63,6 @@ std::string headless_command(const ViewCommand& command) {
   const std::string name = scene.extension() == ".png" ? scene.stem().string() + "-again" : scene.stem().string();
   const std::string file = (name == "-" ? "image" : name) + ".png";
   return text + " -o " + shell_argument(file.starts_with('-') ? "./" + file : file);  // a dash would begin an option
-}
-
-bool is_set(const char* variable) {
-  const char* value = std::getenv(variable);
-  return value && *value;
 }
 
 void check_memory(const Scene& scene) {

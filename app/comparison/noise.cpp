@@ -57,25 +57,26 @@ NoisyImage read_exr(const fs::path& file) {
   }
 }
 
+NoisyImage read_noisy(const fs::path& name) {
+  const auto [file, layer] = picture_name(name);
+  const std::string ending = lower_case(file.extension().string());
+  if (ending == ".exr" && !layer) return read_exr(file);
+  fs::path errors = file;
+  errors.replace_extension(".error.pfm");
+  std::error_code error;
+  if (ending == ".pfm" && fs::exists(errors, error))
+    return with_errors(file, read_image(file), errors, read_image(errors), false);
+  refuse_noise(
+      name,
+      ending == ".pfm" ? "no " + errors.filename().string() + " beside it" : "a picture that does not say its noise",
+      "an EXR as tyndall render writes it (-o NAME.exr), or a PFM with its standard errors beside it in "
+      "NAME.error.pfm");
+}
+
 }  // namespace
 
 NoisyImage read_noisy_image(const fs::path& name, const Region& place) {
-  const auto [file, layer] = picture_name(name);
-  const std::string ending = lower_case(file.extension().string());
-  const auto read = [&]() -> NoisyImage {
-    if (ending == ".exr" && !layer) return read_exr(file);
-    fs::path errors = file;
-    errors.replace_extension(".error.pfm");
-    std::error_code error;
-    if (ending == ".pfm" && fs::exists(errors, error))
-      return with_errors(file, read_image(file), errors, read_image(errors), false);
-    refuse_noise(
-        name,
-        ending == ".pfm" ? "no " + errors.filename().string() + " beside it" : "a picture that does not say its noise",
-        "an EXR as tyndall render writes it (-o NAME.exr), or a PFM with its standard errors beside it in "
-        "NAME.error.pfm");
-  };
-  NoisyImage image = read();
+  NoisyImage image = read_noisy(name);
   image.region = place;
   return image;
 }

@@ -101,7 +101,8 @@ void Convergence::clear() {
 
 void Convergence::keep_current() {
   if (current_.points.size() < 3 || current_.points.back().seconds < min_seconds) return;
-  const auto same = std::ranges::find(earlier_, current_.method, &ErrorCurve::method);
+  const auto same = std::find_if(earlier_.begin(), earlier_.end(),
+                                 [this](const ErrorCurve& one) { return one.method == current_.method; });
   if (same != earlier_.end())
     *same = std::move(current_);
   else

@@ -104,8 +104,8 @@ Lettering::Lettering(int height) : height_(height) {
     std::ifstream in(path, std::ios::binary);
     font->file.assign(std::istreambuf_iterator<char>(in), {});
     if (font->file.empty() || !stbtt_InitFont(&font->info, font->file.data(), 0)) continue;
-    int ascent = 0, descent = 0, gap = 0;
-    stbtt_GetFontVMetrics(&font->info, &ascent, &descent, &gap);
+    int ascent = 0, descent = 0, line_gap = 0;
+    stbtt_GetFontVMetrics(&font->info, &ascent, &descent, &line_gap);
     font->scale = static_cast<float>(height) / static_cast<float>(ascent - descent);
     font->ascent = static_cast<int>(std::lround(font->scale * static_cast<float>(ascent)));
     font_ = std::move(font);

@@ -1,6 +1,7 @@
 #include "app/text/progress.h"
 
 #include "app/text/standard_streams.h"
+#include "core/base/environment.h"
 #include "core/base/text.h"
 
 #include <fmt/core.h>
@@ -16,11 +17,6 @@
 
 namespace tyndall {
 namespace {
-
-bool is_set(const char* variable) {
-  const char* value = std::getenv(variable);
-  return value && *value;
-}
 
 bool smart_terminal() {
   const char* term = std::getenv("TERM");

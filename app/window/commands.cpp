@@ -54,7 +54,8 @@ void Commands::act(const Request& request) {
 
 /// Carries out the request by the handler of its action. Returns whether there is one.
 bool Commands::act_by(std::span<const Handler> handlers, const Request& request) {
-  const auto found = std::ranges::find(handlers, request.action, &Handler::action);
+  const auto found =
+      std::find_if(handlers.begin(), handlers.end(), [&](const Handler& one) { return one.action == request.action; });
   if (found != handlers.end()) found->act(*this, request);
   return found != handlers.end();
 }
@@ -131,6 +132,7 @@ void Commands::act_on_document(const Request& request) {
 }
 
 void Commands::open_palette() {
+  objects_.look_under_mouse();
   palette_.open(palette_items(session_.editor().scene(), panels_.selected, listed_scenes()));
 }
 

@@ -115,7 +115,7 @@ void MainWindow::note_files() {
   if (session_.shows_picture()) return;
   const std::shared_ptr<const Origin>& origin = session_.editor().document().origin;
   if (std::exchange(noted_, origin) == origin) return;
-  gallery_.note_file(origin->file.empty() ? std::filesystem::path(origin->what) : origin->file);
+  gallery_.note_file(origin->what);
 }
 
 void MainWindow::draw(double now) {

@@ -35,11 +35,12 @@ PictureClick ObjectTools::click_in(const Scene& scene, const Rect& image, float 
   return click_at(image, x, y, size.width, size.height);
 }
 
-void ObjectTools::look_under(float x, float y) {
+void ObjectTools::look_under_mouse() {
   const Scene& scene = session_.editor().scene();
-  const bool over = layout_.image.contains(x, y);
   const Rect& image = layout_.image;
-  const float at_x = over ? x : (image.x0 + image.x1) / 2, at_y = over ? y : (image.y0 + image.y1) / 2;
+  if (!(image.width() > 0)) return;  // nothing was drawn yet
+  const bool over = image.contains(mouse_.x, mouse_.y);
+  const float at_x = over ? mouse_.x : (image.x0 + image.x1) / 2, at_y = over ? mouse_.y : (image.y0 + image.y1) / 2;
   const PictureClick click = click_in(scene, image, at_x, at_y);
   const Renderer::Pick pick = session_.renderers().pick(click.x, click.y);
   spot_ = spot_at(scene, click.at, find_object(scene, pick.object) ? pick.object : ObjectPath{}, pick.point);
@@ -70,13 +71,13 @@ bool ObjectTools::act(Action action) {
     return true;
   }
   if (action == Action::add) {
-    look_under(mouse_.x, mouse_.y);
+    look_under_mouse();
     open_menu("Add here", add_actions);
     return true;
   }
   constexpr Action of_selection[] = {Action::grab, Action::duplicate, Action::remove, Action::rename,
                                      Action::own_material};
-  if (std::ranges::find(of_selection, action) == std::end(of_selection)) return false;
+  if (std::count(std::begin(of_selection), std::end(of_selection), action) == 0) return false;
   if (selected().empty()) return session_.messages().say("select an object first: click on it"), true;
   if (action == Action::grab) handles_.grab(mouse_, selected(), session_.editor().scene());
   if (action == Action::duplicate) duplicate();
@@ -158,7 +159,7 @@ void ObjectTools::click(const Layout& layout, const Mouse& mouse, PressedButton 
   if (button != PressedButton::right) return;
   const ObjectPaths now = selected();
   if (std::find(now.begin(), now.end(), pick.object) == now.end()) select(click, pick, false, false);
-  look_under(mouse.x, mouse.y);
+  look_under_mouse();
   open_menu(selected().empty() ? "Add here" : title_of(scene, panels_.selected), object_actions);
 }
 

@@ -19,6 +19,9 @@ class ObjectTools {
   ObjectTools(Session& session, PanelState& panels, Gestures& gestures, Pacing& pacing)
       : session_(session), panels_(panels), gestures_(gestures), pacing_(pacing) {}
 
+  /// The next object is added where the mouse is now, or in the middle of the picture if it is not over it. Called
+  /// when a list of actions opens, whose lines may lie elsewhere.
+  void look_under_mouse();
   /// Carries out an action on objects; what is no such action is left. Returns whether it was one.
   bool act(Action action);
   /// A key or character that a menu or a movement waits for. Returns whether it was meant for one.
@@ -47,7 +50,6 @@ class ObjectTools {
   void select(const PictureClick& click, const Renderer::Pick& pick, bool more, bool again);
   void focus_on(const Renderer::Pick& pick, bool keep_blur);
   PictureClick click_in(const Scene& scene, const Rect& image, float x, float y) const;
-  void look_under(float x, float y);
   void open_menu(const std::string& title, std::span<const Action> actions);
   void add(Addition what);
   void duplicate();

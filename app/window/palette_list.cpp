@@ -91,7 +91,7 @@ bool requires_scene(const Request& request) {
     const RowEntry& row = row_entries()[static_cast<std::size_t>(request.number)];
     return is_part_of_scene(row.part) || row.label == "Clean";
   }
-  return is_addition(request.action) || std::ranges::find(of_scenes, request.action) != std::end(of_scenes);
+  return is_addition(request.action) || std::count(std::begin(of_scenes), std::end(of_scenes), request.action) > 0;
 }
 
 bool requires_rendering(const Request& request) {

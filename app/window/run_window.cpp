@@ -3,10 +3,10 @@
 #include "app/text/standard_streams.h"
 #include "app/window/document/open_document.h"
 #include "app/window/system/end_signals.h"
+#include "core/base/environment.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 
-#include <cstdlib>
 #include <memory>
 #include <string>
 #include <utility>
@@ -17,11 +17,6 @@
 
 namespace tyndall {
 namespace {
-
-bool is_set(const char* variable) {
-  const char* value = std::getenv(variable);
-  return value && *value;
-}
 
 /// Lets freed memory go back to the system, so that a window that is kept open does not grow. Left to itself, glibc
 /// takes ever larger blocks from its heap, where what is freed stays between what is used: after a quarter of an hour

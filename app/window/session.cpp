@@ -34,7 +34,12 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
       kept_(state_folder(), wake),
       picture_(options.picture),
       function_(options.function),
-      references_(editor_, accuracy_, messages_, wake),
+      references_(
+          editor_,
+          [this] {
+            return Document{*rendered_scene(), editor_.document().origin};
+          },
+          accuracy_, messages_, wake),
       snapshots_({".png", ".exr"}, saving_, messages_, log),
       charts_({".csv", ".svg"}, saving_, messages_, log),
       loading_(wake),
@@ -261,8 +266,8 @@ void Session::render_reference() {
   const bool newest = frame && frame->edit == renderers_.edit(Half::current) && !timer_.waits();
   if (!newest || frame->spp == 0) return messages_.say("there is no picture yet");
   constexpr std::uint32_t minimum = 64;
-  const Scene& scene = *rendered_scene();
-  references_.render({scene, std::max(minimum, frame->spp), wanted_.threads, isa_, "", scene});
+  const std::shared_ptr<const Scene> scene = rendered_scene();
+  references_.render({*scene, std::max(minimum, frame->spp), wanted_.threads, isa_, "", *scene});
 }
 
 void Session::snapshot() {

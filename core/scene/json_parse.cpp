@@ -107,7 +107,7 @@ class TreeBuilder {
  public:
   using Json = nlohmann::json;
 
-  TreeBuilder(std::string_view text, std::pmr::memory_resource* memory) : text_(text), memory_(memory) {}
+  TreeBuilder(std::string_view text, JsonMemory* memory) : text_(text), memory_(memory) {}
 
   JsonValue root;
   std::optional<ParseError> failure;
@@ -150,7 +150,7 @@ class TreeBuilder {
 
  private:
   std::string_view text_;
-  std::pmr::memory_resource* memory_;
+  JsonMemory* memory_;
   std::vector<JsonValue*> open_;  ///< arrays and objects around the next value, from the outermost to the innermost
   std::size_t values_ = 0;
 

@@ -6,7 +6,6 @@
 #include <concepts>
 #include <cstddef>
 #include <memory>
-#include <memory_resource>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,9 +16,54 @@
 /// A JSON document as a tree, between text and Scene. Objects keep their order.
 namespace tyndall {
 
+/// The memory of a tree. Short lists, of which a scene of a million objects has two millions, are cut from large blocks
+/// and given back all together; long ones are on their own.
+class JsonMemory {
+ public:
+  static constexpr std::size_t alignment = 8;
+
+  void* allocate(std::size_t bytes) {
+    if (bytes > longest_short) return ::operator new(bytes);
+    if (bytes > free_) {
+      blocks_.emplace_back(new std::byte[block]);
+      free_ = block;
+    }
+    return blocks_.back().get() + block - std::exchange(free_, free_ - bytes);
+  }
+  void deallocate(void* memory, std::size_t bytes) {
+    if (bytes > longest_short) ::operator delete(memory);
+  }
+
+ private:
+  static constexpr std::size_t longest_short = 4096, block = std::size_t(1) << 16;  // bytes
+  std::vector<std::unique_ptr<std::byte[]>> blocks_;
+  std::size_t free_ = 0;  ///< bytes at the end of the last block
+};
+
+/// Gives lists the memory of a tree; without one, and in copies, that of the program.
+template <class T>
+struct JsonAllocator {
+  using value_type = T;
+  JsonMemory* memory = nullptr;
+
+  JsonAllocator(JsonMemory* of = nullptr) : memory(of) {}
+  template <class Other>
+  JsonAllocator(const JsonAllocator<Other>& other) : memory(other.memory) {}
+  T* allocate(std::size_t count) {
+    static_assert(alignof(T) <= JsonMemory::alignment && sizeof(T) % JsonMemory::alignment == 0);
+    return static_cast<T*>(memory ? memory->allocate(count * sizeof(T)) : ::operator new(count * sizeof(T)));
+  }
+  void deallocate(T* list, std::size_t count) {
+    memory ? memory->deallocate(list, count * sizeof(T)) : ::operator delete(list);
+  }
+  JsonAllocator select_on_container_copy_construction() const { return {}; }
+  bool operator==(const JsonAllocator& other) const = default;
+};
+
+struct JsonValue;
 struct JsonMember;
-using JsonArray = std::pmr::vector<struct JsonValue>;
-using JsonObject = std::pmr::vector<JsonMember>;
+using JsonArray = std::vector<JsonValue, JsonAllocator<JsonValue>>;
+using JsonObject = std::vector<JsonMember, JsonAllocator<JsonMember>>;
 
 struct JsonValue {
   std::variant<std::nullptr_t, bool, double, std::string, JsonArray, JsonObject> value;
@@ -54,24 +98,6 @@ template <class T>
 void put(JsonObject& out, std::string key, T&& value) {
   out.push_back({std::move(key), to_json(std::forward<T>(value))});
 }
-
-/// The memory of a tree. Short lists, of which a scene of a million objects has two millions, are cut from large blocks
-/// and given back all together; long ones are on their own. (The library's pools do as much, but those of GCC 12 end
-/// the program when memory runs out.)
-class JsonMemory final : public std::pmr::memory_resource {
-  static constexpr std::size_t longest_short = 4096;  // bytes
-
-  void* do_allocate(std::size_t bytes, std::size_t alignment) override {
-    return bytes <= longest_short ? short_.allocate(bytes, alignment) : long_->allocate(bytes, alignment);
-  }
-  void do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) override {
-    if (bytes > longest_short) long_->deallocate(memory, bytes, alignment);
-  }
-  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
-
-  std::pmr::monotonic_buffer_resource short_;
-  std::pmr::memory_resource* long_ = std::pmr::new_delete_resource();
-};
 
 /// What a text holds. It stays where it was made, because its values point into its memory; copies of them do not.
 struct JsonDocument {

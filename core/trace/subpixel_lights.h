@@ -89,9 +89,8 @@ TYNDALL_INLINE AtSubpixelLights<F> aim_at_subpixel_lights(SubpixelLights subpixe
   }
   const auto by_chance = less_equal(F(subpixel_light_fraction), even.x);
   for (const SubpixelLight* g = subpixel_lights.first; g != subpixel_lights.last; ++g) {
-    const F right = F(g->left + g->width), bottom = F(g->top + g->height);
-    const auto across = mask_and(less_equal(F(g->left), at.x), less(at.x, right));
-    const auto down = mask_and(less_equal(F(g->top), at.y), less(at.y, bottom));
+    const auto across = mask_and(less_equal(F(g->left), at.x), less(at.x, F(g->left + g->width)));
+    const auto down = mask_and(less_equal(F(g->top), at.y), less(at.y, F(g->top + g->height)));
     const auto inside = mask_or(drawn(*g), mask_and(in_pixel(*g), mask_and(across, down)));
     pdf = select(inside, pdf + F(g->pdf), pdf);
     const IntOf<F> its = IntOf<F>(g->route);

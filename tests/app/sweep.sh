@@ -61,6 +61,9 @@ expect 2 "$tyndall" sweep showroom --vary /camera/vfov=30:40:3 "${small[@]}"
 complains SHEET.png
 expect 2 "$tyndall" sweep showroom "${small[@]}" -o x.png
 complains --vary
+four=(--vary /camera/vfov=30,40 --vary /render/seed=1,2 --vary /camera/focus_distance=1,2 --vary /camera/defocus_angle=1,2)
+expect 2 "$tyndall" sweep showroom "${four[@]}" "${small[@]}" -o x.png
+complains --vary 'found it 4 times'
 expect 3 "$tyndall" sweep showroom --vary /camera/vfov=30:40:3 "${small[@]}" -o missing/x.png
 complains missing
 [ ! -e x.png ] || fail 'a refused sweep wrote a sheet'

@@ -120,7 +120,8 @@ TEST_CASE("clean: nowhere negative, though the light beside bright specks is ext
   Known k = known_picture(96, 64, 0.3f);
   std::mt19937 engine(3);
   for (int speck = 0; speck < 40; ++speck) {
-    const std::ptrdiff_t at = static_cast<int>(engine() % 64u) * k.input.halves.stride() + engine() % 96u;
+    const std::ptrdiff_t at =
+        static_cast<int>(engine() % 64u) * k.input.halves.stride() + static_cast<int>(engine() % 96u);
     for (int c = 0; c < 3; ++c) k.input.halves.plane(3 * (speck % 2) + c)[at] = 300;
   }
   const CleanPicture picture = clean(k.input);

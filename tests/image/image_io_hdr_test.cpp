@@ -41,7 +41,7 @@ TEST_CASE("hdr: keeps 8 bits of the brightest channel, rounded to nearest") {
 
 TEST_CASE("hdr: reads rows that are not compressed, and refuses headers that are something else") {
   const fs::path file = scratch_folder("hdr_kinds") / "a.hdr";
-  const std::string start = "#?RADIANCE\n# a remark\nFORMAT=32-bit_rle_rgbe\n\n";
+  const std::string head = "#?RADIANCE\n# a remark\nFORMAT=32-bit_rle_rgbe\n\n";
   // The first of 4 pixels looks like the start of a row in runs, but rows of fewer than 8 pixels are always plain.
   const std::string pixels(
       "\2\2\0\4"
@@ -49,18 +49,18 @@ TEST_CASE("hdr: reads rows that are not compressed, and refuses headers that are
       "\0\x40\0\x82"
       "\1\2\3\0",
       16);
-  write_text(file, start + "-Y 1 +X 4\n" + pixels);
+  write_text(file, head + "-Y 1 +X 4\n" + pixels);
   CHECK(read_image(file).rgb == std::vector<float>{0x1p-131f, 0x1p-131f, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0});
   const auto refused = [&](const std::string& text) {
     write_text(file, text);
     CHECK_THROWS_AS(read_image(file), ImageFileError);
   };
   refused("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 4\n" + pixels);
-  refused(start + "-Y 4 +Y 1\n" + pixels);
-  refused(start + "-Y 2 +X 4\n" + pixels);
-  refused(start + "-Y 0 +X 4\n" + pixels);
-  refused(start + "-Y -1 +X 4\n" + pixels);
-  refused(start + "-Y 99999999 +X 99999999\n" + pixels);
+  refused(head + "-Y 4 +Y 1\n" + pixels);
+  refused(head + "-Y 2 +X 4\n" + pixels);
+  refused(head + "-Y 0 +X 4\n" + pixels);
+  refused(head + "-Y -1 +X 4\n" + pixels);
+  refused(head + "-Y 99999999 +X 99999999\n" + pixels);
 }
 
 TEST_CASE("hdr: what the format cannot hold becomes the nearest that it can") {

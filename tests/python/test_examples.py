@@ -23,8 +23,10 @@ def test_notebook_runs(capsys):
 
 
 def run_pytest(folder, **variables):
+    """Runs the folder's tests with no other switches than these."""
+    outside = {name: value for name, value in os.environ.items() if name not in ("CI", "TYNDALL_UPDATE")}
     return subprocess.run([sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", str(folder)],
-                          env=dict(os.environ, **variables), capture_output=True, text=True)
+                          env=outside | variables, capture_output=True, text=True)
 
 
 def test_kept_pictures(tmp_path):
@@ -41,3 +43,24 @@ def test_kept_pictures(tmp_path):
     assert run_pytest(folder, TYNDALL_UPDATE="1").returncode == 0
     assert run_pytest(folder).returncode == 0
     assert isinstance(tyndall.Film.load(folder / "baselines/glass-ball.exr").spp, int)
+
+
+def test_switches(tmp_path):
+    """A switch that says no keeps nothing, CI wants pictures that are there, and names may have folders."""
+    folder = tmp_path / "mine"
+    shutil.copytree(assets / "examples/pytest", folder)
+    test, kept = folder / "test_pictures.py", folder / "baselines/balls/glass-ball.exr"
+    test.write_text(test.read_text().replace('"glass-ball"', '"balls/glass-ball"'))
+    for on in ("1", "true", "Jenkins"):
+        missing = run_pytest(folder, CI=on)
+        assert missing.returncode == 1 and "TYNDALL_UPDATE=1 keeps one" in missing.stdout and not kept.exists()
+    assert run_pytest(folder, CI="false").returncode == 0 and kept.exists()
+    before = kept.read_bytes()
+    assert run_pytest(folder, CI="true").returncode == 0
+    test.write_text(test.read_text().replace("return scene", "scene['/camera/vfov'] = 35\n    return scene"))
+    for off in ("0", "no", "False", "OFF", ""):
+        assert run_pytest(folder, TYNDALL_UPDATE=off).returncode == 1
+    unclear = run_pytest(folder, TYNDALL_UPDATE="maybe")
+    assert unclear.returncode == 1 and 'TYNDALL_UPDATE: found "maybe", expected 1' in unclear.stdout
+    assert kept.read_bytes() == before
+    assert run_pytest(folder, CI="true", TYNDALL_UPDATE="Yes").returncode == 0 and kept.read_bytes() != before

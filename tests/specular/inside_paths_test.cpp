@@ -196,9 +196,9 @@ TEST_CASE("specular paths with both ends inside: each event sequence is tried as
       ++checked;
       const double by_plan = same_sequence(sequence, main_sequence(b, ends)) ? static_cast<double>(main_queries(b)) : 0;
       const double expected = (static_cast<double>(expected_queries(b, ends, sequence)) - by_plan) * draws;
-      CAPTURE(outer);
-      CAPTURE(inner);
-      CAPTURE(near_sign);
+      CAPTURE(sequence.outer);
+      CAPTURE(sequence.inner);
+      CAPTURE(sequence.near_sign);
       CHECK(expected > 0);
       CHECK(std::abs(times - expected) < 6 * std::sqrt(expected) + 1);
     }

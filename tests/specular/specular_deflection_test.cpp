@@ -162,8 +162,8 @@ TEST_CASE("specular paths: each event sequence is tried as often as expected_que
       const EventSequence<float> sequence{static_cast<float>(outer), static_cast<float>(inner), 0};
       const double by_plan = same_sequence(sequence, main_sequence(b, ends)) ? static_cast<double>(main_queries(b)) : 0;
       const double expected = (static_cast<double>(expected_queries(b, ends, sequence)) - by_plan) * draws;
-      CAPTURE(outer);
-      CAPTURE(inner);
+      CAPTURE(sequence.outer);
+      CAPTURE(sequence.inner);
       CHECK(std::abs(times - expected) < 6 * std::sqrt(expected) + 1);
     }
     CHECK(longest >= (inner_radius > 0 ? 16 : 8));

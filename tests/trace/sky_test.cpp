@@ -119,7 +119,7 @@ TEST_CASE("sky: the dark texels beside a sun of a million times their radiance a
   const ViewedSky viewed(sunny_sky(1e6f));
   const SkyDistribution& d = *viewed.columns.distribution;
   const std::size_t stride = 65, row = 9 * 2;
-  for (int x = 0; x < 64; ++x) CHECK(d.column_ends[row * stride + x] < d.column_ends[row * stride + x + 1]);
+  for (std::size_t x = 0; x < 64; ++x) CHECK(d.column_ends[row * stride + x] < d.column_ends[row * stride + x + 1]);
   CHECK(d.column_ends[row * stride + 64] == SkyDistribution::draws);
   CHECK(d.row_ends[0] == 0);
   CHECK(d.row_ends.back() == SkyDistribution::draws);

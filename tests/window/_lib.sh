@@ -2,6 +2,7 @@
 # Sourced by the window tests: a real window under Xvfb, driven by xdotool.
 # Arguments of each test: the tyndall binary, a scratch folder, the source root.
 set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/../../third_party/switches.sh"
 script=$(realpath "$0")
 tyndall=$(realpath "$1")
 scratch=$2
@@ -15,7 +16,7 @@ if [ -z "${IN_XVFB:-}" ]; then
   for tool in xvfb-run xdotool python3; do
     command -v "$tool" >/dev/null && continue
     echo "$tool is missing"
-    [ "${CI:-}" = true ] && exit 1
+    ! in_ci || exit 1
     exit 77
   done
   # A folder of this run alone: the screen of the run before may still be ending, and then removes its own picture.

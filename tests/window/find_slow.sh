@@ -56,6 +56,27 @@ chord ctrl z
 wait_for '^gone Lamp_2.name' "$lines"
 settle
 
+# What is added comes where the mouse was when the list opened: no two in one place, and none at the origin.
+# add_at X Y: the height of a ball that is added with the mouse at that part of the picture.
+add_at() {
+  local lines name
+  point picture "$1" "$2"
+  lines=$(here)
+  chord ctrl k
+  type_text 'add a sphere'
+  key Return
+  wait_for '^message added: .* .add a sphere.$' "$lines"
+  name=$(last_of message | sed 's/^added: \(.*\) (.*/\1/; s/ /_/g')
+  wait_for "^widget $name.center.y " "$lines"
+  value "$name.center.y"
+  chord ctrl z
+  wait_for "^gone $name.center.y" "$lines"
+}
+high=$(add_at 50 10)
+low=$(add_at 20 80)
+compares "$high > $low + 0.5" || fail "balls were added at heights $high and $low"
+settle
+
 # The type of the ball from a list; Esc closes the list, not the selection.
 click picture 50 45
 wait_for '^widget picture .* Ball$'

@@ -16,6 +16,7 @@ count=$(find "$cached" -name '*.png' | wc -l)
 click scenes.cover
 wait_for '^message opened cover'
 wait_until has_value scenes.cover on
+! grep -q cover "$XDG_STATE_HOME/tyndall/recent.txt" || fail 'a built-in scene is among the recent files'
 # What is in the cache is not made again: damaged pictures are.
 damaged=$(find "$cached" -name '*.png' | sort | head -1)
 keeps=$(find "$cached" -name '*.png' | sort | tail -1)

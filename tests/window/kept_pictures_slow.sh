@@ -34,7 +34,7 @@ PY
 looks() {
   move 5 5
   settle_without_message
-  if [ -n "${TYNDALL_UPDATE:-}" ]; then
+  if is_on TYNDALL_UPDATE; then
     until shot "$1.png" && sleep 0.5 && shot again.png && cmp -s "$1.png" again.png; do :; done
     "$tyndall" compare "$1.png" --baseline "$kept" --update --max-flip 0.002 >compared
     return

@@ -5,8 +5,9 @@ In conftest.py:  pytest_plugins = ["tyndall.pytest_plugin"]
     def test_cover(tyndall_picture):
         tyndall_picture("cover", tyndall.scene("cover").render(spp=64))
 
-Kept pictures are EXR files in the folder "baselines" beside the test. Where there is none yet, and with
-TYNDALL_UPDATE=1, the picture is kept and the test passes.
+Kept pictures are EXR files in the folder "baselines" beside the test, with folders of their own where names have a "/".
+Where there is none yet, and with TYNDALL_UPDATE=1, the picture is kept and the test passes. In continuous integration
+(CI is set) a missing one fails instead: what is kept there is gone with the machine.
 """
 
 import os
@@ -15,6 +16,16 @@ import pathlib
 import pytest
 
 import tyndall
+
+YES, NO = ("1", "yes", "true", "on"), ("0", "no", "false", "off", "")
+
+
+def is_on(variable):
+    """Whether this switch of the environment is on. Raises tyndall.Error where its value is neither yes nor no."""
+    value = os.environ.get(variable, "")
+    if value.lower() not in YES + NO:
+        raise tyndall.Error(f'{variable}: found "{value}", expected 1, yes, true or on, or 0, no, false, off or nothing')
+    return value.lower() in YES
 
 
 @pytest.fixture
@@ -25,13 +36,18 @@ def tyndall_picture(request):
     errors these may differ by, corrected for the number of tests: noise alone gives more than 4 at most once in 16,000.
     """
     folder = pathlib.Path(request.path).parent / "baselines"
+    update = is_on("TYNDALL_UPDATE")
+    in_ci = os.environ.get("CI", "").lower() not in NO
 
     def check(name, picture, sigmas=4):
         if not isinstance(picture, tyndall.Picture):
             raise tyndall.Error(f"{name}: found {type(picture).__name__}, expected a tyndall.Picture, which knows its noise")
         file = folder / f"{name}.exr"
-        if os.environ.get("TYNDALL_UPDATE") or not file.exists():
-            folder.mkdir(exist_ok=True)
+        if not update and in_ci and not file.exists():
+            pytest.fail(f"{name}: found no {file}, expected a kept picture, as CI is set; TYNDALL_UPDATE=1 keeps one",
+                        pytrace=False)
+        if update or not file.exists():
+            file.parent.mkdir(parents=True, exist_ok=True)
             picture.film.save(file)
             return None
         kept = tyndall.Film.load(file)

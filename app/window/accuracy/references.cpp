@@ -12,11 +12,11 @@ JobQueue::Result References::read(const std::filesystem::path& file, const Docum
 }
 
 void References::open(const std::filesystem::path& file) {
-  editor_.read_in_background([this, file, document = editor_.document()] { return read(file, document); });
+  editor_.read_in_background([this, file, document = shown_()] { return read(file, document); });
 }
 
 void References::open_dropped(const std::filesystem::path& file) {
-  editor_.read_in_background([this, file, document = editor_.document()]() -> JobQueue::Result {
+  editor_.read_in_background([this, file, document = shown_()]() -> JobQueue::Result {
     if (shows_no_scene(file)) {
       if (document.origin->is_picture || !may_be_sky(file)) return read(file, document);
       return [this, file] { doubtful_ = file; };
@@ -35,12 +35,13 @@ void References::render(const ReferenceOrder& order) {
   scene_ = order.shown;
   doing_ = order.name.empty() ? "rendering a reference with another seed" : "rendering the reference " + order.name;
   wanted_ = order.spp;
-  rendered_ = told_ = 0;
+  rendered_ = std::make_shared<std::atomic<std::uint32_t>>(0);
+  told_ = 0;
   messages_.say_until_done(doing_ + " …");
-  rendering_.run([this, order, number]() -> JobQueue::Result {
+  rendering_.run([this, order, number, rendered = rendered_]() -> JobQueue::Result {
     double next = 0;
     const auto progress = [&](std::uint32_t spp) {
-      rendered_ = spp;
+      *rendered = spp;
       if (clock_seconds() >= next) next = clock_seconds() + 0.5, wake_();
       return order_ == number;
     };
@@ -59,14 +60,14 @@ void References::render(const ReferenceOrder& order) {
 
 bool References::collect() {
   if (!busy()) return false;
-  const ReferenceFit fit = fit_of({{scene_.width, scene_.height, {}}, 0, "", scene_, true}, editor_.scene());
+  const ReferenceFit fit = fit_of({{scene_.width, scene_.height, {}}, 0, "", scene_, true}, shown_().scene);
   const bool other = fit == ReferenceFit::other_scene || fit == ReferenceFit::other_size;
   if (other && told_ < wanted_) {
     stop();
     messages_.say("no reference: the scene was changed");
     told_ = wanted_;  // it is told once
   }
-  const std::uint32_t now = rendered_;
+  const std::uint32_t now = *rendered_;
   if (now > told_) {
     told_ = now;
     messages_.say_until_done(doing_ + ": " + format_count(now) + " of " + format_count(wanted_) + " spp");

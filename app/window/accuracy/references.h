@@ -15,9 +15,16 @@ namespace tyndall {
 /// Loads the reference that the user chooses, and tells the user which one is in use.
 class References {
  public:
-  /// wake: called from any thread when collect() has something to do.
-  References(Editor& editor, LiveAccuracy& accuracy, MessageLine& messages, const std::function<void()>& wake)
-      : editor_(editor), accuracy_(accuracy), messages_(messages), wake_(wake), rendering_(wake) {}
+  /// shown: the document as it is on the screen, where its picture may have another size than its file says. wake:
+  /// called from any thread when collect() has something to do.
+  References(Editor& editor, std::function<Document()> shown, LiveAccuracy& accuracy, MessageLine& messages,
+             const std::function<void()>& wake)
+      : editor_(editor),
+        shown_(std::move(shown)),
+        accuracy_(accuracy),
+        messages_(messages),
+        wake_(wake),
+        rendering_(wake) {}
   ~References() { stop(); }
 
   /// Reads an image of the document, in the background.
@@ -42,12 +49,14 @@ class References {
   JobQueue::Result read(const std::filesystem::path& file, const Document& document);
 
   Editor& editor_;
+  std::function<Document()> shown_;
   LiveAccuracy& accuracy_;
   MessageLine& messages_;
   std::function<void()> wake_;
-  std::atomic<std::uint64_t> order_ = 0;     ///< counts up; what is rendered for an older number stops
-  std::atomic<std::uint32_t> rendered_ = 0;  ///< samples a pixel so far
-  std::uint32_t told_ = 0;                   ///< of these, in the newest message
+  std::atomic<std::uint64_t> order_ = 0;  ///< counts up; what is rendered for an older number stops
+  /// Samples a pixel so far. Each order has its own: an older one still counts until it sees that it is one.
+  std::shared_ptr<std::atomic<std::uint32_t>> rendered_;
+  std::uint32_t told_ = 0;  ///< of these, in the newest message
   std::filesystem::path doubtful_;
   Scene scene_;               ///< what the picture on the screen was when this began
   std::string doing_;         ///< "rendering a reference with another seed"

@@ -148,8 +148,9 @@ void add_line(std::vector<HelpLine>& lines, const ActionEntry& entry) {
 std::span<const ActionEntry> actions() { return entries; }
 
 const ActionEntry* find_action(Action action) {
-  const auto* found = std::ranges::find(entries, action, &ActionEntry::action);
-  return found == std::end(entries) ? nullptr : found;
+  for (const ActionEntry& entry : entries)
+    if (entry.action == action) return &entry;
+  return nullptr;
 }
 
 std::optional<Request> request_of_key(int key, Modifiers modifiers) {
@@ -164,7 +165,8 @@ std::optional<Request> request_of_key(int key, Modifiers modifiers) {
 
 std::string text_of(const Key& key) {
   if (key.code == 0) return "";
-  const auto* named = std::ranges::find(named_keys, key.code, &std::pair<int, const char*>::first);
+  const auto* named = std::find_if(std::begin(named_keys), std::end(named_keys),
+                                   [&](const auto& one) { return one.first == key.code; });
   const bool has_name = named != std::end(named_keys);
   return std::string(key.control ? "Ctrl + " : "") + (key.shift ? "Shift + " : "") +
          (has_name ? named->second : std::string(1, static_cast<char>(key.code)));

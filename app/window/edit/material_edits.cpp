@@ -154,11 +154,11 @@ LightColour light_colour(Vec3d radiance) {
   return {{part(radiance.x), part(radiance.y), part(radiance.z)}, power};
 }
 
-Vec3d light_radiance(LightColour light) {
-  const double maximum = max_component(light.colour);
-  if (!(maximum > 0)) return {light.power, light.power, light.power};
-  const Vec3d radiance = (light.power / maximum) * light.colour;
-  const DragRounding drag_rounding{1, decimal_below(std::max(light.power, 1e-30)).exponent - 5};
+Vec3d light_radiance(LightColour emitted) {
+  const double maximum = max_component(emitted.colour);
+  if (!(maximum > 0)) return {emitted.power, emitted.power, emitted.power};
+  const Vec3d radiance = (emitted.power / maximum) * emitted.colour;
+  const DragRounding drag_rounding{1, decimal_below(std::max(emitted.power, 1e-30)).exponent - 5};
   return rounded(radiance, drag_rounding);
 }
 

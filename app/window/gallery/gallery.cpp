@@ -34,12 +34,11 @@ std::vector<fs::path> read_recent_files(const fs::path& list) {
 }
 
 void add_recent_file(const fs::path& list, const fs::path& file) {
-  if (list.empty() || file.empty() || file.string().find('\n') != std::string::npos) return;
+  if (list.empty() || !file.is_absolute() || file.string().find('\n') != std::string::npos) return;
   std::error_code ignored;
-  const fs::path newest = fs::absolute(file, ignored);
   std::vector<fs::path> files = read_recent_files(list);
-  std::erase(files, newest);
-  files.insert(files.begin(), newest);
+  std::erase(files, file);
+  files.insert(files.begin(), file);
   files.resize(std::min(files.size(), max_recent_files));
   std::string text;
   for (const fs::path& one : files) text += one.string() + "\n";
@@ -63,7 +62,6 @@ bool Gallery::collect() {
 }
 
 void Gallery::note_file(const std::filesystem::path& file) {
-  if (file.empty()) return;
   add_recent_file(list_, file);
   recent_ = read_recent_files(list_);
   if (!recent_.empty()) thumbnails_.forget(recent_.front().string());

@@ -16,7 +16,8 @@ inline constexpr std::size_t max_recent_files = 8;
 
 /// The files that the list names and that are there, the newest first. Whatever else is in the list is ignored.
 std::vector<std::filesystem::path> read_recent_files(const std::filesystem::path& list);
-/// Puts a file first in the list: read anew, as another window may have written it. Fails silently.
+/// Puts a file first in the list: read anew, as another window may have written it. What has no absolute path is no
+/// file, but a built-in scene. Fails silently.
 void add_recent_file(const std::filesystem::path& list, const std::filesystem::path& file);
 
 /// By what load_scene takes; null: the scene has no picture.
@@ -38,7 +39,7 @@ class Gallery {
   /// Takes what the background has made. Whether anything is new.
   bool collect();
   bool idle() const { return thumbnails_.idle(); }
-  /// A file was opened or saved: it goes to the head of the recent ones, and its picture is made anew.
+  /// A scene was opened or saved: its file goes to the head of the recent ones, and its picture is made anew.
   void note_file(const std::filesystem::path& file);
 
  private:

@@ -132,7 +132,7 @@ class Legend {
   Legend(const Ui& ui, std::vector<ChartLine> lines, float left, float right)
       : scale_(ui.scale), lines_(std::move(lines)) {
     std::erase_if(lines_, [](const ChartLine& line) { return line.curve->points.empty(); });
-    std::ranges::reverse(lines_);  // the current one first
+    std::reverse(lines_.begin(), lines_.end());  // the current one first
     lines_.push_back({nullptr, "1 % error", target_colour(), 1.5f});
     std::vector<float> widths;
     for (const ChartLine& line : lines_) widths.push_back(ImGui::CalcTextSize(line.name.c_str()).x + 18 * scale_);

@@ -150,15 +150,16 @@ bool three_boxes(Ui& ui, const Row& row, Vec3d& value, float width, const char* 
   const float space = 4 * ui.scale;
   bool changed = false;
   double* components[3] = {&value.x, &value.y, &value.z};
+  ImGui::BeginGroup();  // the row's menu is that of all three
   for (int k = 0; k < 3; ++k) {
     if (k > 0) ImGui::SameLine(0, space);
     Row part = row;
     if (row.original)
       part.original = Vec3d{k == 0 ? row.original->x : k == 1 ? row.original->y : row.original->z, 0, 0};
     changed = value_box(ui, names[k], part, *components[k], (width - 2 * space) / 3, fixed_digits) || changed;
-    changed = row_menu(ui, row, false, value.x) || changed;
   }
-  return changed;
+  ImGui::EndGroup();
+  return row_menu(ui, row, false, value.x) || changed;
 }
 
 }  // namespace

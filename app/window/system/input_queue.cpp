@@ -58,7 +58,8 @@ unsigned waits_for(Role role) {
       {motion, button},
       {scroll, button},
       {focus, ~unsigned(release)}};
-  const auto* rule = std::ranges::find(rules, role, &std::pair<Role, unsigned>::first);
+  const auto* rule =
+      std::find_if(std::begin(rules), std::end(rules), [role](const auto& one) { return one.first == role; });
   return rule == std::end(rules) ? 0 : rule->second;
 }
 

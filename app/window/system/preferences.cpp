@@ -21,12 +21,16 @@ bool take(const std::string& name, const std::string& value, Preferences& prefer
   if (name == "theme") preferences.theme = value == "light" ? Theme::light : Theme::dark;
   if (name == "theme") return value == "light" || value == "dark";
   if (name == "folded") return preferences.folded.insert(value).second;
+  if (name != "text-size" && name != "column") {
+    preferences.others += name + " " + value + "\n";
+    return !name.empty() && name.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") == std::string::npos;
+  }
   double number = 0;
   if (!parse_number(value, "", number)) return false;
   if (name == "text-size") preferences.text_size = number;
   if (name == "text-size") return std::find(text_sizes.begin(), text_sizes.end(), number) != text_sizes.end();
-  if (name == "column") preferences.column = number;
-  return name == "column" && number >= narrowest_column && number <= widest_column;
+  preferences.column = number;
+  return number >= narrowest_column && number <= widest_column;
 }
 
 }  // namespace
@@ -54,6 +58,7 @@ void write_preferences(const std::filesystem::path& file, const Preferences& pre
       fmt::format("clean {}\ntheme {}\ntext-size {}\ncolumn {}\n", preferences.clean ? "on" : "off",
                   preferences.theme == Theme::light ? "light" : "dark", preferences.text_size, preferences.column);
   for (const std::string& section : preferences.folded) text += "folded " + section + "\n";
+  text += preferences.others;
   try {
     write_text_file(file, text);
   } catch (const std::exception&) {

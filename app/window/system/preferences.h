@@ -21,6 +21,7 @@ struct Preferences {
   double text_size = 1;          ///< one of text_sizes
   double column = column_width;  ///< width of the column, in units of the design; see narrowest_column
   std::set<std::string> folded;  ///< names of the sections that are closed
+  std::string others{};          ///< lines that another version wrote, which are kept for it
   bool operator==(const Preferences&) const = default;
 };
 
@@ -28,7 +29,8 @@ struct Preferences {
 /// path.
 std::filesystem::path preferences_file();
 
-/// What the file says; the defaults for what it does not say, and if there is none. Nothing if it is damaged.
+/// What the file says; the defaults for what it does not say, and if there is none. Nothing if it is damaged: lines
+/// without a name, and values that a window cannot have.
 std::optional<Preferences> read_preferences(const std::filesystem::path& file);
 /// Writes the file whole or not at all, and the folders above it. Fails silently: the next start then has the old ones.
 void write_preferences(const std::filesystem::path& file, const Preferences& preferences);

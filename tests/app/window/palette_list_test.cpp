@@ -117,7 +117,7 @@ TEST_CASE("the words of other programs lead to the action or row that is meant t
       {"render", "go to: Render"},
       {"cover", "open: cover"},
   };
-  for (const auto& [text, label] : meant) CHECK_MESSAGE(chosen_by(text) == label, text);
+  for (const auto& one : meant) CHECK_MESSAGE(chosen_by(one.first) == one.second, one.first);
 }
 
 TEST_CASE(

@@ -3,7 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 namespace tyndall::test::session_accuracy_test {
 using test::OpenedSession;
@@ -134,6 +136,44 @@ TEST_CASE("a reference that is being rendered is given up when the scene changes
       [&] { return opened.session->messages().current().text == "no reference: the scene was changed"; }));
   REQUIRE(opened.comes_true([&] { return !opened.session->references().busy(); }));
   CHECK_FALSE(opened.session->accuracy().reference());
+}
+
+TEST_CASE("where the window gives the picture its size, references are of that size") {
+  OpenedSession opened("reference_of_window");
+  Session& session = *opened.session;
+  session.set_picture_size(PictureSize{16, 12});
+  REQUIRE(opened.finishes());
+  session.render_reference();
+  REQUIRE(opened.comes_true([&] { return !session.references().busy(); }));
+  CHECK(session.messages().current().text == "reference: this scene at 64 spp, seed 1");
+  CHECK(session.accuracy().is_true());
+  session.references().drop();
+  write_pfm("window.pfm", {16, 12, std::vector<float>(3 * 16 * 12, 1.0f)});
+  session.references().open("window.pfm");
+  REQUIRE(opened.comes_true([&] { return session.accuracy().is_true(); }));
+  write_pfm("file.pfm", {8, 8, std::vector<float>(192, 1.0f)});
+  session.references().open_dropped("file.pfm");
+  REQUIRE(opened.comes_true([&] { return session.messages().current().error; }));
+  CHECK(session.messages().current().text == "file.pfm: found 8x8 pixels, expected 16x12 as the picture has");
+}
+
+TEST_CASE("a reference in place of one that is being rendered counts its own samples") {
+  OpenedSession opened("reference_again");
+  REQUIRE(opened.finishes());
+  Session& session = *opened.session;
+  LoadedScene other = load_scene("scene.json");
+  other.scene.render.spp = 50'000'000;
+  session.render_reference(other);
+  const auto text = [&] { return session.messages().current().text; };
+  REQUIRE(opened.comes_true([&] { return text().find(',') < text().find(" of 50,000,000 spp"); }));
+  session.render_reference();
+  const std::string most = "rendering a reference with another seed: 64 of 64 spp";
+  while (session.references().busy()) {
+    session.collect();
+    if (text().ends_with(" of 64 spp")) CHECK_MESSAGE(text().size() <= most.size(), text());
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+  }
+  CHECK(session.accuracy().is_true());
 }
 
 }  // namespace tyndall::test::session_accuracy_test

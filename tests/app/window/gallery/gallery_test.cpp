@@ -114,6 +114,8 @@ TEST_CASE("recent files: the newest first, each once, only those that are there;
   CHECK(read_recent_files(list)[0] == files[5]);
   CHECK(read_recent_files(list)[1] == files[9]);
   CHECK(read_recent_files(list).size() == max_recent_files);
+  add_recent_file(list, "showroom");  // a built-in scene takes no place
+  CHECK(read_recent_files(list).size() == max_recent_files);
   fs::remove(files[9]);
   CHECK(read_recent_files(list)[1] == files[8]);
   std::ofstream(list) << "\x01\xff\n/no/such/file\nrelative.json\n" << files[3].string() << "\n";

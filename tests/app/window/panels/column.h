@@ -63,8 +63,8 @@ class Column {
     compat::mouse_pos(ImGui::GetIO(), rect->x0 + static_cast<float>(across) * rect->width(), (rect->y0 + rect->y1) / 2);
     draw();
   }
-  void button(bool down) {
-    compat::mouse_button(ImGui::GetIO(), 0, down);
+  void button(bool down, int which = 0) {
+    compat::mouse_button(ImGui::GetIO(), which, down);
     draw();
   }
   void click(const std::string& name, double across = 0.5) {

@@ -224,4 +224,22 @@ TEST_CASE("the column can be drawn at any size, over an empty scene too") {
   CHECK(ui.problem.empty());
 }
 
+TEST_CASE("the menu of a row has each line once, also where the row has three numbers") {
+  Column column;
+  const auto first_line = [&](const std::string& aim, const std::string& line) {
+    column.aim(aim);
+    const float mouse = ImGui::GetIO().MousePos.y;
+    column.button(true, 1);
+    column.button(false, 1);
+    column.draw();
+    column.draw();
+    REQUIRE_MESSAGE(column.has(line), line);
+    const float y = column.rect(line).y0 - mouse;
+    column.press(ImGuiKey_Escape);
+    return y;
+  };
+  const float slider = first_line("gold.fuzz", "gold.fuzz.vary");
+  CHECK(first_line("camera.look_from.y", "camera.look_from.key") == doctest::Approx(slider).epsilon(0.1));
+}
+
 }  // namespace tyndall::test::panels_test

@@ -172,7 +172,7 @@ TEST_CASE("Ctrl + A within one frame selects all, though Ctrl is let go in it, t
   for (const char c : {'A', 'C', 'V'}) tap(events, c, 0, static_cast<unsigned>(c - 'A' + 'a'));
   tap(events, 'A', control);
   tap(events, 'X', 0, 'x');
-  for (const std::size_t at_once : {1, 2, 3, 100}) CHECK(text_after(events, at_once) == "x");
+  for (const std::size_t at_once : {1u, 2u, 3u, 100u}) CHECK(text_after(events, at_once) == "x");
 }
 
 TEST_CASE("each key acts with its own modifiers and in its turn, however many come within one frame") {

@@ -1,4 +1,5 @@
 #include "app/window/system/preferences.h"
+#include "tests/scene/files.h"
 #include "tests/support/scratch.h"
 
 #include <doctest/doctest.h>
@@ -23,10 +24,23 @@ TEST_CASE("preferences: what was written is read; what is not said has its defau
   CHECK(read_preferences(file) == raw);
 }
 
+TEST_CASE("preferences: what another version wrote is kept for it") {
+  const auto file = scratch_folder("preferences_test") / "window.txt";
+  std::ofstream(file) << "clean off\nbrush-size 3 4\ntheme light\n";
+  auto read = read_preferences(file);
+  REQUIRE(read);
+  CHECK_FALSE(read->clean);
+  CHECK(read->theme == Theme::light);
+  read->clean = true;
+  write_preferences(file, *read);
+  CHECK(text_of(file).find("\nbrush-size 3 4\n") != std::string::npos);
+  CHECK(read_preferences(file) == read);
+}
+
 TEST_CASE("preferences: of a damaged file nothing is taken, and it is set aside once") {
   const auto folder = scratch_folder("preferences_test");
   const auto file = folder / "window.txt";
-  for (const char* text : {"clean perhaps\n", "clean off\nother on\n", "clean off\ntext-size 40\n", "column -1\n",
+  for (const char* text : {"clean perhaps\n", "clean off\nOther on\n", "clean off\ntext-size 40\n", "column -1\n",
                            "column wide\n", "theme", "\x01\x02\n", "text-size nan\n", "folded a\nfolded a\n"}) {
     std::ofstream(file) << text;
     CHECK_MESSAGE(!read_preferences(file), text);
