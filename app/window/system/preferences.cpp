@@ -42,11 +42,14 @@ std::filesystem::path preferences_file() {
 
 std::optional<Preferences> read_preferences(const std::filesystem::path& file) {
   Preferences preferences;
+  std::size_t bytes = 0;
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);) {
     const std::size_t space = line.find(' ');
     if (space == std::string::npos || !take(line.substr(0, space), line.substr(space + 1), preferences)) return {};
+    bytes += line.size() + 1;
   }
+  if (bytes > 0 && preferences.others.size() == bytes) return {};
   return preferences;
 }
 

@@ -30,7 +30,7 @@ struct Preferences {
 std::filesystem::path preferences_file();
 
 /// What the file says; the defaults for what it does not say, and if there is none. Nothing if it is damaged: lines
-/// without a name, and values that a window cannot have.
+/// without a name, values that a window cannot have, or nothing that a window knows.
 std::optional<Preferences> read_preferences(const std::filesystem::path& file);
 /// Writes the file whole or not at all, and the folders above it. Fails silently: the next start then has the old ones.
 void write_preferences(const std::filesystem::path& file, const Preferences& preferences);

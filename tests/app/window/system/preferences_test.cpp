@@ -40,8 +40,9 @@ TEST_CASE("preferences: what another version wrote is kept for it") {
 TEST_CASE("preferences: of a damaged file nothing is taken, and it is set aside once") {
   const auto folder = scratch_folder("preferences_test");
   const auto file = folder / "window.txt";
-  for (const char* text : {"clean perhaps\n", "clean off\nOther on\n", "clean off\ntext-size 40\n", "column -1\n",
-                           "column wide\n", "theme", "\x01\x02\n", "text-size nan\n", "folded a\nfolded a\n"}) {
+  for (const char* text :
+       {"clean perhaps\n", "clean off\nOther on\n", "no preferences\n", "clean off\ntext-size 40\n", "column -1\n",
+        "column wide\n", "theme", "\x01\x02\n", "text-size nan\n", "folded a\nfolded a\n"}) {
     std::ofstream(file) << text;
     CHECK_MESSAGE(!read_preferences(file), text);
   }
