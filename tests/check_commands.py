@@ -110,7 +110,7 @@ class Commands:
         except subprocess.CalledProcessError:
             self.with_exr = False  # a build without OpenEXR
         self.fake = scratch / "root"
-        for name in ("run", "test", "third_party/packages.sh"):
+        for name in ("run", "test", "third_party/packages.sh", "third_party/switches.sh"):
             (self.fake / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(self.root / name, self.fake / name)
         (self.fake / "build/release").mkdir(parents=True)

@@ -54,7 +54,7 @@ bool runs(Target target) {
   }
 }
 
-constexpr const char* build_all = "\"TYNDALL_INSTRUCTION_SETS=all ./run version\" builds all instruction sets";
+constexpr const char* build_all = "; \"TYNDALL_INSTRUCTION_SETS=all ./run version\" builds all instruction sets";
 
 }  // namespace
 
@@ -94,18 +94,20 @@ std::optional<Target> find_target(std::string_view name) {
 
 std::string how_to_build(std::string_view name) {
   for (const Target target : missing_targets())
-    if (name == name_of(target)) return std::string("; ") + build_all;
+    if (name == name_of(target)) return build_all;
   return "";
 }
 
 std::string expected_targets(std::string_view name) {
-  return names_of(available_targets(), " or ") + ", which this build has and this CPU can run" + how_to_build(name);
+  std::string text = names_of(available_targets(), " or ");
+  text += ", which this build has and this CPU can run";
+  return text += how_to_build(name);
 }
 
 std::string slow_build_warning() {
   if (available_targets().back() != Target::scalar || missing_targets().empty()) return "";
   return std::string("this build has only the scalar kernels, which take several times as long as those of ") +
-         name_of(missing_targets().back()) + " on this CPU; " + build_all;
+         name_of(missing_targets().back()) + " on this CPU" + build_all;
 }
 
 }  // namespace tyndall

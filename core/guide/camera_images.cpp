@@ -17,7 +17,6 @@
 namespace tyndall {
 namespace {
 
-constexpr double angle_step = 1e-5;         // of rays beside the path from the camera, radian
 constexpr double places_of_search = 3072;   // of the grid in the picture, about
 constexpr std::size_t max_approached = 64;  // images that are searched for, so that an edit stays quick
 constexpr double max_miss = 0.3;            // sine of the angle by which a path from the grid may pass a light

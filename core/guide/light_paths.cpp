@@ -14,13 +14,10 @@ namespace tyndall {
 namespace {
 
 constexpr double min_reflected = 0.15;  // probability with which a light path is reflected, or refracted, at least
-constexpr double angle_step = 1e-5;     // of nearby rays, radian
 constexpr double move_step = 1e-3;      // of nearby rays, in radii of their light
 constexpr double focus = 1e-11;         // area of a wave front per steradian, over the flight's squared length
 constexpr std::size_t min_kept = 10;    // landings of each sequence, where there are so many
 constexpr double copy_spread = 2;       // copies are rotated by up to this times the distance between light paths
-
-double at(const float* column, int i) { return static_cast<double>(column[i]); }
 
 /// Cosine and sine of a random angle: by the kernels' polynomials, not by the C library.
 SinCos<double> random_angle(double u) {

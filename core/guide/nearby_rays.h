@@ -10,6 +10,8 @@ namespace tyndall {
 inline double squared_length(Vec3d v) { return dot(v, v); }
 inline Vec3d normalized(Vec3d v) { return (1 / std::sqrt(squared_length(v))) * v; }
 
+inline constexpr double angle_step = 1e-5;  ///< between a path and the rays beside it, radian
+
 /// A ray that meets a surface, as its neighbours do.
 struct MetSurface {
   bool is_sphere, inverted, far;  ///< far: the path met the sphere from within

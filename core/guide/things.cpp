@@ -10,8 +10,6 @@ namespace {
 
 constexpr double max_fuzz = 0.3;  // of metal that counts as near-specular
 
-double at(const float* column, int i) { return static_cast<double>(column[i]); }
-
 bool is_near_specular(const SceneView& s, std::int32_t element) {
   const std::int32_t material = s.material[element], kind = s.kind[material];
   if (has_trait<&BsdfTraits::smooth_boundary>(s, kind)) return true;

@@ -8,6 +8,9 @@
 /// The near-specular elements of a scene.
 namespace tyndall {
 
+/// An entry of a column of the scene, in double.
+inline double at(const float* column, int i) { return static_cast<double>(column[i]); }
+
 inline constexpr int max_guide_lights = 16;  ///< that light paths start from: the first ones
 
 inline Vec3d to_double(Vec3f v) {
