@@ -75,8 +75,9 @@ Command read_inspect(Arguments arguments) {
   app->add_flag("--accuracy", accuracy)->group("");  // an option of 0.2.0, which no help lists
   if (auto help = parse(*app, arguments)) return PrintCommand{*help};
   if (accuracy)
-    throw UsageError("--accuracy is no option any more: its table stands in tests/README.md, \"What approximations "
-                     "cost\", and \"tyndall_bench approximations\" makes it anew");
+    throw UsageError(
+        "--accuracy is no option any more: its table stands in tests/README.md, \"What approximations "
+        "cost\", and \"tyndall_bench approximations\" makes it anew");
   require(*app, !command.scene.what.empty(), "SCENE");
   if (!command.isa.empty() && !command.measure) throw UsageError("--isa can only be given with --measure");
   return command;

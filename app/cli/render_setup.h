@@ -14,7 +14,8 @@ namespace tyndall {
 /// The kernels of an instruction set ("": the best). Throws UsageError if this build or CPU has none of that name.
 Kernels find_kernels(const std::string& isa);
 
-/// The same for commands that may run for hours: "" must find more than the scalar kernels where the CPU runs wider ones.
+/// The same for commands that may run for hours: "" must find more than the scalar kernels where the CPU runs wider
+/// ones.
 Kernels kernels_to_render(const std::string& isa);
 
 /// The scene of a command, with --frame the one of that frame.

@@ -2,9 +2,9 @@
 #include "core/base/lanes_twice.h"
 #include "core/base/target.h"
 
-/// The lanes of the instruction set that the including file is compiled for. CMake compiles some files once for each wide
-/// set, with its flags and with TYNDALL_TARGET, its name among the Targets: `avx2`, for example. Older CPUs cannot run
-/// them, so that they must contain nothing but what is called for that set alone.
+/// The lanes of the instruction set that the including file is compiled for. CMake compiles some files once for each
+/// wide set, with its flags and with TYNDALL_TARGET, its name among the Targets: `avx2`, for example. Older CPUs cannot
+/// run them, so that they must contain nothing but what is called for that set alone.
 namespace tyndall {
 
 /// One register of lanes.

@@ -7,9 +7,9 @@
 
 /// The instruction sets that parts of the program are compiled for, and which of them this CPU can run.
 ///
-/// A room with fast code compiles a source file once for each wide target of the build, with that target's flags, and has
-/// a table from targets to functions. Which target is used is decided here, while the program runs, in the same way for
-/// every room.
+/// A room with fast code compiles a source file once for each wide target of the build, with that target's flags, and
+/// has a table from targets to functions. Which target is used is decided here, while the program runs, in the same way
+/// for every room.
 namespace tyndall {
 
 /// In order of width: those of x86-64, then that of 64-bit ARM.
@@ -44,8 +44,8 @@ std::string how_to_build(std::string_view name);
 /// What a message says after "expected" where find_target() has found nothing for `name`.
 std::string expected_targets(std::string_view name);
 
-/// A sentence where the scalar target is the only one available though others are missing, so that pictures take several
-/// times as long as they need; else "".
+/// A sentence where the scalar target is the only one available though others are missing, so that pictures take
+/// several times as long as they need; else "".
 std::string slow_build_warning();
 
 /// use(std::integral_constant<Target, target>()) for a target among those listed: calls what is compiled once for each.

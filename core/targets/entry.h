@@ -70,9 +70,9 @@ TYNDALL_INLINE void first_hits(const SceneView& s, const Region& region, FirstHi
     }
 }
 
-/// Samples of either kind, for kernels that render scenes with and without reuse by one path loop: a loop for each would
-/// take twice as long to compile. It holds the samples of paths that share nothing, which makes them as quick as in a
-/// loop of their own but for a few percent.
+/// Samples of either kind, for kernels that render scenes with and without reuse by one path loop: a loop for each
+/// would take twice as long to compile. It holds the samples of paths that share nothing, which makes them as quick as
+/// in a loop of their own but for a few percent.
 class EitherSamples {
  public:
   /// groups: null, or what is taken in place of the tile job's samples.
@@ -174,11 +174,7 @@ static void first_hits_entry(const SceneView& s, const Region& r, FirstHit* h) {
 template <class F, class Recorder = NoRecorder>
 static Kernels full_kernel_of(const char* isa) {
   const RenderTile render = render_any_entry<F, Recorder>;
-  return {isa,
-          lanes_of<F>,
-          {render, render, render, render, render, render},
-          trace_entry<F>,
-          first_hits_entry<F>};
+  return {isa, lanes_of<F>, {render, render, render, render, render, render}, trace_entry<F>, first_hits_entry<F>};
 }
 
 /// See add_kernel_sets().

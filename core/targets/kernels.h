@@ -22,8 +22,8 @@ using TraceRays = void (*)(const SceneView& scene, const TraceRay* rays, TraceHi
 using FirstHits = void (*)(const SceneView& scene, const Region& region, FirstHit* hits);
 
 struct Kernels {
-  const char* isa;  ///< name of the instruction set: "scalar", "sse4", "avx2", "avx512" or "neon"
-  int lanes;        ///< number of paths that run together
+  const char* isa;                 ///< name of the instruction set: "scalar", "sse4", "avx2", "avx512" or "neon"
+  int lanes;                       ///< number of paths that run together
   RenderTile render[kernel_sets];  ///< by KernelSet; a set that was not compiled has the full kernel
   TraceRays trace;
   FirstHits first_hits;
@@ -52,7 +52,8 @@ template <>
 Kernels full_kernel<Target::avx512>();
 template <>
 Kernels full_kernel<Target::neon>();
-/// Gives the table of the full kernel a kernel of its own for each other KernelSet. Targets of 8 lanes and more have them.
+/// Gives the table of the full kernel a kernel of its own for each other KernelSet. Targets of 8 lanes and more have
+/// them.
 template <Target>
 void add_kernel_sets(Kernels& kernels);
 template <>

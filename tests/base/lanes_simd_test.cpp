@@ -12,8 +12,10 @@ TEST_CASE("lanes: every wide operation does what it does on float, lane by lane"
   for (const Target target : available_targets()) {
     if (target == Target::scalar) continue;
     const auto report = use_target<TYNDALL_BUILT_TARGETS>(target, [](auto built) -> LanesReport {
-      if constexpr (built() == Target::scalar) return {};
-      else return lanes_report_for<built()>();
+      if constexpr (built() == Target::scalar)
+        return {};
+      else
+        return lanes_report_for<built()>();
     });
     CAPTURE(std::string(name_of(target)));
     CHECK(report.lanes == floats_in(target) * (floats_in(target) >= 8 ? 2 : 1));

@@ -132,8 +132,12 @@ Accuracy accuracy_of(Scene scene) {
   const Film exact = film_of(scene);
   Scene books = scene;
   books.render.fresnel = FresnelKind::schlick;
-  return {shift(exact, film_of(books)),     shift_of_depth(scene, exact, 5),    shift_of_depth(scene, exact, 10),
-          shift_of_depth(scene, exact, 50), shift(film_of(scene, test::double_kernels()), exact), shift_of_bytes(exact),
+  return {shift(exact, film_of(books)),
+          shift_of_depth(scene, exact, 5),
+          shift_of_depth(scene, exact, 10),
+          shift_of_depth(scene, exact, 50),
+          shift(film_of(scene, test::double_kernels()), exact),
+          shift_of_bytes(exact),
           shift_of_clean(scene, exact)};
 }
 

@@ -28,15 +28,15 @@ struct WrongResult : std::runtime_error {
 };
 
 // Each part prints its table while it measures, and returns its rows. Throws WrongResult.
-Json measure_throughput(const Settings& settings);  ///< camera samples and rays a second, one thread
-Json measure_accuracy(const Settings& settings);    ///< seconds to a given error, two threads
-Json measure_closest(const Settings& settings);     ///< closest hits a second, beside Embree's
-Json measure_tree(const Settings& settings);        ///< build time and memory of trees over spheres
-Json measure_edits(const Settings& settings);       ///< milliseconds from an edit to its picture
+Json measure_throughput(const Settings& settings);      ///< camera samples and rays a second, one thread
+Json measure_accuracy(const Settings& settings);        ///< seconds to a given error, two threads
+Json measure_closest(const Settings& settings);         ///< closest hits a second, beside Embree's
+Json measure_tree(const Settings& settings);            ///< build time and memory of trees over spheres
+Json measure_edits(const Settings& settings);           ///< milliseconds from an edit to its picture
 Json measure_approximations(const Settings& settings);  ///< how far each approximation moves the mean of pictures
-Json measure_clean(const Settings& settings);       ///< milliseconds that the clean view of a film takes
-Json measure_start(const Settings& settings);       ///< wall time of the smallest render as a process
-Json measure_against(const Settings& settings);     ///< speed and seconds to an error beside another program, in pairs
+Json measure_clean(const Settings& settings);           ///< milliseconds that the clean view of a film takes
+Json measure_start(const Settings& settings);           ///< wall time of the smallest render as a process
+Json measure_against(const Settings& settings);  ///< speed and seconds to an error beside another program, in pairs
 
 struct Part {
   const char* name;

@@ -1,7 +1,6 @@
 #include "core/render/pass.h"
 #include "tests/support/merged.h"
-#include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
+#include "tests/support/same_picture.h"
 #include "tests/support/stopping.h"
 
 #include <doctest/doctest.h>
@@ -14,30 +13,7 @@ namespace tyndall::test::same_picture_test {
 
 namespace {
 
-constexpr int width = 61, height = 43;  // neither is a multiple of a tile's edge
-
-const std::vector<RenderScene>& scenes() {
-  static const std::vector<RenderScene> all = [] {
-    std::vector<RenderScene> list;
-    for (const char* name : {"showroom", "cornell-smoke", "bouncing-spheres", "next-week", "stress-caustic-glass",
-                             "stress-caustic-shell", "stress-mirror-wall", "stress-two-balls"})
-      list.push_back(compile(small_scene(name, width, height, 1)));
-    for (const char* name : {"cornell-box", "cornell-smoke"}) list.push_back(compile(close_up(name, width, height)));
-    list.push_back(compile(caustic_close_up(width, height)));
-    const auto reuses_paths = [](const RenderScene& scene) { return SceneViewOf(scene).view().reuses_paths; };
-    CHECK(std::count_if(list.begin(), list.end(), reuses_paths) == 4);
-    return list;
-  }();
-  return all;
-}
-
-RenderOptions options_of(const Kernels& kernels, std::uint32_t spp) {
-  RenderOptions options;
-  options.threads = 2;
-  options.isa = kernels.isa;
-  options.spp = spp;
-  return options;
-}
+using namespace same_picture;
 
 /// Samples first … last - 1 of the whole picture.
 Film shard(const RenderScene& scene, const Kernels& kernels, std::uint32_t first, std::uint32_t last, int tile = 0) {
@@ -50,23 +26,7 @@ Film shard(const RenderScene& scene, const Kernels& kernels, std::uint32_t first
 }  // namespace
 
 TEST_CASE("same picture: for any number of threads and any tiles, on every instruction set") {
-  for (const Kernels& kernels : available_kernels())
-    for (const RenderScene& scene : scenes()) {
-      CAPTURE(kernels.isa);
-      RenderOptions options = options_of(kernels, 5);
-      options.threads = 1;
-      const Film reference = render(scene, options).film;
-      CHECK(totals(reference).rejected == 0);
-      for (const int threads : {2, 7})
-        for (const int tile : {0, 1, 5, 8, 64, 1000}) {
-          if (tile == 1 && threads == 2) continue;
-          options.threads = threads;
-          options.tile = tile;
-          const Film film = render(scene, options).film;
-          REQUIRE(film == reference);
-          REQUIRE(hash_of(film) == hash_of(reference));
-        }
-    }
+  check_threads_and_tiles({{7, 0}, {2, 5}, {7, 64}});
 }
 
 TEST_CASE("same picture: shards added in any order, whatever their sizes and tiles") {

@@ -23,12 +23,16 @@ using LightOfEvents = void (*)(const SceneView& scene, const WaitingEvent* event
 template <Target>
 void light_of_events_for(const SceneView& scene, const WaitingEvent* events, int count, int together, Vec3f* light);
 template <>
-void light_of_events_for<Target::sse4>(const SceneView& scene, const WaitingEvent* events, int count, int together, Vec3f* light);
+void light_of_events_for<Target::sse4>(const SceneView& scene, const WaitingEvent* events, int count, int together,
+                                       Vec3f* light);
 template <>
-void light_of_events_for<Target::avx2>(const SceneView& scene, const WaitingEvent* events, int count, int together, Vec3f* light);
+void light_of_events_for<Target::avx2>(const SceneView& scene, const WaitingEvent* events, int count, int together,
+                                       Vec3f* light);
 template <>
-void light_of_events_for<Target::avx512>(const SceneView& scene, const WaitingEvent* events, int count, int together, Vec3f* light);
+void light_of_events_for<Target::avx512>(const SceneView& scene, const WaitingEvent* events, int count, int together,
+                                         Vec3f* light);
 template <>
-void light_of_events_for<Target::neon>(const SceneView& scene, const WaitingEvent* events, int count, int together, Vec3f* light);
+void light_of_events_for<Target::neon>(const SceneView& scene, const WaitingEvent* events, int count, int together,
+                                       Vec3f* light);
 
 }  // namespace tyndall::test

@@ -23,8 +23,10 @@ namespace {
 /// Null for the scalar target: its kernels have one lane, so that nothing waits.
 LightOfEvents function_for(Target target) {
   return use_target<TYNDALL_BUILT_TARGETS>(target, [](auto built) -> LightOfEvents {
-    if constexpr (built() == Target::scalar) return nullptr;
-    else return light_of_events_for<built()>;
+    if constexpr (built() == Target::scalar)
+      return nullptr;
+    else
+      return light_of_events_for<built()>;
   });
 }
 

@@ -29,8 +29,7 @@ TEST_CASE("kernel gain: a set's own kernel is compared with the full one and giv
   Scene scene = load_scene("cornell-box").scene;
   scene.width = scene.height = 32;
   const auto box = prepare(scene);
-  if (best.set_for(box->view()) == KernelSet::everything)
-    return;  // this processor's widest set has the full one alone
+  if (best.set_for(box->view()) == KernelSet::everything) return;  // this processor's widest set has the full one alone
   const KernelGain gain = measure_kernel_gain(*box, best);
   CHECK(gain.isa == best.isa);
   CHECK(gain.pairs > 0);
