@@ -3,6 +3,10 @@
 include(${CMAKE_CURRENT_LIST_DIR}/ccache.cmake)
 option(TYNDALL_QUICK_BUILD "compile the files of a room together; OFF: each alone, for quick rebuilds after edits" ON)
 
+# Small rooms that are compiled as one: their headers take longer than they do.
+set(small_rooms "^core_(base|system|film|accuracy)$" "^app_window_(timeline|handles|tools|gallery|inspector|rendering)$"
+    "^app_window_(accuracy|edit|variations)$")
+
 # Compiles the files that lie in one folder as one. Files with compiler options of their own stay alone (the kernels).
 # Two files of a folder may therefore not give one name to two things, not even in unnamed namespaces.
 function(tyndall_join_rooms target)
@@ -13,6 +17,12 @@ function(tyndall_join_rooms target)
     file(RELATIVE_PATH path ${PROJECT_SOURCE_DIR} ${source})
     get_filename_component(room ${path} DIRECTORY)
     string(REPLACE "/" "_" room ${room})
+    foreach(rooms IN LISTS small_rooms)
+      if(room MATCHES "${rooms}")
+        list(FIND small_rooms "${rooms}" number)
+        set(room small_rooms_${number})
+      endif()
+    endforeach()
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${room})
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
