@@ -47,6 +47,8 @@ class Build:
         self.overlay = work / "overlay"
         (work / "clean").mkdir(parents=True, exist_ok=True)
         (work / "planted").mkdir(exist_ok=True)
+        (work / "tyndall_targets.h").write_text("#define TYNDALL_BUILT_TARGETS Target::scalar\n"
+                                                "#define TYNDALL_ALL_TARGETS Target::scalar\n")
         if not (work / "assets").exists():
             (work / "assets").symlink_to(root / "assets")  # a program finds its scenes beside itself
         entries = json.loads((build / "compile_commands.json").read_text())
@@ -60,8 +62,8 @@ class Build:
     def command(self, text):
         """A command without its source and its object, and without instruction sets; assertions are on."""
         words = shlex.split(text)
-        words = words[:words.index("-o")] + ["-O1", "-Wno-error", "-UNDEBUG"]
-        return [word for word in words if not word.startswith(("-DTYNDALL_HAVE_", "-DNDEBUG"))]
+        words = words[:1] + [f"-I{self.work}"] + words[1:words.index("-o")] + ["-O1", "-Wno-error", "-UNDEBUG"]
+        return [word for word in words if word != "-DNDEBUG"]
 
     def compile(self, source, planted):
         """Compiles a file of the root, with what lies in the overlay if `planted`. Returns the object."""
