@@ -29,7 +29,7 @@ std::vector<std::uint8_t> screen_bytes(const LinearImage& image, const Display& 
 }  // namespace
 
 std::vector<std::uint8_t> ycbcr_planes(const std::vector<std::uint8_t>& rgb) {
-  constexpr double red = 0.2126, green = 0.7152, blue = 0.0722;
+  constexpr double red = 0.299, green = 0.587, blue = 0.114;
   const std::size_t pixels = rgb.size() / 3;
   std::vector<std::uint8_t> planes(3 * pixels);
   const auto rounded = [](double value) { return static_cast<std::uint8_t>(std::lround(value)); };

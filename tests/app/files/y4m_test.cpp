@@ -33,10 +33,10 @@ fs::path fresh_file(const char* name) {
 
 }  // namespace
 
-TEST_CASE("y4m: colours in the limited range of BT.709") {
-  // ITU-R BT.709, item 3 and 4: white, black, red, green, blue in 8 bits.
+TEST_CASE("y4m: colours in the limited range of BT.601") {
+  // ITU-R BT.601, table 2: white, black, red, green, blue in 8 bits.
   const auto planes = ycbcr_planes({255, 255, 255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255});
-  const std::vector<std::uint8_t> expected{235, 16, 63, 173, 32, 128, 128, 102, 42, 240, 128, 128, 240, 26, 118};
+  const std::vector<std::uint8_t> expected{235, 16, 81, 145, 41, 128, 128, 90, 54, 240, 128, 128, 240, 34, 110};
   CHECK(planes == expected);
 }
 
