@@ -43,11 +43,12 @@ std::vector<std::uint8_t> ycbcr_planes(const std::vector<std::uint8_t>& rgb) {
   return planes;
 }
 
-/// Readers such as FFmpeg's allow at most 95 bytes.
+/// Readers such as FFmpeg's allow at most 95 bytes. Programs pass over the matrix; films of another one are not gone on
+/// with.
 std::string Y4mFile::header() const {
   return "YUV4MPEG2 W" + std::to_string(format_.width) + " H" + std::to_string(format_.height) + " F" +
          std::to_string(format_.rate) + ":" + std::to_string(format_.rate_divisor) +
-         " Ip A1:1 C444 XCOLORRANGE=LIMITED X" + format_.mark + "\n";
+         " Ip A1:1 C444 XCOLORRANGE=LIMITED XBT601 X" + format_.mark + "\n";
 }
 
 Y4mFile::Y4mFile(const std::filesystem::path& file, const Y4mFormat& format, bool fresh)
