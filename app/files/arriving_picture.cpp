@@ -55,6 +55,7 @@ Beginning beginning_of(int file) {
 std::string first_line_of(int file, std::string begin) {
   constexpr int patience = 100;  // milliseconds: the program may not have written the rest of its line yet
   pollfd watched{file, POLLIN, 0};
+  begin.erase(0, begin.find_first_not_of(" \t\r\n\v\f"));
   while (begin.size() < piece && begin.find('\n') == begin.npos && poll(&watched, 1, patience) > 0) {
     std::array<std::uint8_t, piece> more{};
     const std::size_t got = read_some(file, more.data(), more.size());
@@ -62,10 +63,9 @@ std::string first_line_of(int file, std::string begin) {
     begin.append(more.begin(), more.begin() + static_cast<std::ptrdiff_t>(got));
   }
   const std::span bytes(reinterpret_cast<const std::uint8_t*>(begin.data()), begin.size());
-  if (image_kind(bytes) != ImageKind::unknown) return "a picture of another kind";
+  if (image_kind(bytes) != ImageKind::unknown && begin[0] != 'P') return "a picture of another kind";
   if (begin.starts_with("\xff\xfe") || begin.starts_with("\xfe\xff")) return "text in UTF-16";
   if (begin.starts_with("\xef\xbb\xbf")) return "a byte order mark";
-  begin.erase(0, begin.find_first_not_of(" \t\r\n\v\f"));
   return in_quotes(printable(shortened(begin.substr(0, begin.find_first_of("\r\n")), 60)));
 }
 

@@ -3,9 +3,8 @@
 Usage: _foreign.py FILE.pbrt|FILE.xml|FILE.py WIDTHxHEIGHT OUT.pfm
 
 Own code, from the formats' pages: pbrt.org/fileformat-v4, mitsuba.readthedocs.io, docs.blender.org. Prints the number of
-shapes, of inward normals of what is no light, and of lights, and the sky's picture (Mitsuba, Blender) towards SKY_TOWARDS.
-Fails where a light shines on one side alone, where a surface is in a medium on its outer side, and where a picture is not
-there.
+shapes, of inward normals of what is no light, and of lights. Fails where a light shines on one side alone, where a surface is
+in a medium on its outer side, and where a picture is not there.
 """
 import ast
 import json
@@ -57,7 +56,8 @@ def turned(a, angle, axis):
 
 
 class Scene:
-    """Spheres (center, radius), flats (corner, u, v, within) and ray(x, y) for x, y in [0, 1], y down.
+    """Spheres (center, radius), flats (corner, u, v, within), sky (Mitsuba, Blender: the radiance of its picture towards
+    SKY_TOWARDS) and ray(x, y) for x, y in [0, 1], y down.
 
     within(a, b): whether the point corner + a u + b v belongs to the flat.
     """
@@ -322,8 +322,6 @@ def main(file, size, out):
         for row in reversed(rows):
             picture.write(struct.pack(f"<{len(row)}f", *row))
     print(len(scene.spheres) + len(scene.flats), "shapes,", scene.inward, "inward,", scene.lights, "lights")
-    if scene.sky:
-        print("sky", *(f"{c:.4f}" for c in scene.sky))
 
 
 if __name__ == "__main__":

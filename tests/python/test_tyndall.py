@@ -182,7 +182,7 @@ def test_progress_stops_by_what_is_false_but_none():
 
 
 def test_scenes_are_copied_and_pickled(tmp_path, monkeypatch):
-    for scene in (small("cover"), tyndall.scene("earth"), tyndall.scene({"objects": []})):
+    for scene in (small("cover"), tyndall.scene("earth"), tyndall.scene()):
         for again in (copy.deepcopy(scene), copy.copy(scene), pickle.loads(pickle.dumps(scene))):
             assert again == scene and again is not scene
             again["/camera/vfov"] = 33
