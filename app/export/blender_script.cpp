@@ -122,7 +122,8 @@ def surface(tree, material, round_shape):
         return node(tree, "ShaderNodeBsdfGlass", values, distribution="GGX")
     colour = colour_of(tree, material, round_shape)
     if kind == "metal":
-        return node(tree, "ShaderNodeBsdfGlossy", [("Color", colour), ("Roughness", 0.0)], distribution="GGX")
+        glossy = "ShaderNodeBsdfGlossy" if hasattr(bpy.types, "ShaderNodeBsdfGlossy") else "ShaderNodeBsdfAnisotropic"
+        return node(tree, glossy, [("Color", colour), ("Roughness", 0.0)], distribution="GGX")
     if kind == "light":
         return node(tree, "ShaderNodeEmission", [("Color", colour), ("Strength", 1.0)])
     return node(tree, "ShaderNodeBsdfDiffuse", [("Color", colour), ("Roughness", 0.0)])

@@ -43,6 +43,9 @@ done
 for ending in pbrt xml; do # the sky: bright and white below, blue above
   [ -s scene.$ending.sky.pfm ] || fail "no sky of $ending"
 done
+# Blender: versions that were not tried are not promised; names that newer ones lack are not used.
+grep -q 'Blender 3.4 to 3.6' scene.py || fail 'the script does not say for which versions it is'
+for gone in SHARP colorspace_settings images.load; do ! grep -q "$gone" scene.py || fail "the script uses $gone"; done
 expect 0 "$tyndall" convert cornell-smoke -o smoke.pbrt
 same 'media of pbrt' 2 "$(grep -c '^MakeNamedMedium' smoke.pbrt)"
 
