@@ -132,13 +132,15 @@ Command read_animate(const std::vector<std::string>& arguments) {
       "  tyndall animate showroom --turntable --frames 48 --spp 16 -o 'turn-%04d.png'\n"
       "  tyndall animate showroom --turntable --frames 48 --spp 16 -o turn.y4m\n"
       "  tyndall animate film.json --frame-range 0:24 -o 'f/%04d.exr'\n"
-      "  tyndall animate film.json -o - | ffmpeg -i - film.mp4");
+      "  tyndall animate film.json -o - |\n"
+      "    ffmpeg -i - -vf format=yuv420p,crop -crf 4 -x264-params chroma-qp-offset=-12 -colorspace smpte170m \\\n"
+      "      -color_primaries bt709 -color_trc iec61966-2-1 -color_range tv film.mp4");
   add_scene(*app, render.scene);
   add_frames(*app, command);
   app->option_defaults()->group("Output");
   add_values(*app, "-o,--output", "FILE",
              "'f/%04d.png', a file for each frame, any of render's formats;\n"
-             ".y4m, or - for standard output: 8 bits, 4:4:4, BT.709; repeatable;\nrequired",
+             ".y4m, or - for standard output: 8 bits, 4:4:4, BT.601; repeatable;\nrequired",
              [&](Text t) { render.outputs.emplace_back(t); });
   add_forms(*app, render.form);
   add_picture_options(*app, render);

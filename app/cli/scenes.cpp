@@ -30,7 +30,7 @@ std::optional<ForeignFile> foreign_file(const Scene& scene, const std::string& n
   const std::string ending = lower_case(output.extension().string());
   if (ending == ".pbrt") return pbrt_file(scene, name, output.string());
   if (ending == ".xml") return mitsuba_file(scene, name, output.string());
-  if (ending == ".py") return blender_file(scene, name);
+  if (ending == ".py") return blender_file(scene, name, output.string());
   return {};
 }
 
@@ -59,12 +59,13 @@ int run(const ConvertCommand& command) {
     write_standard_output(text);
   } else {
     std::vector<Output> outputs{{"--output", command.output}};
-    const bool has_sky = foreign && !foreign->sky_name.empty(), has_mesh = foreign && !foreign->mesh_name.empty();
-    if (has_sky) outputs.push_back({"--output", folder / foreign->sky_name});
+    const bool has_mesh = foreign && !foreign->mesh_name.empty();
+    const auto pictures = foreign ? foreign->pictures : decltype(foreign->pictures){};
+    for (const auto& [name, pixels] : pictures) outputs.push_back({"--output", folder / name});
     if (has_mesh) outputs.push_back({"--output", folder / foreign->mesh_name});
     check_outputs(outputs, loaded.files);
     check_can_write(outputs);
-    if (has_sky) write_pfm(folder / foreign->sky_name, {foreign->sky_width, foreign->sky_height, foreign->sky});
+    for (const auto& [name, pixels] : pictures) write_pfm(folder / name, pixels);
     if (has_mesh) write_text_or_rescue(folder / foreign->mesh_name, foreign->mesh);
     write_text_or_rescue(command.output, text);
   }

@@ -121,11 +121,11 @@ LoadedScene scene_of(const ArrivingPicture& picture, const ViewCommand& command)
   return loaded;
 }
 
-/// Shows what a program writes to standard input, as it comes. first: the byte with which it begins.
-int view_picture(const ViewCommand& command, char first) {
+/// Shows what a program writes to standard input, as it comes. begin: the bytes with which it begins.
+int view_picture(const ViewCommand& command, const std::string& begin) {
   refuse_scene_options(command);
   check_files(command, {});
-  const auto picture = std::make_shared<ArrivingPicture>(STDIN_FILENO, first, standard_input, command.ppm);
+  const auto picture = std::make_shared<ArrivingPicture>(STDIN_FILENO, begin, standard_input, command.ppm);
   const LoadedScene loaded = scene_of(*picture, command);
   check_memory(loaded.scene);
   return open_window("the program's picture can be kept in a file: > image.ppm in place of | tyndall view -", [&] {
@@ -173,11 +173,16 @@ int view_scene(const ViewCommand& command) {
 
 int run(const ViewCommand& command) {
   if (command.scene.what != "-") return view_scene(command);
-  const auto first = first_byte_of(STDIN_FILENO);
-  if (!first)
+  const Beginning begin = beginning_of(STDIN_FILENO);
+  if (begin.bytes.empty())
     throw UsageError(std::string(standard_input) + ": found nothing, expected a scene, or a picture (P3 or P6)");
-  if (*first == 'P') return view_picture(command, *first);
-  std::ungetc(*first, stdin);
+  if (begin.is_picture) return view_picture(command, begin.bytes);
+  if (!begin.is_scene)
+    throw UsageError(std::string(standard_input) + ": found " + first_line_of(STDIN_FILENO, begin.bytes) +
+                     ", expected P3 or P6 as the first bytes, or a scene's {; what a program says besides its picture "
+                     "belongs on standard error (std::cerr)");
+  // The C library takes back as many bytes as it is given.
+  std::for_each(begin.bytes.rbegin(), begin.bytes.rend(), [](char byte) { std::ungetc(byte, stdin); });
   return view_scene(command);
 }
 

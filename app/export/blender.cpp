@@ -4,6 +4,7 @@
 #include "core/base/text.h"
 #include "core/compile/columns.h"
 
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <string_view>
@@ -16,7 +17,8 @@ using Json = nlohmann::ordered_json;
 
 Json json_of(Vec3d v) { return {v.x, v.y, v.z}; }
 
-Json texture(const Texture& texture) {
+/// picture: the name of the image's copy.
+Json texture(const Texture& texture, const std::string& picture) {
   return std::visit(
       Overloaded{
           [](const Solid<>& s) {
@@ -25,8 +27,8 @@ Json texture(const Texture& texture) {
           [](const Checker<>& c) {
             return Json{{"type", "checker"}, {"scale", c.scale}, {"even", json_of(c.even)}, {"odd", json_of(c.odd)}};
           },
-          [](const Image& i) {
-            return Json{{"type", "image"}, {"file", all_printable(i.file)}};
+          [&](const Image&) {
+            return Json{{"type", "image"}, {"file", picture}};
           },
           [](const auto& other) {
             return Json{{"type", other.type}};
@@ -44,7 +46,8 @@ Json material(const Material& m) {
   return json;
 }
 
-Json background(const Background& background) {
+/// picture: the name of the copy of the sky's picture.
+Json background(const Background& background, const std::string& picture) {
   return std::visit(
       Overloaded{[](const Vec3d& c) {
                    return Json{{"type", "constant"}, {"low", json_of(c)}, {"high", json_of(c)}};
@@ -55,11 +58,18 @@ Json background(const Background& background) {
                  [](const Hemispheres& h) {
                    return Json{{"type", "hemispheres"}, {"low", json_of(h.down)}, {"high", json_of(h.up)}};
                  },
-                 [](const SkyPicture& s) {
-                   return Json{
-                       {"type", "image"}, {"file", all_printable(s.file)}, {"degrees", s.rotate_y}, {"scale", s.scale}};
+                 [&](const SkyPicture& s) {
+                   return Json{{"type", "image"}, {"file", picture}, {"degrees", s.rotate_y}, {"scale", s.scale}};
                  }},
       background);
+}
+
+/// Their sky mixes the first row with the last one, up to half of a row from the poles: rows so many that this is not
+/// seen, of which every third, fifth, … lies where one of ours does.
+LinearImage sky_copy(const Image::Pixels& sky) {
+  int times = 1;
+  while (times * sky.height < 512) times += 2;
+  return sky_in_rows(sky, times * sky.height, [](int row, int rows) { return (row + 0.5) / rows; });
 }
 
 Json shape(const ForeignShape& s) {
@@ -98,9 +108,9 @@ Json camera(const Camera& c, const ForeignScene& foreign) {
 }  // namespace
 }  // namespace blender
 
-ForeignFile blender_file(const Scene& scene, const std::string& name) {
+ForeignFile blender_file(const Scene& scene, const std::string& name, const std::string& file) {
   using namespace blender;
-  const ForeignRenderer cycles{"Blender's Cycles", true, true, true, true, true, false, true, true};
+  const ForeignRenderer cycles{"Blender's Cycles", true, true, true, true, true, false, true, true, true};
   const ForeignScene foreign = foreign_scene(scene, name, cycles);
   Json json{{"name", all_printable(scene.name.empty() ? name : scene.name)},
             {"width", scene.width},
@@ -109,17 +119,25 @@ ForeignFile blender_file(const Scene& scene, const std::string& name) {
             {"spp", scene.render.spp.value_or(64)},
             {"seed", scene.render.seed & 0x7fffffffu},
             {"camera", camera(scene.camera, foreign)},
-            {"background", background(scene.background)}};
+            {"background", background(scene.background, beside(file, ".py.sky.pfm"))}};
+  ForeignFile out;
+  if (const auto* sky = std::get_if<SkyPicture>(&scene.background))
+    out.pictures.emplace_back(beside(file, ".py.sky.pfm"), sky_copy(*sky->pixels));
   for (const char* list : {"textures", "materials", "media", "shapes"}) json[list] = Json::array();
-  for (const Texture& t : scene.textures) json["textures"].push_back(texture(t));
+  for (const Texture& t : scene.textures) {
+    const std::string picture = beside(file, fmt::format(".py.texture-{}.pfm", json["textures"].size()));
+    json["textures"].push_back(texture(t, picture));
+    if (const auto* image = std::get_if<Image>(&t.kind))
+      out.pictures.emplace_back(picture, LinearImage{image->pixels->width, image->pixels->height, image->pixels->rgb});
+  }
   for (const Material& m : scene.materials) json["materials"].push_back(material(m));
   for (const ForeignMedium& m : foreign.media)
     json["media"].push_back({{"sigma_t", m.sigma_t}, {"g", m.g}, {"albedo", json_of(m.albedo)}});
   for (const ForeignShape& s : foreign.shapes) json["shapes"].push_back(shape(s));
   // The scene is one string of ASCII in the script, and JSON in that: nothing in it can become a statement.
   const std::string data = Json(json.dump(-1, ' ', true)).dump(-1, ' ', true);
-  return {
-      std::string(blender_script_head) + "DATA = " + data + "\n" + std::string(blender_script), {}, {}, 0, 0, {}, {}};
+  out.text = std::string(blender_script_head) + "DATA = " + data + "\n" + std::string(blender_script);
+  return out;
 }
 
 }  // namespace tyndall

@@ -2,7 +2,8 @@
 
 namespace tyndall {
 
-const char* const blender_script_head = R"py("""A scene for Blender (3.4 or newer, Cycles), by tyndall convert.
+const char* const blender_script_head =
+    R"py("""A scene for Blender 3.4 to 3.6 (Cycles), by tyndall convert. It was tried with 3.4.1.
 
 blender -b --factory-startup -P THIS.py                           builds the scene
 blender -b --factory-startup -P THIS.py -- OUTPUT.exr [SAMPLES]   and renders it
@@ -14,6 +15,7 @@ emission strength 1 is radiance 1. Spheres are meshes of 256 x 128 faces with sm
 )py";
 
 const char* const blender_script = R"py(
+import array
 import json
 import math
 import os
@@ -70,10 +72,35 @@ def checker(tree, texture):
     return mixed(tree, odd, texture["even"], texture["odd"])
 
 
-def picture(tree, texture, extension):
-    file = os.path.join(os.path.dirname(os.path.abspath(__file__)), texture["file"])
-    made = node(tree, "ShaderNodeTexImage", interpolation="Linear", extension=extension)
-    made.image = bpy.data.images.load(file)
+def picture_in(file):
+    """A PFM beside this script: linear, rows from below."""
+    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), file), "rb") as data:
+        data.readline()
+        width, height = map(int, data.readline().split())
+        little = float(data.readline()) < 0
+        values = array.array("f", data.read())
+    if little != (sys.byteorder == "little"):
+        values.byteswap()
+    pixels = array.array("f", [1.0]) * (4 * width * height)
+    for channel in range(3):
+        pixels[channel::4] = values[channel::3]
+    made = bpy.data.images.new(file, width, height, float_buffer=True)
+    made.pixels.foreach_set(pixels)
+    made.pack()
+    return made
+
+
+def picture(tree, texture, round_shape):
+    """Around spheres u goes on from 1 to 0; v, and u elsewhere, end in the middle of the last pixel."""
+    image = picture_in(texture["file"])
+    at = node(tree, "ShaderNodeTexCoord").outputs["UV"]
+    if round_shape:
+        edge = 0.5 / image.size[1]
+        for operation, limit in (("MAXIMUM", (-1.0, edge, 0.0)), ("MINIMUM", (2.0, 1.0 - edge, 0.0))):
+            at = node(tree, "ShaderNodeVectorMath", [(0, at), (1, limit)], operation=operation).outputs[0]
+    made = node(tree, "ShaderNodeTexImage", [("Vector", at)], interpolation="Linear",
+                extension="REPEAT" if round_shape else "EXTEND")
+    made.image = image
     return made.outputs["Color"]
 
 
@@ -85,17 +112,18 @@ def colour_of(tree, material, round_shape):
         return rgba(texture["colour"])
     if texture["type"] == "checker":
         return checker(tree, texture)
-    return picture(tree, texture, "REPEAT" if round_shape else "EXTEND")
+    return picture(tree, texture, round_shape)
 
 
 def surface(tree, material, round_shape):
     kind = material["type"]
     if kind == "dielectric":
         values = [("Color", (1, 1, 1, 1)), ("Roughness", 0.0), ("IOR", material["index"])]
-        return node(tree, "ShaderNodeBsdfGlass", values, distribution="SHARP")
+        return node(tree, "ShaderNodeBsdfGlass", values, distribution="GGX")
     colour = colour_of(tree, material, round_shape)
     if kind == "metal":
-        return node(tree, "ShaderNodeBsdfGlossy", [("Color", colour), ("Roughness", 0.0)], distribution="SHARP")
+        glossy = "ShaderNodeBsdfGlossy" if hasattr(bpy.types, "ShaderNodeBsdfGlossy") else "ShaderNodeBsdfAnisotropic"
+        return node(tree, glossy, [("Color", colour), ("Roughness", 0.0)], distribution="GGX")
     if kind == "light":
         return node(tree, "ShaderNodeEmission", [("Color", colour), ("Strength", 1.0)])
     return node(tree, "ShaderNodeBsdfDiffuse", [("Color", colour), ("Roughness", 0.0)])
@@ -195,9 +223,17 @@ def add_sphere(shape):
     for time, at in ((0, "center"), (1, "center_end")):
         thing.location = world(shape[at])
         thing.keyframe_insert("location", frame=time - opens)
-    for curve in thing.animation_data.action.fcurves:
+    for curve in curves_of(thing.animation_data.action):
         for key in curve.keyframe_points:
             key.interpolation = "LINEAR"
+
+
+def curves_of(action):
+    """Newer versions keep them in layers."""
+    if hasattr(action, "fcurves"):
+        return action.fcurves
+    return [curve for layer in action.layers for strip in layer.strips for bag in strip.channelbags
+            for curve in bag.fcurves]
 
 
 def add_mesh(name, points, faces, uvs, shape):
@@ -272,8 +308,7 @@ def add_background():
         direction = node(tree, "ShaderNodeTexCoord").outputs["Generated"]
         turned = node(tree, "ShaderNodeVectorRotate", [("Vector", direction), ("Angle", angle)], rotation_type="Z_AXIS")
         made = node(tree, "ShaderNodeTexEnvironment", [("Vector", turned.outputs[0])], interpolation="Linear")
-        made.image = bpy.data.images.load(os.path.join(os.path.dirname(os.path.abspath(__file__)), sky["file"]))
-        made.image.colorspace_settings.name = "Linear"
+        made.image = picture_in(sky["file"])
         colour = made.outputs["Color"]
     else:
         colour = rgba(sky["low"])

@@ -162,6 +162,9 @@ void add_media(const Scene& scene, const Flattened& flat, const Refusal& refuse,
       continue;
     }
     ForeignShape& shape = out.shapes[static_cast<std::size_t>(*volume.surface)];
+    const Material& material = scene.materials[static_cast<std::size_t>(shape.material)];
+    if (!refuse.renderer.media_in_lights && std::holds_alternative<Light<double>>(material.kind))
+      refuse("/objects", "a medium within a light", "one within another surface");
     if (const auto* sphere = std::get_if<ForeignSphere>(&shape.shape); sphere && sphere->inward)
       refuse("/objects", "a medium within a sphere of negative radius", "a positive one");
     if (shape.medium >= 0) refuse("/objects", "two media within one surface", "one");
@@ -202,8 +205,27 @@ double focus_of(const Camera& camera) {
   return camera.focus_distance.value_or(length(camera.look_at - camera.look_from));
 }
 
+LinearImage sky_in_rows(const Image::Pixels& sky, int rows, double (*place)(int row, int rows)) {
+  LinearImage out{std::max(sky.width, 2), rows, {}};
+  out.rgb.reserve(3 * static_cast<std::size_t>(out.width) * static_cast<std::size_t>(rows));
+  for (int y = 0; y < rows; ++y) {
+    const double at = std::clamp(place(y, rows) * sky.height - 0.5, 0.0, sky.height - 1.0);
+    const int above = static_cast<int>(at), below = std::min(above + 1, sky.height - 1);
+    for (int x = 0; x < out.width; ++x)
+      for (int c = 0; c < 3; ++c) {
+        const auto texel = [&](int row) {
+          return static_cast<double>(sky.rgb[3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(sky.width) +
+                                                  static_cast<std::size_t>(x % sky.width)) +
+                                             static_cast<std::size_t>(c)]);
+        };
+        out.rgb.push_back(static_cast<float>(texel(above) + (at - above) * (texel(below) - texel(above))));
+      }
+  }
+  return out;
+}
+
 std::string beside(const std::string& file, const std::string& ending) {
-  return std::filesystem::path(file.empty() ? "scene" : file).stem().string() + ending;
+  return all_printable(std::filesystem::path(file.empty() ? "scene" : file).stem().string()) + ending;
 }
 
 }  // namespace tyndall

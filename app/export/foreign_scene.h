@@ -1,7 +1,9 @@
 #pragma once
 #include "core/compile/flatten.h"
+#include "core/image/image.h"
 
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -60,6 +62,7 @@ struct ForeignRenderer {
   bool depth_zero = false;  ///< pictures of lights and background alone
   bool ellipses = false;    ///< disks whose half axes differ or are not at right angles
   bool rings = false;
+  bool media_in_lights = false;  ///< within a light's surface
 };
 
 struct ForeignScene {
@@ -75,20 +78,24 @@ ForeignScene foreign_scene(const Scene& scene, const std::string& name, const Fo
 /// The equal of a scene for a renderer, as the text of a file.
 struct ForeignFile {
   std::string text;
-  std::string sky_name;    ///< of a picture of the background beside the file (PFM); empty: none is needed
-  std::vector<float> sky;  ///< linear RGB, top row first
-  int sky_width = 0, sky_height = 0;
+  /// Names and pixels of PFM beside the file: skies and textures as they are read here. Names of ours need not be files
+  /// there (a layer of an EXR), and others read the same files in other ways (EXPOSURE in .hdr, profiles,
+  /// orientations).
+  std::vector<std::pair<std::string, LinearImage>> pictures;
   std::string mesh_name, mesh;  ///< of a mesh (PLY) beside the file, and its text; empty: none is needed
 };
 /// file: where the text is to lie. Throw SceneError as foreign_scene() does.
 ForeignFile pbrt_file(const Scene& scene, const std::string& name, const std::string& file);
 ForeignFile mitsuba_file(const Scene& scene, const std::string& name, const std::string& file);
-ForeignFile blender_file(const Scene& scene, const std::string& name);
+ForeignFile blender_file(const Scene& scene, const std::string& name, const std::string& file);
 
 /// "1 2 3", with `between` between the numbers.
 std::string numbers_of(Vec3d v, const char* between = " ");
 /// Distance of the plane in focus, along the axis.
 double focus_of(const Camera& camera);
+/// A sky's picture in rows of another number: as it is seen at the distances from its top, of 1, that `place` gives for
+/// each of them. At least two columns.
+LinearImage sky_in_rows(const Image::Pixels& sky, int rows, double (*place)(int row, int rows));
 /// The first name without folder and ending, with another ending: "a/box.pbrt" gives "box.exr".
 std::string beside(const std::string& file, const std::string& ending);
 

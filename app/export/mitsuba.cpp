@@ -13,9 +13,9 @@
 /// Scenes for Mitsuba 3 (W. Jakob et al., https://mitsuba.readthedocs.io), for its variants of RGB.
 ///
 /// Its conventions: max_depth counts segments, one more than our events; a sphere's normal that points inward is
-/// flip_normals; surfaces have one side unless they are "twosided"; lights shine on the side of their normal, so a flat
-/// light becomes two shapes, a millionth of its size apart; triangles are meshes in files of their own; a surface
-/// without "bsdf" is grey, so lights get a black one.
+/// flip_normals; surfaces have one side unless they are "twosided"; lights shine on the side of their normal, so a
+/// light becomes two shapes, a millionth of its size and distance from the origin apart; triangles are meshes in files
+/// of their own; a surface without "bsdf" is grey, so lights get a black one.
 namespace tyndall {
 namespace mitsuba {
 namespace {
@@ -34,34 +34,39 @@ std::string point(const char* name, Vec3d p) {
                      number_text(p.z));
 }
 
-/// Rows of a sky that depends on the height alone: from straight above to straight below.
-void fill_sky(const Scene& scene, ForeignFile& out) {
-  constexpr int rows = 2048, columns = 4;
-  out.sky_width = columns, out.sky_height = rows;
-  for (int y = 0; y < rows; ++y) {
-    const double height = std::cos((y + 0.5) / rows * std::numbers::pi);
+/// Where their rows lie, of 1: the first one straight above, the last one straight below.
+double place_of_row(int row, int rows) { return static_cast<double>(row) / (rows - 1); }
+
+/// Rows of a sky that depends on the height alone.
+LinearImage sky_of_heights(const Scene& scene) {
+  LinearImage out{4, 2049, {}};
+  for (int y = 0; y < out.height; ++y) {
+    const double height = std::cos(place_of_row(y, out.height) * std::numbers::pi);
     const Vec3d colour =
         std::visit(Overloaded{[](const Vec3d& c) { return c; },
                               [&](const Gradient& g) { return g.bottom + (height + 1) / 2 * (g.top - g.bottom); },
                               [&](const Hemispheres& h) { return height > 0 ? h.up : h.down; },
                               [](const SkyPicture&) { return Vec3d{}; }},
                    scene.background);
-    for (int x = 0; x < columns; ++x)
-      for (const double c : {colour.x, colour.y, colour.z}) out.sky.push_back(static_cast<float>(c));
+    for (int x = 0; x < out.width; ++x)
+      for (const double c : {colour.x, colour.y, colour.z}) out.rgb.push_back(static_cast<float>(c));
   }
+  return out;
 }
 
 std::string background(const Scene& scene, const std::string& file, ForeignFile& out) {
   if (const auto* colour = std::get_if<Vec3d>(&scene.background))
     return *colour == Vec3d{} ? "" : "  <emitter type=\"constant\">" + rgb("radiance", *colour) + "</emitter>\n";
-  if (const auto* sky = std::get_if<SkyPicture>(&scene.background))  // its pictures begin half a turn before ours
-    return fmt::format(
-        "  <emitter type=\"envmap\"><string name=\"filename\" value=\"{}\"/>{}<transform name=\"to_world\"><rotate "
-        "y=\"1\" angle=\"{}\"/></transform></emitter>\n",
-        in_xml(sky->file), number("scale", sky->scale), number_text(180 + sky->rotate_y));
-  out.sky_name = beside(file, ".sky.pfm");
-  fill_sky(scene, out);
-  return "  <emitter type=\"envmap\"><string name=\"filename\" value=\"" + in_xml(out.sky_name) + "\"/></emitter>\n";
+  const auto* sky = std::get_if<SkyPicture>(&scene.background);
+  const std::string name = beside(file, ".xml.sky.pfm");
+  // Every second of their rows, from the second one on, lies where one of ours does.
+  out.pictures.emplace_back(
+      name, sky ? sky_in_rows(*sky->pixels, 2 * sky->pixels->height + 1, place_of_row) : sky_of_heights(scene));
+  return fmt::format(
+      "  <emitter type=\"envmap\"><string name=\"filename\" value=\"{}\"/>{}<transform name=\"to_world\"><rotate "
+      "y=\"1\" angle=\"{}\"/></transform></emitter>\n",
+      in_xml(name), number("scale", sky ? sky->scale : 1),
+      number_text(180 + (sky ? sky->rotate_y : 0)));  // their pictures begin half a turn before ours
 }
 
 std::string medium(const ForeignScene& foreign, int index, const char* name) {
@@ -125,6 +130,18 @@ std::string sphere(const ForeignSphere& s, const std::string& inner) {
          (s.inward ? "<boolean name=\"flip_normals\" value=\"true\"/>" : "") + inner + "</shape>\n";
 }
 
+/// Half of the distance between the two sides of a light: more than single precision loses there.
+double half_gap(double size, Vec3d middle) { return 1e-6 * (size + length(middle)); }
+
+/// A light that shines on both sides: two spheres of one side each.
+std::string sphere_light(ForeignSphere s, const std::string& inner) {
+  ForeignSphere inside = s;
+  const double half = half_gap(s.radius, s.center);
+  s.radius += half, s.inward = false;
+  inside.radius -= std::min(half, 0.5 * inside.radius), inside.inward = true;
+  return sphere(s, inner) + sphere(inside, inner);
+}
+
 constexpr const char* triangle_file = "unit-triangle.ply";
 constexpr const char* triangle_mesh =
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
@@ -155,7 +172,7 @@ std::string placed(const Flat& f, const std::string& inner) {
 /// A flat light, which shines on both sides: two of one side each. All these shapes are the same with x and y swapped,
 /// which turns the normal.
 std::string flat_light(Flat f, const std::string& inner) {
-  const Vec3d apart = (1e-6 * std::max(length(f.x), length(f.y))) * normalize(cross(f.x, f.y));
+  const Vec3d apart = half_gap(std::max(length(f.x), length(f.y)), f.origin) * normalize(cross(f.x, f.y));
   const Flat other{f.type, f.y, f.x, f.origin - apart};
   f.origin = f.origin + apart;
   return placed(f, inner) + placed(other, inner);
@@ -168,18 +185,19 @@ std::string shape(const ForeignShape& s, const Scene& scene, const ForeignScene&
                             (s.medium < 0 ? "" : medium(foreign, s.medium, "interior"));
   const bool light = material && std::holds_alternative<Light<double>>(material->kind);
   const auto write = [&](const Flat& flat) { return light ? flat_light(flat, inner) : placed(flat, inner); };
-  return std::visit(Overloaded{[&](const ForeignSphere& own) { return sphere(own, inner); },
-                               [&](const std::vector<ForeignFlat>& flats) {
-                                 std::string text;
-                                 for (const ForeignFlat& flat : flats) text += write(flat_of(flat));
-                                 return text;
-                               },
-                               [&](const ForeignTriangle& triangle) {
-                                 out.mesh_name = triangle_file, out.mesh = triangle_mesh;
-                                 return write(flat_of(triangle));
-                               },
-                               [&](const ForeignDisk& disk) { return write(flat_of(disk)); }},
-                    s.shape);
+  return std::visit(
+      Overloaded{[&](const ForeignSphere& own) { return light ? sphere_light(own, inner) : sphere(own, inner); },
+                 [&](const std::vector<ForeignFlat>& flats) {
+                   std::string text;
+                   for (const ForeignFlat& flat : flats) text += write(flat_of(flat));
+                   return text;
+                 },
+                 [&](const ForeignTriangle& triangle) {
+                   out.mesh_name = triangle_file, out.mesh = triangle_mesh;
+                   return write(flat_of(triangle));
+                 },
+                 [&](const ForeignDisk& disk) { return write(flat_of(disk)); }},
+      s.shape);
 }
 
 }  // namespace
@@ -187,7 +205,7 @@ std::string shape(const ForeignShape& s, const Scene& scene, const ForeignScene&
 
 ForeignFile mitsuba_file(const Scene& scene, const std::string& name, const std::string& file) {
   using namespace mitsuba;
-  const ForeignRenderer renderer{"Mitsuba 3", true, false, false, false, false, true, false, false};
+  const ForeignRenderer renderer{"Mitsuba 3", true, false, false, false, false, true, false, false, false};
   const ForeignScene foreign = foreign_scene(scene, name, renderer);
   ForeignFile out;
   out.text =

@@ -9,13 +9,15 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 /// Scenes for pbrt-v4 (M. Pharr, W. Jakob, G. Humphreys, Physically Based Rendering, 4th edition; its file format:
 /// https://pbrt.org/fileformat-v4).
 ///
 /// Its conventions: the camera is left-handed, so x is mirrored before LookAt; fov is that of the shorter side; a
 /// normal that points inward is ReverseOrientation; depth counts scattering events as ours does; RGB of lights and
-/// surfaces are linear Rec.709; the film's sensor multiplies by exposure time times ISO / 100, which is made 1.
+/// surfaces are linear Rec.709; WorldBegin leaves the camera's MediumInterface as it is; images and checkers are
+/// blurred unless that is switched off; the film's sensor multiplies by exposure time times ISO / 100, which is made 1.
 namespace tyndall {
 namespace pbrt {
 namespace {
@@ -47,10 +49,11 @@ Vec3d seen(const SkyPicture&, Vec3d) { return {}; }  // see add_sky_pixels()
 
 /// A sky's picture, in the layout that pbrt reads. Each pixel is a mean over some of its area, so that a sun of one
 /// texel keeps its light.
-void add_sky_pixels(const SkyPicture& picture, int edge, ForeignFile& out) {
+void add_sky_pixels(const SkyPicture& picture, LinearImage& out) {
   const SkyColumns columns = sky_columns(picture, false, nullptr);
   const SkyView sky = view_of(columns);
   constexpr int parts = 4;
+  const int edge = out.width;
   for (int y = 0; y < edge; ++y)
     for (int x = 0; x < edge; ++x) {
       Vec3d sum;
@@ -58,7 +61,7 @@ void add_sky_pixels(const SkyPicture& picture, int edge, ForeignFile& out) {
         const double column = x + (k % parts + 0.5) / parts, row = y + (k / parts + 0.5) / parts;
         sum = sum + sky_towards<double>(sky, direction_of(column / edge, row / edge)).radiance;
       }
-      for (const double c : {sum.x, sum.y, sum.z}) out.sky.push_back(static_cast<float>(c / (parts * parts)));
+      for (const double c : {sum.x, sum.y, sum.z}) out.rgb.push_back(static_cast<float>(c / (parts * parts)));
     }
 }
 
@@ -74,17 +77,18 @@ std::string background(const Scene& scene, const std::string& file, ForeignFile&
     return *colour == Vec3d{} ? "" : "LightSource \"infinite\" " + rgb("L", *colour) + "\n";
   const auto* picture = std::get_if<SkyPicture>(&scene.background);
   const int edge = picture ? edge_of(*picture) : 512;
-  out.sky_name = beside(file, ".sky.pfm"), out.sky_width = out.sky_height = edge;
-  if (picture) add_sky_pixels(*picture, edge, out);
+  const std::string name = beside(file, ".pbrt.sky.pfm");
+  LinearImage& sky = out.pictures.emplace_back(name, LinearImage{edge, edge, {}}).second;
+  if (picture) add_sky_pixels(*picture, sky);
   for (int y = 0; y < edge && !picture; ++y)
     for (int x = 0; x < edge; ++x) {
       const Vec3d direction = direction_of((x + 0.5) / edge, (y + 0.5) / edge);
       const Vec3d colour = std::visit(
-          Overloaded{[](const Vec3d& c) { return c; }, [&](const auto& sky) { return seen(sky, direction); }},
+          Overloaded{[](const Vec3d& c) { return c; }, [&](const auto& kind) { return seen(kind, direction); }},
           scene.background);
-      for (const double c : {colour.x, colour.y, colour.z}) out.sky.push_back(static_cast<float>(c));
+      for (const double c : {colour.x, colour.y, colour.z}) sky.rgb.push_back(static_cast<float>(c));
     }
-  return "LightSource \"infinite\" \"string filename\" " + in_pbrt(out.sky_name) + "\n";
+  return "LightSource \"infinite\" \"string filename\" " + in_pbrt(name) + "\n";
 }
 
 std::string camera(const Scene& scene, const ForeignScene& foreign, const std::string& file) {
@@ -109,45 +113,68 @@ std::string camera(const Scene& scene, const ForeignScene& foreign, const std::s
   return text + fmt::format("Integrator \"volpath\" \"integer maxdepth\" {}\n", scene.render.max_depth);
 }
 
-std::string texture(const Texture& texture, std::size_t index) {
-  const std::string head = fmt::format("Texture \"texture {}\" \"spectrum\" ", index);
-  return std::visit(Overloaded{[](const Checker<>& c) {
-                                 return std::string("\"checkerboard\" \"integer dimension\" 3 ") + rgb("tex1", c.even) +
-                                        " " + rgb("tex2", c.odd);
-                               },
-                               [](const Image& image) {
-                                 return "\"imagemap\" \"string filter\" \"bilinear\" \"string filename\" " +
-                                        in_pbrt(image.file);
-                               },
-                               [](const auto&) { return std::string(); }},
-                    texture.kind)
-             .insert(0, head) +
-         "\n";
+bool is_round(const ForeignShape& shape) { return std::holds_alternative<ForeignSphere>(shape.shape); }
+
+std::string texture_name(std::size_t index, bool round) {
+  return fmt::format("\"texture {}{}\"", index, round ? " round" : "");
 }
 
-std::string textures(const Scene& scene) {
+/// An image with its last column before the first, and the first behind the last: what a sphere has at u = 0.
+LinearImage closed(const Image::Pixels& pixels) {
+  LinearImage out{pixels.width + 2, pixels.height, {}};
+  for (int y = 0; y < out.height; ++y)
+    for (int x = -1; x <= pixels.width; ++x) {
+      const auto row = pixels.rgb.begin() + 3 * std::ptrdiff_t{y} * pixels.width;
+      const auto texel = row + 3 * ((x + pixels.width) % pixels.width);
+      out.rgb.insert(out.rgb.end(), texel, texel + 3);
+    }
+  return out;
+}
+
+/// Their images wrap in both directions or in none. round: for spheres, around which only u goes on.
+std::string image(const Image& image, std::size_t index, bool round, const std::string& file, ForeignFile& out) {
+  const std::string name = beside(file, fmt::format(".pbrt.texture-{}{}.pfm", index, round ? "-round" : ""));
+  const Image::Pixels& pixels = *image.pixels;
+  out.pictures.emplace_back(name, round ? closed(pixels) : LinearImage{pixels.width, pixels.height, pixels.rgb});
+  const double columns = pixels.width + 2;
+  return "\"imagemap\" \"string filter\" \"bilinear\" \"string wrap\" \"clamp\" \"string filename\" " + in_pbrt(name) +
+         (round ? " " + number("uscale", pixels.width / columns) + " " + number("udelta", 1 / columns) : "");
+}
+
+/// The textures that shapes have.
+std::string textures(const Scene& scene, const ForeignScene& foreign, const std::string& file, ForeignFile& out) {
+  std::set<std::pair<std::size_t, bool>> used;
+  for (const ForeignShape& shape : foreign.shapes) {
+    if (shape.material < 0) continue;
+    const auto& colour = scene.materials[static_cast<std::size_t>(shape.material)].colour;
+    if (const auto* texture = std::get_if<TextureIndex>(&colour))
+      used.emplace(static_cast<std::size_t>(texture->index), is_round(shape));
+  }
   std::string text;
-  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
-    const auto& kind = scene.textures[i].kind;
-    const auto* checker = std::get_if<Checker<>>(&kind);
-    if (!checker && !std::holds_alternative<Image>(kind)) continue;
-    text += "AttributeBegin\n";
-    if (checker) text += fmt::format("  Scale {0} {0} {0}\n", number_text(checker->scale));
-    text += "  " + texture(scene.textures[i], i) + "AttributeEnd\n";
+  for (const auto& [index, round] : used) {
+    const std::string begin = "Texture " + texture_name(index, round) + " \"spectrum\" ";
+    if (const auto* own = std::get_if<Image>(&scene.textures[index].kind))
+      text += begin + image(*own, index, round, file, out) + "\n";
+    if (const auto* checker = std::get_if<Checker<>>(&scene.textures[index].kind))
+      text +=
+          fmt::format("AttributeBegin\n  Scale {0} {0} {0}\n  {1}\"checkerboard\" \"integer dimension\" 3 {2} {3}\n",
+                      number_text(checker->scale), begin, rgb("tex1", checker->even), rgb("tex2", checker->odd)) +
+          "AttributeEnd\n";
   }
   return text;
 }
 
-std::string reflectance(const Material& material, const Scene& scene) {
+std::string reflectance(const Material& material, const Scene& scene, bool round) {
   const auto* index = std::get_if<TextureIndex>(&material.colour);
   if (!index) return rgb("reflectance", std::get<Vec3d>(material.colour));
   const auto at = static_cast<std::size_t>(index->index);
-  if (const auto* solid = std::get_if<Solid<>>(&scene.textures[at].kind)) return rgb("reflectance", solid->color);
-  return fmt::format("\"texture reflectance\" \"texture {}\"", at);
+  const auto& kind = scene.textures[at].kind;
+  if (const auto* solid = std::get_if<Solid<>>(&kind)) return rgb("reflectance", solid->color);
+  return "\"texture reflectance\" " + texture_name(at, round);
 }
 
 /// The material of a surface, and its light.
-std::string surface(const Material& material, const Scene& scene) {
+std::string surface(const Material& material, const Scene& scene, bool round) {
   return std::visit(
       Overloaded{[&](const Dielectric<double>& glass) {
                    return "  Material \"dielectric\" " + number("eta", glass.refractive_index) + "\n";
@@ -157,7 +184,7 @@ std::string surface(const Material& material, const Scene& scene) {
                    return "  Material \"diffuse\" " + rgb("reflectance", {}) + "\n  AreaLightSource \"diffuse\" " +
                           rgb("L", colour ? *colour : Vec3d{}) + " \"bool twosided\" true\n";
                  },
-                 [&](const auto&) { return "  Material \"diffuse\" " + reflectance(material, scene) + "\n"; }},
+                 [&](const auto&) { return "  Material \"diffuse\" " + reflectance(material, scene, round) + "\n"; }},
       material.kind);
 }
 
@@ -215,17 +242,19 @@ std::string medium(const ForeignMedium& m, std::size_t index) {
 
 ForeignFile pbrt_file(const Scene& scene, const std::string& name, const std::string& file) {
   using namespace pbrt;
-  const ForeignRenderer renderer{"pbrt-v4", false, true, true, true, false, true, false, true};
+  const ForeignRenderer renderer{"pbrt-v4", false, true, true, true, false, true, false, true, true};
   const ForeignScene foreign = foreign_scene(scene, name, renderer);
   ForeignFile out;
   out.text = "# " + all_printable(scene.name.empty() ? name : scene.name) + ", by tyndall convert, for pbrt-v4\n";
+  out.text += "Option \"disabletexturefiltering\" true\n";
   for (std::size_t i = 0; i < foreign.media.size(); ++i) out.text += medium(foreign.media[i], i);
-  out.text += camera(scene, foreign, file) + "TransformTimes 0 1\nWorldBegin\n" + background(scene, file, out) +
-              textures(scene);
+  out.text += camera(scene, foreign, file) + "TransformTimes 0 1\nWorldBegin\n";
+  if (foreign.camera_medium >= 0) out.text += "MediumInterface \"\" \"\"\n";
+  out.text += background(scene, file, out) + textures(scene, foreign, file, out);
   for (const ForeignShape& s : foreign.shapes) {
     out.text += "AttributeBegin\n";
     out.text += s.material < 0 ? "  Material \"interface\"\n"
-                               : surface(scene.materials[static_cast<std::size_t>(s.material)], scene);
+                               : surface(scene.materials[static_cast<std::size_t>(s.material)], scene, is_round(s));
     if (s.medium >= 0) out.text += "  MediumInterface " + medium_name(s.medium) + " \"\"\n";
     out.text += std::visit([](const auto& own) { return shape(own); }, s.shape) + "AttributeEnd\n";
   }

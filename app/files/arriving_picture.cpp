@@ -3,6 +3,7 @@
 #include "app/text/values.h"
 #include "core/base/error.h"
 #include "core/base/seconds.h"
+#include "core/base/text.h"
 #include "core/image/image_io_file.h"
 
 #include <fcntl.h>
@@ -33,9 +34,39 @@ std::size_t read_some(int file, std::uint8_t* to, std::size_t size) {
 
 }  // namespace
 
-std::optional<char> first_byte_of(int file) {
-  std::uint8_t byte = 0;
-  return read_some(file, &byte, 1) == 1 ? std::optional(static_cast<char>(byte)) : std::nullopt;
+Beginning beginning_of(int file) {
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  Beginning found;
+  for (std::uint8_t byte = 0; read_some(file, &byte, 1) == 1;) {
+    found.bytes += static_cast<char>(byte);
+    std::string_view rest = found.bytes;
+    if (mark.starts_with(rest)) continue;
+    if (rest.starts_with(mark)) rest.remove_prefix(mark.size());
+    while (!rest.empty() && is_space(rest.front())) rest.remove_prefix(1);
+    if (rest.empty() || rest == "/" || found.bytes == "P") continue;
+    found.is_scene = rest == "{" || rest == "//" || rest == "/*";
+    found.is_picture = found.bytes[0] == 'P' && byte >= '0' && byte <= '9';
+    return found;
+  }
+  found.is_scene = std::all_of(found.bytes.begin(), found.bytes.end(), is_space);
+  return found;
+}
+
+std::string first_line_of(int file, std::string begin) {
+  constexpr int patience = 100;  // milliseconds: the program may not have written the rest of its line yet
+  pollfd watched{file, POLLIN, 0};
+  begin.erase(0, begin.find_first_not_of(" \t\r\n\v\f"));
+  while (begin.size() < piece && begin.find('\n') == begin.npos && poll(&watched, 1, patience) > 0) {
+    std::array<std::uint8_t, piece> more{};
+    const std::size_t got = read_some(file, more.data(), more.size());
+    if (got == 0) break;
+    begin.append(more.begin(), more.begin() + static_cast<std::ptrdiff_t>(got));
+  }
+  const std::span bytes(reinterpret_cast<const std::uint8_t*>(begin.data()), begin.size());
+  if (image_kind(bytes) != ImageKind::unknown && begin[0] != 'P') return "a picture of another kind";
+  if (begin.starts_with("\xff\xfe") || begin.starts_with("\xfe\xff")) return "text in UTF-16";
+  if (begin.starts_with("\xef\xbb\xbf")) return "a byte order mark";
+  return in_quotes(printable(shortened(begin.substr(0, begin.find_first_of("\r\n")), 60)));
 }
 
 /// Written by the thread that reads, and read by those that render: only what has arrived.
@@ -51,8 +82,8 @@ struct ArrivingPicture::Pixels {
   }
 };
 
-ArrivingPicture::ArrivingPicture(int file, char first, const std::string& name, PpmCurve curve)
-    : file_(file), name_(name), reader_(name, curve), bytes_{static_cast<std::uint8_t>(first)} {
+ArrivingPicture::ArrivingPicture(int file, const std::string& begin, const std::string& name, PpmCurve curve)
+    : file_(file), name_(name), reader_(name, curve), bytes_(begin.begin(), begin.end()) {
   try {
     for (std::size_t got = 1; got > 0 && !reader_.header();) {
       bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(reader_.take(bytes_, light_, true)));

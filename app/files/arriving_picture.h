@@ -21,16 +21,24 @@ struct Arrival {
   bool operator==(const Arrival&) const = default;
 };
 
-/// The first byte of a file that cannot be read twice; nothing: it has none. Throws IoError.
-std::optional<char> first_byte_of(int file);
+/// What a file that cannot be read twice begins with, up to the byte that tells a picture from a scene. Throws IoError.
+struct Beginning {
+  std::string bytes;        ///< "": there are none
+  bool is_picture = false;  ///< "P" and a digit
+  bool is_scene = false;    ///< {, // or /*, behind white space or a byte order mark; nothing but white space, too
+};
+Beginning beginning_of(int file);
+
+/// What a file of neither kind begins with, as messages show it: what is there of its first line.
+std::string first_line_of(int file, std::string begin);
 
 /// Reads a picture on a thread of its own, and goes on reading what nobody wants after its last pixel or after damage,
 /// so that the program which writes it never has to wait. The pixels that have come are a source of samples.
 class ArrivingPicture {
  public:
-  /// Waits for the picture's size. file: stays the caller's; first: its first byte, which was read already; name: what
-  /// messages call it. Throws UsageError for what is no such picture.
-  ArrivingPicture(int file, char first, const std::string& name, PpmCurve curve);
+  /// Waits for the picture's size. file: stays the caller's; begin: its first bytes, which were read already; name:
+  /// what messages call it. Throws UsageError for what is no such picture.
+  ArrivingPicture(int file, const std::string& begin, const std::string& name, PpmCurve curve);
   ~ArrivingPicture() { stop(); }
   ArrivingPicture(const ArrivingPicture&) = delete;
   ArrivingPicture& operator=(const ArrivingPicture&) = delete;

@@ -29,7 +29,7 @@ std::vector<std::uint8_t> screen_bytes(const LinearImage& image, const Display& 
 }  // namespace
 
 std::vector<std::uint8_t> ycbcr_planes(const std::vector<std::uint8_t>& rgb) {
-  constexpr double red = 0.2126, green = 0.7152, blue = 0.0722;
+  constexpr double red = 0.299, green = 0.587, blue = 0.114;
   const std::size_t pixels = rgb.size() / 3;
   std::vector<std::uint8_t> planes(3 * pixels);
   const auto rounded = [](double value) { return static_cast<std::uint8_t>(std::lround(value)); };
@@ -43,11 +43,12 @@ std::vector<std::uint8_t> ycbcr_planes(const std::vector<std::uint8_t>& rgb) {
   return planes;
 }
 
-/// Readers such as FFmpeg's allow at most 95 bytes.
+/// Readers such as FFmpeg's allow at most 95 bytes. Programs pass over the matrix; films of another one are not gone on
+/// with.
 std::string Y4mFile::header() const {
   return "YUV4MPEG2 W" + std::to_string(format_.width) + " H" + std::to_string(format_.height) + " F" +
          std::to_string(format_.rate) + ":" + std::to_string(format_.rate_divisor) +
-         " Ip A1:1 C444 XCOLORRANGE=LIMITED X" + format_.mark + "\n";
+         " Ip A1:1 C444 XCOLORRANGE=LIMITED XBT601 X" + format_.mark + "\n";
 }
 
 Y4mFile::Y4mFile(const std::filesystem::path& file, const Y4mFormat& format, bool fresh)

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-/// Films as encoders read them: uncompressed frames one after the other (YUV4MPEG2), 8 bits, 4:4:4, BT.709 with the
-/// limited range of video.
+/// Films as encoders read them: uncompressed frames one after the other (YUV4MPEG2), 8 bits, 4:4:4, BT.601 with the
+/// limited range of video. The format has no field for the matrix; FFmpeg takes BT.601 where nothing is said.
 namespace tyndall {
 
 struct Y4mFormat {
@@ -44,7 +44,8 @@ class Y4mFile {
   bool stream_ = false;
 };
 
-/// The three planes Y', Cb and Cr of pixels in 8 bits each, 3 bytes a pixel. R'G'B' to Y'CbCr: ITU-R BT.709, section 3.
+/// The three planes Y', Cb and Cr of pixels in 8 bits each, 3 bytes a pixel. R'G'B' to Y'CbCr: ITU-R BT.601,
+/// section 2.5.
 std::vector<std::uint8_t> ycbcr_planes(const std::vector<std::uint8_t>& rgb);
 
 }  // namespace tyndall

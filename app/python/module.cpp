@@ -41,23 +41,18 @@ py::array_t<float> array_of(const py::object& self) {
 
 /// Renders without the interpreter's lock. Between passes it looks whether Ctrl-C was pressed, and calls `progress`.
 tyndall::Picture render(const tyndall::Scene& scene, tyndall::RenderOptions options, const py::object& progress) {
-  std::exception_ptr failure;
   options.progress = [&](const tyndall::Progress& now) {
     const py::gil_scoped_acquire locked;
-    try {
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      return progress.is_none() || progress(now).ptr() != Py_False;
-    } catch (...) {
-      failure = std::current_exception();
-      return false;
-    }
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (progress.is_none()) return true;
+    const py::object answer = progress(now);
+    if (answer.is_none()) return true;
+    const int truth = PyObject_IsTrue(answer.ptr());
+    if (truth < 0) throw py::error_already_set();
+    return truth != 0;
   };
-  const tyndall::Picture picture = [&] {
-    const py::gil_scoped_release unlocked;
-    return tyndall::render(scene, options);
-  }();
-  if (failure) std::rethrow_exception(failure);
-  return picture;
+  const py::gil_scoped_release unlocked;
+  return tyndall::render(scene, options);
 }
 
 std::vector<float> numbers(const py::array_t<float, py::array::c_style | py::array::forcecast>& array) {
@@ -104,7 +99,8 @@ void add_scene(py::module_& module) {
       .def("json", &Scene::json, WithoutLock())
       .def("save", &Scene::save, WithoutLock())
       .def_property_readonly("width", &Scene::width)
-      .def_property_readonly("height", &Scene::height);
+      .def_property_readonly("height", &Scene::height)
+      .def_property_readonly("folder", [](const Scene& scene) { return py::bytes(scene.folder()); });
 }
 
 void add_film(py::module_& module) {

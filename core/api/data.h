@@ -51,7 +51,7 @@ struct TYNDALL_HIDDEN Picture::Data {
 struct Access {
   static const Scene::Data& of(const Scene& scene) { return *scene.data_; }
   static Scene scene(std::shared_ptr<const Scene::Data> data);
-  static const std::shared_ptr<const Film::Data>& of(const Film& film) { return film.data_; }
+  static const std::shared_ptr<const Film::Data>& of(const Film& film) { return film.data_.pointer(); }
   static Film film(std::shared_ptr<const Film::Data> data) { return Film(std::move(data)); }
   static Picture picture(std::shared_ptr<const Picture::Data> data) { return Picture(std::move(data)); }
   static const Picture::Data& of(const Picture& picture) { return *picture.data_; }

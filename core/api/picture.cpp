@@ -79,10 +79,16 @@ inner::CoreFilm begun(const Scene::Data& scene, const RenderOptions& options, co
   return film;
 }
 
-ProgressCallback progress_of(const RenderOptions& options) {
+/// thrown: gets what the caller's function throws, which stops the render.
+ProgressCallback progress_of(const RenderOptions& options, std::exception_ptr& thrown) {
   if (!options.progress) return {};
-  return [&options](const inner::CoreProgress& now) {
-    return options.progress(Progress{now.spp, now.seconds, now.relative_error, now.mrays_per_s});
+  return [&](const inner::CoreProgress& now) {
+    try {
+      return options.progress(Progress{now.spp, now.seconds, now.relative_error, now.mrays_per_s});
+    } catch (...) {
+      thrown = std::current_exception();
+      return false;
+    }
   };
 }
 
@@ -122,16 +128,19 @@ void Picture::Data::save(const std::filesystem::path& file) const {
 }
 
 Picture render(const Scene& scene, const RenderOptions& options) {
-  return guarded([&] {
+  std::exception_ptr thrown;
+  Picture picture = guarded([&] {
     const Scene::Data& of = Access::of(scene);
     const inner::CoreOptions core = core_options(of.scene, options);
     inner::CoreFilm film = begun(of, options, core);
     auto data = std::make_shared<Picture::Data>();
     data->scene = scene;
-    data->result = inner::render_film(*of.prepared(), core, progress_of(options), std::move(film));
+    data->result = inner::render_film(*of.prepared(), core, progress_of(options, thrown), std::move(film));
     data->picture = finished_picture(*of.prepared(), data->result);
     return Access::picture(std::move(data));
   });
+  if (thrown) std::rethrow_exception(thrown);
+  return picture;
 }
 
 int Picture::width() const { return data_->result.film.region.width(); }
@@ -167,7 +176,7 @@ bool Picture::stopped() const { return data_->result.interrupted; }
 std::uint64_t Picture::rejected() const { return data_->picture.totals.rejected; }
 Scene Picture::scene() const { return data_->scene; }
 Film Picture::film() const {
-  const std::shared_ptr<const inner::CoreFilm> film(data_, &data_->result.film);
+  const std::shared_ptr<const inner::CoreFilm> film(data_.pointer(), &data_->result.film);
   return Access::film(std::make_shared<const Film::Data>(Film::Data{film, data_->scene, label_of(*data_)}));
 }
 

@@ -178,10 +178,13 @@ void Scene::add_json(const std::string& object) {
 
 int Scene::width() const { return data_->scene.width; }
 int Scene::height() const { return data_->scene.height; }
+std::string Scene::folder() const { return data_->folder.string(); }
 
 std::string version() { return TYNDALL_VERSION; }
 
 namespace detail {
+
+void fail_moved_from() { throw Error("found an object that was moved from, expected one that holds something"); }
 
 Members::Members(const char* type) : text_("{\"type\": " + in_quotes(type)) {}
 

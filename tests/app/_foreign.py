@@ -3,11 +3,13 @@
 Usage: _foreign.py FILE.pbrt|FILE.xml|FILE.py WIDTHxHEIGHT OUT.pfm
 
 Own code, from the formats' pages: pbrt.org/fileformat-v4, mitsuba.readthedocs.io, docs.blender.org. Prints the number of
-shapes, of inward normals and of lights.
+shapes, of inward normals of what is no light, and of lights. Fails where a light shines on one side alone, where a surface is
+in a medium on its outer side, and where a picture is not there.
 """
 import ast
 import json
 import math
+import os
 import re
 import struct
 import sys
@@ -22,14 +24,46 @@ def cross(a, b): return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a
 def unit(a): return scale(1 / math.sqrt(dot(a, a)), a)
 
 
+SKY_TOWARDS = (0.3, 0.8, -0.52)
+
+
+class Picture:
+    """A PFM; at(column, row): between the middles of pixels, wrapped across and down as Blender does."""
+
+    def __init__(self, file):
+        with open(file, "rb") as data:
+            assert data.readline() == b"PF\n"
+            self.width, self.height = map(int, data.readline().split())
+            assert float(data.readline()) < 0
+            numbers = struct.unpack(f"<{3 * self.width * self.height}f", data.read())
+        rows = [numbers[3 * self.width * y:3 * self.width * (y + 1)] for y in reversed(range(self.height))]
+        self.pixels = [[row[3 * x:3 * x + 3] for x in range(self.width)] for row in rows]
+
+    def at(self, column, row):
+        x, y = math.floor(column), math.floor(row)
+        a, b = column - x, row - y
+        pixel = lambda i, k: self.pixels[(y + k) % self.height][(x + i) % self.width]
+        return [(1 - b) * ((1 - a) * p + a * q) + b * ((1 - a) * r + a * s)
+                for p, q, r, s in zip(pixel(0, 0), pixel(1, 0), pixel(0, 1), pixel(1, 1))]
+
+
+def turned(a, angle, axis):
+    """About the axis (1: y, 2: z), counterclockwise as seen from its tip."""
+    i, k = (axis + 1) % 3, (axis + 2) % 3
+    out = list(a)
+    out[i], out[k] = math.cos(angle) * a[i] - math.sin(angle) * a[k], math.sin(angle) * a[i] + math.cos(angle) * a[k]
+    return out
+
+
 class Scene:
-    """Spheres (center, radius), flats (corner, u, v, within) and ray(x, y) for x, y in [0, 1], y down.
+    """Spheres (center, radius), flats (corner, u, v, within), sky (Mitsuba, Blender: the radiance of its picture towards
+    SKY_TOWARDS) and ray(x, y) for x, y in [0, 1], y down.
 
     within(a, b): whether the point corner + a u + b v belongs to the flat.
     """
 
     def __init__(self):
-        self.spheres, self.flats, self.inward, self.lights = [], [], 0, 0
+        self.spheres, self.flats, self.inward, self.lights, self.sky = [], [], 0, 0, None
 
     def add_quad(self, corner, u, v):
         self.flats.append((corner, u, v, lambda a, b: 0 <= a <= 1 and 0 <= b <= 1))
@@ -76,13 +110,19 @@ def pbrt_tokens(text):
     return found
 
 
+def text_of(word):
+    return re.sub(r"\\(.)", r"\1", word[1:-1])
+
+
 def read_pbrt(text, aspect):
     scene, at = Scene(), 0
     words = pbrt_tokens(text)
     known = {"Scale": 3, "LookAt": 9, "Translate": 3, "Rotate": 4, "ConcatTransform": 18, "TransformTimes": 2}
     named = ("Camera", "Film", "PixelFilter", "Sampler", "Integrator", "Material", "AreaLightSource", "LightSource", "Shape",
              "MakeNamedMedium", "Texture")
-    place, mirrored, fov, seen, axes = [0, 0, 0], False, None, True, None
+    mirrored, fov, stack = False, None, []
+    # What AttributeEnd takes back. WorldBegin takes back the transform alone.
+    state = {"place": [0, 0, 0], "axes": None, "seen": True, "inward": False, "light": False, "media": ['""', '""']}
     while at < len(words):
         word, at = words[at], at + 1
         if word in known:
@@ -93,9 +133,9 @@ def read_pbrt(text, aspect):
             elif word == "LookAt":
                 look = numbers
             elif word == "Translate":
-                place = numbers
+                state["place"] = numbers
             elif word == "ConcatTransform":
-                axes = [numbers[4 * k:4 * k + 3] for k in range(4)]  # by columns: x, y, z, origin
+                state["axes"] = [numbers[4 * k:4 * k + 3] for k in range(4)]  # by columns: x, y, z, origin
         elif word in named:
             kind, at = words[at], at + 1
             at += 2 if word == "Texture" else 0
@@ -110,31 +150,47 @@ def read_pbrt(text, aspect):
             if word == "Camera":
                 fov = float(values["fov"][0])
             elif word == "Material":
-                seen = kind != '"interface"'
-            elif word == "Shape" and not seen:
-                pass
+                state["seen"] = kind != '"interface"'
             elif word == "AreaLightSource":
-                scene.lights += 1
+                state["light"] = True
                 assert values["twosided"] == ["true"]
-            elif word == "Shape" and kind == '"sphere"':
-                scene.spheres.append((place, float(values["radius"][0])))
-            elif word == "Shape" and kind == '"disk"':
+            elif word in ("LightSource", "Shape"):
+                assert state["media"][1] == '""', f"{word} {kind} stands in {state['media'][1]}"
+                assert "filename" not in values or os.path.exists(text_of(values["filename"][0]))
+            elif word == "Texture" and kind != '"checkerboard"' and "filename" in values:
+                assert os.path.exists(text_of(values["filename"][0])), values
+            if word != "Shape" or not state["seen"]:
+                continue
+            scene.lights += state["light"]
+            scene.inward += state["inward"] and not state["light"]
+            axes = state["axes"]
+            if kind == '"sphere"':
+                scene.spheres.append((state["place"], float(values["radius"][0])))
+            elif kind == '"disk"':
                 assert all(abs(dot(axes[i], axes[k]) - (i == k)) < 1e-9 for i in range(3) for k in range(3))
                 radius, inner = float(values["radius"][0]), float(values["innerradius"][0])
                 scene.add_disk(axes[3], scale(radius, axes[0]), scale(radius, axes[1]), inner / radius)
-            elif word == "Shape":
+            else:
                 p = [float(v) for v in values["P"]]
                 corners = [p[k:k + 3] for k in range(0, len(p), 3)]
                 add_flat = scene.add_quad if len(corners) == 4 else scene.add_triangle
                 add_flat(corners[0], sub(corners[1], corners[0]), sub(corners[-1], corners[0]))
         elif word == "ReverseOrientation":
-            scene.inward += 1
+            state["inward"] = not state["inward"]
         elif word == "MediumInterface":
-            at += 2
+            state["media"], at = words[at:at + 2], at + 2
         elif word == "ActiveTransform":
             at += 1
+        elif word == "AttributeBegin":
+            stack.append(dict(state))
+        elif word == "AttributeEnd":
+            state = stack.pop()
+        elif word == "Option":
+            assert words[at:at + 2] == ['"disabletexturefiltering"', "true"]
+            at += 2
         else:
-            assert word in ("WorldBegin", "AttributeBegin", "AttributeEnd"), f"what is {word}?"
+            assert word == "WorldBegin", f"what is {word}?"
+            state["place"], state["axes"] = [0, 0, 0], None
     origin, forward = look[:3], unit(sub(look[3:6], look[:3]))
     right = unit(cross(look[6:9], forward))  # left-handed
     up = cross(forward, right)
@@ -154,17 +210,24 @@ def read_xml(text, aspect):
     scene, root = Scene(), xml.etree.ElementTree.fromstring(text)
     vector = lambda words: [float(w) for w in re.split(r"[,\s]+", words.strip())]
     number = lambda node, name: float(node.find(f"float[@name='{name}']").get("value"))
+    sides = {}  # of lights, by their middles: the sum of the normals on whose sides they shine
     for shape in root.iter("shape"):
-        scene.lights += shape.find("emitter") is not None
         if shape.find("bsdf").get("type") == "null":
             continue
+        light = shape.find("emitter") is not None
+        shines = lambda middle, normal: sides.setdefault(tuple(round(c, 3) for c in middle), []).append(normal)
         if shape.get("type") == "sphere":
             center = shape.find("point")
             scene.spheres.append(([float(center.get(k)) for k in "xyz"], number(shape, "radius")))
-            scene.inward += shape.find("boolean[@name='flip_normals']") is not None
+            flipped = shape.find("boolean[@name='flip_normals']") is not None
+            scene.inward += flipped and not light
+            if light:
+                shines(scene.spheres[-1][0], [-1, 0, 0] if flipped else [1, 0, 0])
         else:
             m = vector(shape.find("transform/matrix").get("value"))
             x, y, _, middle = ([m[4 * row + column] for row in range(3)] for column in range(4))
+            if light:
+                shines(middle, unit(cross(x, y)))
             if shape.get("type") == "rectangle":
                 scene.add_quad(sub(middle, add(x, y)), scale(2, x), scale(2, y))
             elif shape.get("type") == "disk":
@@ -173,6 +236,18 @@ def read_xml(text, aspect):
             else:
                 check_mesh(shape.find("string[@name='filename']").get("value"))
                 scene.add_triangle(middle, x, y)
+    for normals in sides.values():
+        total = [sum(n[k] for n in normals) for k in range(3)]
+        assert dot(total, total) < 1e-6, f"a light shines on one side: {normals}"
+        scene.lights += len(normals) // 2
+    envmap = root.find("emitter[@type='envmap']")
+    if envmap is not None:
+        sky = Picture(envmap.find("string").get("value"))
+        assert sky.width >= 2 and sky.height >= 3, (sky.width, sky.height)
+        angle = math.radians(float(envmap.find("transform/rotate").get("angle")))
+        x, y, z = turned(unit(SKY_TOWARDS), -angle, 1)
+        u, v = math.atan2(x, -z) / (2 * math.pi), math.acos(y) / math.pi
+        scene.sky = scale(number(envmap, "scale"), sky.at(u * sky.width - 0.5, v * (sky.height - 1)))
     sensor = root.find("sensor")
     look = sensor.find("transform/lookat")
     origin, target, up = (vector(look.get(k)) for k in ("origin", "target", "up"))
@@ -203,7 +278,7 @@ def read_script(text, aspect):
         light = data["materials"][shape["material"]]["type"] == "light"
         if "radius" in shape:
             scene.spheres.append((world(shape["center"]), shape["radius"]))
-            scene.inward += shape["inward"]
+            scene.inward += shape["inward"] and not light
             scene.lights += light
         else:
             for flat in shape.get("flats", []):
@@ -213,6 +288,14 @@ def read_script(text, aspect):
             if "disk" in shape:
                 scene.add_disk(*map(world, shape["disk"]), shape["inner"])
             scene.lights += light * len(shape.get("flats", [None]))
+    sky = data["background"]
+    if sky["type"] == "image":
+        picture = Picture(sky["file"])
+        x, y, z = turned(unit(world(SKY_TOWARDS)), math.radians(-90 - sky["degrees"]), 2)
+        u, v = 0.5 - math.atan2(y, x) / (2 * math.pi), math.acos(z) / math.pi
+        scene.sky = scale(sky["scale"], picture.at(u * picture.width - 0.5, v * picture.height - 0.5))
+    for texture in data["textures"]:
+        assert texture["type"] != "image" or Picture(texture["file"])
     camera = data["camera"]
     half = math.tan(math.radians(camera["vfov"]) / 2)
     # Blender's camera looks along its -z, x to the right, y up.

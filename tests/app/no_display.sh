@@ -53,6 +53,21 @@ expect_piped 2 'P3 20'
 complains 'standard input: ended where the height'
 expect_piped 2 'P3 2 1 255 1 2 3' --size 4x4
 complains 'found a picture, expected a scene'
+# Text before it is told at once, whatever follows, and whoever goes on writing.
+{ echo 'rendering...' && printf 'P3\n2 1\n255\n' && exec sleep 600; } > >(timeout 60 "$tyndall" view - >out 2>err; echo $? >code) &
+writer=$!
+for _ in $(seq 600); do [ -s code ] && break || sleep 0.1; done
+kill $writer
+same 'the exit code after a line of text' "$(cat code)" 2
+complains 'standard input: found "rendering..."' 'P3 or P6' std::cerr
+expect_piped 2 '\xef\xbb\xbfP3\n2 1\n255\n1 2 3\n'
+complains 'byte order mark' 'P3 or P6'
+expect_piped 2 '\xff\xfeP\x003\x00\n\x00'
+complains 'UTF-16' 'P3 or P6'
+expect_piped 3 '\xef\xbb\xbf\n\n // a scene\n{ "tyndall": 1 }'
+complains 'tyndall render -'
+expect_piped 2 '\n\n { "tyndall": x }'
+complains 'line 3'
 expect_piped 2 '{ "tyndall": 1 }' --gamma2
 complains '--gamma2' 'found a scene'
 

@@ -294,6 +294,40 @@ TEST_CASE("library: pictures have the sizes that are promised, and stop when ask
   CHECK(render(scene, endless).stopped());
 }
 
+TEST_CASE("library: what a progress function throws comes out as it is") {
+  struct Mine : std::runtime_error {
+    using std::runtime_error::runtime_error;
+  };
+  const Scene scene = small("cornell-box");
+  tyndall::RenderOptions options;
+  options.progress = [](const tyndall::Progress&) -> bool { throw Mine("of mine"); };
+  CHECK_THROWS_WITH_AS(render(scene, options), "of mine", Mine);
+  options.progress = [](const tyndall::Progress&) -> bool { throw 7; };
+  CHECK_THROWS_AS(render(scene, options), int);
+}
+
+TEST_CASE("library: what was moved from says so, and can be assigned to") {
+  Scene scene = small("cornell-box");
+  const Scene kept = std::move(scene);
+  CHECK(kept.width() > 0);
+  CHECK_THROWS_AS(scene.width(), tyndall::Error);
+  CHECK_THROWS_AS(scene.json(), tyndall::Error);
+  CHECK_THROWS_AS(scene.set("/camera/vfov", 30), tyndall::Error);
+  CHECK_THROWS_AS(scene.add_json("{}"), tyndall::Error);
+  CHECK_THROWS_AS(scene.save("never.json"), tyndall::Error);
+  CHECK_THROWS_AS(render(scene), tyndall::Error);
+  scene = kept;
+  tyndall::Picture picture = render(scene, samples(1));
+  const tyndall::Picture other = std::move(picture);
+  CHECK_THROWS_AS(picture.rgb(), tyndall::Error);
+  CHECK_THROWS_AS(picture.film(), tyndall::Error);
+  tyndall::Film film = other.film();
+  const tyndall::Film later = std::move(film);
+  CHECK_THROWS_AS(film.hash(), tyndall::Error);
+  CHECK_THROWS_AS(tyndall::Film::merge({film, later}), tyndall::Error);
+  CHECK(later.hash() == other.hash());
+}
+
 TEST_CASE("library: comparisons are the command's, and know noise") {
   Scene scene = small("cornell-box");
   const tyndall::Picture a = render(scene, samples(32));

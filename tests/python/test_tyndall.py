@@ -1,8 +1,10 @@
 """The Python module as its users see it. TYNDALL_PROGRAM names the program, whose pictures must have the same bits."""
 
+import copy
 import json
 import math
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -156,6 +158,46 @@ def test_progress_stops_and_its_errors_come_through():
 
     with pytest.raises(KeyError, match="mine"):
         small("cover").render(time=100, progress=fails)
+
+    class Mine(tyndall.Error):
+        pass
+
+    def fails_by(error):
+        raise error
+
+    for error in (Mine("x"), KeyboardInterrupt(), SystemExit(3)):
+        with pytest.raises(type(error)):
+            small("cover").render(time=100, progress=lambda now: fails_by(error))
+
+
+def test_progress_stops_by_what_is_false_but_none():
+    for answer in (False, 0, numpy.bool_(False), numpy.float64(0), []):
+        begin = time.monotonic()
+        assert small("cover").render(time=100, progress=lambda now: answer).stopped, answer
+        assert time.monotonic() - begin < 20
+    for answer in (None, True, numpy.bool_(True), 1, "x"):
+        assert not small("cover").render(spp=2, progress=lambda now: answer).stopped, answer
+    with pytest.raises(ValueError, match="ambiguous"):
+        small("cover").render(time=100, progress=lambda now: numpy.zeros(2))
+
+
+def test_scenes_are_copied_and_pickled(tmp_path, monkeypatch):
+    for scene in (small("cover"), tyndall.scene("earth"), tyndall.scene()):
+        for again in (copy.deepcopy(scene), copy.copy(scene), pickle.loads(pickle.dumps(scene))):
+            assert again == scene and again is not scene
+            again["/camera/vfov"] = 33
+            assert again != scene
+        assert copy.deepcopy({"a": [scene, scene]})["a"][0] == scene
+    folder = tmp_path / "bälle"
+    folder.mkdir()
+    (folder / "t.ppm").write_bytes(b"P6 1 1 255\n\xff\0\0")
+    scene = {"textures": {"t": {"type": "image", "file": "t.ppm"}}, "materials": {"m": {"type": "lambertian", "albedo": "t"}},
+             "objects": [{"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"}]}
+    (folder / "s.json").write_text(json.dumps({"tyndall": 1, **scene}))
+    scene = tyndall.scene(os.path.relpath(folder / "s.json"))
+    text = pickle.dumps(scene)
+    monkeypatch.chdir(tmp_path)
+    assert pickle.loads(text) == scene
 
 
 def test_ctrl_c_stops_a_render():

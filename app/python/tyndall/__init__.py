@@ -201,6 +201,9 @@ class Scene:
     def __deepcopy__(self, memo: dict) -> "Scene":
         return self.copy()
 
+    def __reduce__(self) -> tuple:
+        return _parsed, (self.json(), os.path.abspath(self._scene.folder))
+
     def _value(self, pointer: str) -> Any:
         return json.loads(self._scene.get_json(pointer))
 
@@ -257,7 +260,7 @@ class Scene:
         spp: samples a pixel, those of `film` included. time: seconds. target_error: estimated relative error. clean:
         make the clean view, too. threads: 0: one a processor. isa: instruction set, "": the best. region: x0, y0, x1,
         y1 in pixels, y down. first_sample: index of each pixel's first sample. film: to go on from. progress: called
-        about every 50 ms; returns False to stop. Other threads of Python run meanwhile, and Ctrl-C stops it.
+        about every 50 ms; what is false stops it, but None. Other threads of Python run meanwhile, and Ctrl-C stops it.
         """
         options = _tyndall.RenderOptions()
         options.spp = _whole("spp", spp)
@@ -307,6 +310,10 @@ class Scene:
 
     def __repr__(self) -> str:
         return f"<tyndall.Scene {self.width} x {self.height}, {len(self.objects)} objects>"
+
+
+def _parsed(text: str, folder: bytes) -> Scene:
+    return Scene(_tyndall.Scene.parse(text, folder))
 
 
 def _region(region: Any) -> list:

@@ -15,7 +15,9 @@
 // mode and flags of floating point neither change a bit of a picture nor are changed. The same scene, settings, version
 // and instruction set give the same bits as the command "tyndall render" (its image_hash is Picture::hash()).
 // Every failure is a tyndall::Error, whose what() is the sentence that the command prints; std::bad_alloc where memory
-// runs out. Lengths are in scene units, angles in degrees, colours and radiance linear Rec.709 (red, green, blue).
+// runs out; what a progress function throws comes out of render() as it is. An object that was moved from can be
+// assigned to; any other use of it throws Error. Lengths are in scene units, angles in degrees, colours and radiance
+// linear Rec.709 (red, green, blue).
 #include <tyndall/builders.h>
 
 #include <cstdint>
@@ -24,6 +26,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tyndall {
@@ -39,6 +42,29 @@ struct TYNDALL_API Error : std::runtime_error {
   std::string found;     ///< what stands there
   std::string expected;  ///< what is allowed there
 };
+
+namespace detail {
+
+[[noreturn]] TYNDALL_API void fail_moved_from();
+
+/// What a scene, film or picture shares with its copies.
+template <class Data>
+class Shared {
+ public:
+  Shared() = default;
+  Shared(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+  const std::shared_ptr<const Data>& pointer() const {
+    if (!data_) fail_moved_from();
+    return data_;
+  }
+  const Data& operator*() const { return *pointer(); }
+  const Data* operator->() const { return pointer().get(); }
+
+ private:
+  std::shared_ptr<const Data> data_;
+};
+
+}  // namespace detail
 
 class Picture;
 
@@ -90,11 +116,12 @@ class TYNDALL_API Scene {
   /// The same for an object of any kind, as JSON.
   void add_json(const std::string& object);
 
-  int width() const;   ///< pixels
-  int height() const;  ///< pixels
+  int width() const;           ///< pixels
+  int height() const;          ///< pixels
+  std::string folder() const;  ///< where its relative texture files are
 
  private:
-  std::shared_ptr<const Data> data_;
+  detail::Shared<Data> data_;
   friend class Picture;
   friend class Film;
   friend struct Access;
@@ -134,7 +161,7 @@ class TYNDALL_API Film {
 
  private:
   explicit Film(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
-  std::shared_ptr<const Data> data_;
+  detail::Shared<Data> data_;
   friend class Picture;
   friend struct Access;
 };
@@ -196,7 +223,7 @@ class TYNDALL_API Picture {
 
  private:
   explicit Picture(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
-  std::shared_ptr<const Data> data_;
+  detail::Shared<Data> data_;
   friend struct Access;
 };
 

@@ -43,7 +43,7 @@ struct Arriving {
 
   explicit Arriving(const std::string& begin, PpmCurve curve = PpmCurve::srgb) {
     pipe.write(begin);
-    picture = std::make_unique<ArrivingPicture>(pipe.reader(), *first_byte_of(pipe.reader()), "pipe", curve);
+    picture = std::make_unique<ArrivingPicture>(pipe.reader(), beginning_of(pipe.reader()).bytes, "pipe", curve);
     picture->start([this] { news.tell(); });
   }
   bool has_rows(int rows) {
@@ -62,7 +62,7 @@ std::string refusal(const std::string& text) {
   pipe.write(text);
   pipe.close_writer();
   try {
-    const ArrivingPicture picture(pipe.reader(), *first_byte_of(pipe.reader()), "pipe", PpmCurve::srgb);
+    const ArrivingPicture picture(pipe.reader(), beginning_of(pipe.reader()).bytes, "pipe", PpmCurve::srgb);
   } catch (const UsageError& error) {
     return error.what();
   }
@@ -125,7 +125,28 @@ TEST_CASE("arriving picture: what has no size is refused in one line") {
   CHECK(refusal("P3 400 x 255") == "pipe: cannot read: damaged: found \"x\", expected the height, a whole number");
   Pipe pipe;
   pipe.close_writer();
-  CHECK_FALSE(first_byte_of(pipe.reader()));
+  CHECK(beginning_of(pipe.reader()).bytes.empty());
+}
+
+TEST_CASE("arriving picture: text before it is told at once, while the program goes on") {
+  const auto found = [](const std::string& text) {
+    Pipe pipe;  // its writer stays open
+    pipe.write(text);
+    const Beginning begin = beginning_of(pipe.reader());
+    if (begin.is_picture || begin.is_scene) return std::string(begin.is_picture ? "a picture" : "a scene");
+    return first_line_of(pipe.reader(), begin.bytes);
+  };
+  CHECK(found("P3\n") == "a picture");
+  CHECK(found("rendering...\nP3\n2 1\n255\n") == "\"rendering...\"");
+  CHECK(found("Progress 3 %") == "\"Progress 3 %\"");
+  CHECK(found("\n10 rows left\r9 rows left\r") == "\"10 rows left\"");
+  CHECK(found("\nP3\n") == "\"P3\"");
+  CHECK(found("/home/me: rendering\n") == "\"/home/me: rendering\"");
+  CHECK(found("\xef\xbb\xbfP3\n") == "a byte order mark");
+  CHECK(found(std::string("\xff\xfeP\0003\0\n\0", 8)) == "text in UTF-16");
+  CHECK(found("\x89PNG\r\n\x1a\n") == "a picture of another kind");
+  for (const char* scene : {"{ }", "\n // a scene\n{ }", "/* a scene */ { }", "\xef\xbb\xbf{ }"})
+    CHECK(found(scene) == "a scene");
 }
 
 }  // namespace tyndall::test::arriving_picture_test

@@ -33,10 +33,10 @@ fs::path fresh_file(const char* name) {
 
 }  // namespace
 
-TEST_CASE("y4m: colours in the limited range of BT.709") {
-  // ITU-R BT.709, item 3 and 4: white, black, red, green, blue in 8 bits.
+TEST_CASE("y4m: colours in the limited range of BT.601") {
+  // ITU-R BT.601, table 2: white, black, red, green, blue in 8 bits.
   const auto planes = ycbcr_planes({255, 255, 255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255});
-  const std::vector<std::uint8_t> expected{235, 16, 63, 173, 32, 128, 128, 102, 42, 240, 128, 128, 240, 26, 118};
+  const std::vector<std::uint8_t> expected{235, 16, 81, 145, 41, 128, 128, 90, 54, 240, 128, 128, 240, 34, 110};
   CHECK(planes == expected);
 }
 
@@ -45,7 +45,7 @@ TEST_CASE("y4m: a film goes on where it ended, and what is left of a frame is cu
   Y4mFile(file, format, false).add(white, {});
   const std::string one = bytes_of(file);
   CHECK(one.starts_with("YUV4MPEG2 W3 H2 F24:1 Ip A1:1 C444 "));
-  CHECK(one.find('\n') < 95);  // what FFmpeg reads
+  CHECK(one.find('\n') < 85);  // FFmpeg reads up to 95, with 5 digits for width and height, and 30000:1001 for the rate
   std::ofstream(file, std::ios::binary | std::ios::app) << "FRAME\nabc";
   {
     Y4mFile film(file, format, false);
@@ -56,6 +56,10 @@ TEST_CASE("y4m: a film goes on where it ended, and what is left of a frame is cu
   CHECK(Y4mFile(file, format, false).frames() == 2);
   CHECK(bytes_of(file).size() == one.size() + 6 + 18);
   CHECK(Y4mFile(file, format, true).frames() == 0);
+  std::string before = one;  // as version 0.2.0 wrote it, in BT.709
+  before.erase(before.find(" XBT601"), 7);
+  std::ofstream(file, std::ios::binary) << before;
+  CHECK_THROWS_AS(Y4mFile(file, format, false), UsageError);
 }
 
 TEST_CASE("y4m: a header that was cut off is begun anew; any other file is refused and left as it is") {

@@ -20,7 +20,7 @@ struct PictureSession : OpenedSession {
     session.reset();
     WindowOptions options;
     options.picture =
-        std::make_shared<ArrivingPicture>(ends[0], *first_byte_of(ends[0]), "standard input", PpmCurve::srgb);
+        std::make_shared<ArrivingPicture>(ends[0], beginning_of(ends[0]).bytes, "standard input", PpmCurve::srgb);
     options.scene.name = "standard input";
     options.scene.is_picture = true;
     options.scene.scene.width = options.scene.scene.height = 2;
