@@ -152,7 +152,8 @@ tell_progress() {
       delete planned[$4]
     }
     END {
-      if (done < 1) exit
+      if (all == 0) exit
+      if (done == 0) took = done = 1 # none has been finished yet: as on the usual machine
       minutes = all * took / done / processors / 60
       share = 100 * elapsed / 60 / minutes
       printf "building: about %.1f minutes in all, %d %% of them are over\n", minutes, share < 99 ? share : 99
