@@ -116,7 +116,11 @@ compile() {
     return
   fi
   log=$folder/build.log
-  cmake --build "$folder" "$@" -- -n >"$log.planned" 2>/dev/null || :
+  local word targets=()
+  for word in "$@"; do
+    [ "$word" = --target ] || targets+=("$word")
+  done
+  cmake --build "$folder" -- -t commands "${targets[@]}" >"$log.planned" 2>/dev/null || :
   cp "$folder/.ninja_log" "$log.before" 2>/dev/null || : >"$log.before"
   cmake --build "$folder" --parallel "$(nproc)" "$@" >"$log" 2>&1 &
   local builder=$! tenths=0
@@ -135,6 +139,7 @@ compile() {
 
 # tell_progress FOLDER SECONDS: says how far the build in FOLDER is after SECONDS, and how long it takes in all. Each
 # kind of file is known to take so many seconds on one machine; how much longer this one takes, its first files show.
+# Where only some files are built, they count as ninja numbers them.
 tell_progress() {
   awk -v processors="$(nproc)" -v elapsed="$2" '
     function usual(name) {
@@ -144,18 +149,23 @@ tell_progress() {
       if (name ~ /Unity|cmake_pch/) return 6
       return name ~ /\.o$/ ? 2.5 : 0.3
     }
-    FILENAME == ARGV[1] && /^\[.* [^ ]+$/ { all += planned[$NF] = usual($NF) }
-    FILENAME == ARGV[2] { before[$1, $2, $4] }
-    FILENAME == ARGV[3] && $4 in planned && !(($1, $2, $4) in before) {
+    FILENAME == ARGV[1] {
+      ++commands
+      name = match($0, / -o [^ ]+/) ? substr($0, RSTART + 4, RLENGTH - 4) : $NF
+      all += planned[name] = usual(name)
+    }
+    FILENAME == ARGV[2] && match($1, /\/[0-9]+\]/) { steps = substr($1, RSTART + 1, RLENGTH - 2) }
+    FILENAME == ARGV[3] { before[$1, $2, $4] }
+    FILENAME == ARGV[4] && $4 in planned && !(($1, $2, $4) in before) {
       took += ($2 - $1) / 1000
       done += planned[$4]
       delete planned[$4]
     }
     END {
-      if (all == 0) exit
+      if (all == 0 || steps == 0) exit
       if (done == 0) took = done = 1 # none has been finished yet: as on the usual machine
-      minutes = all * took / done / processors / 60
+      minutes = all * (steps < commands ? steps / commands : 1) * took / done / processors / 60
       share = 100 * elapsed / 60 / minutes
       printf "building: about %.1f minutes in all, %d %% of them are over\n", minutes, share < 99 ? share : 99
-    }' "$1/build.log.planned" "$1/build.log.before" "$1/.ninja_log" >&2 || :
+    }' "$1/build.log.planned" "$1/build.log" "$1/build.log.before" "$1/.ninja_log" >&2 || :
 }
