@@ -124,7 +124,9 @@ class BookPaths {
     MediumEvent<float> medium = no_event<float>();
     if (s_.features.media && !p.at_surface) {
       fly_through_media(s_, p.ray, p.sampler, true, nearest, medium);
-      p.throughput = transmitted_by_absorbers(s_, p.ray, p.sampler, nearest, true) * p.throughput;
+      // The books' black smoke ends paths at random, so that samples vary more than with this as their weight.
+      if (p.sampler.next_1d(dimension::roulette) >= transmitted_by_absorbers(s_, p.ray, p.sampler, nearest, true))
+        return false;
     }
     const bool goes_on = medium.happens     ? meet_medium(p, medium)
                          : hit.element >= 0 ? meet_surface(p, hit)

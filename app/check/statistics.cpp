@@ -6,45 +6,56 @@
 namespace tyndall {
 namespace {
 
-constexpr double amount_errors = 3;  // standard errors that an amount leaves to noise
-constexpr int min_pixels = 24;       // of a block that is compared
+constexpr double amount_limit = 3;  // z that an amount leaves to noise
+constexpr int min_pixels = 24;      // of a block that is compared
 
 struct Sums {
   double expected = 0, value = 0, square = 0, variance = 0, tolerance = 0;
 };
 
-double excess_of(const BlockDifference& b, double error, double errors) {
-  return std::max(0.0, std::abs(b.difference) - b.tolerance - errors * error);
+double excess_of(const BlockDifference& b, double margin) {
+  return std::max(0.0, std::abs(b.difference) - b.tolerance - margin);
 }
 
-/// One channel of a pixel: its mean, its variance, its excess.
-void add_channel(const BookSample* samples, int count, int group, int max_depth, float Vec3f::*channel,
+/// Pairs of numbers: their covariance.
+struct Pairs {
+  double a = 0, b = 0, products = 0, count = 0;
+  void add(double x, double y) { a += x, b += y, products += x * y, ++count; }
+  double covariance() const { return count > 1 ? (products - a * b / count) / (count - 1) : 0; }
+};
+
+/// One channel of a pixel.
+void add_channel(const BookSample* samples, int count, const Exposure& exposure, float Vec3f::*channel,
                  SampleStatistics& to) {
-  double sum = 0, squares = 0, of_group = 0, excess = 0;
-  int in_group = 0, groups = 0;
+  double of_group = 0;
+  int in_group = 0;
+  Pairs single, cut, whole_and_cut;
   for (int k = 0; k < count; ++k) {
-    const bool found = max_depth < 0 || samples[k].depth <= max_depth;
-    const double value = found ? static_cast<double>(samples[k].light.*channel) : 0;
-    sum += value, squares += value * value, of_group += value;
-    if (++in_group < group) continue;
-    excess += std::max(0.0, of_group / group - 1), ++groups;
+    const auto value = static_cast<double>(samples[k].light.*channel);
+    single.add(value, value), of_group += value;
+    if (++in_group < exposure.group) continue;
+    const double mean = of_group / exposure.group, shown = std::min(mean, exposure.white);
+    cut.add(shown, shown), whole_and_cut.add(mean, shown);
     of_group = 0, in_group = 0;
   }
-  const double mean = sum / count;
-  to.mean.push_back(static_cast<float>(mean));
-  to.variance.push_back(static_cast<float>(count > 1 ? std::max(0.0, squares - sum * mean) / (count - 1) : 0));
-  to.excess.push_back(static_cast<float>(groups > 0 ? excess / groups : 0));
+  const double variance = std::max(0.0, single.covariance()), uncut = variance / exposure.group;
+  const bool several = cut.count > 1;
+  to.mean.push_back(static_cast<float>(single.a / count));
+  to.variance.push_back(static_cast<float>(variance));
+  to.excess.push_back(static_cast<float>((whole_and_cut.a - whole_and_cut.b) / cut.count));
+  to.noise.push_back(static_cast<float>(several ? std::max(0.0, cut.covariance()) : uncut));
+  to.common.push_back(static_cast<float>(several ? whole_and_cut.covariance() : uncut));
 }
 
 }  // namespace
 
-SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count, int group, int max_depth) {
+SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count, const Exposure& exposure) {
   SampleStatistics result;
-  const std::size_t numbers = 3 * samples.size() / static_cast<std::size_t>(count);
-  result.mean.reserve(numbers), result.variance.reserve(numbers), result.excess.reserve(numbers);
+  for (std::vector<float>* list : {&result.mean, &result.variance, &result.excess, &result.noise, &result.common})
+    list->reserve(3 * samples.size() / static_cast<std::size_t>(count));
   for (std::size_t first = 0; first < samples.size(); first += static_cast<std::size_t>(count))
     for (float Vec3f::*channel : {&Vec3f::x, &Vec3f::y, &Vec3f::z})
-      add_channel(samples.data() + first, count, group, max_depth, channel, result);
+      add_channel(samples.data() + first, count, exposure, channel, result);
   return result;
 }
 
@@ -88,6 +99,8 @@ Regions regions_of(const BlockGrid& grid) {
   return regions;
 }
 
+double BlockDifference::margin(double z) const { return z * z * jump / 6 + std::hypot(z * z * jump / 6, z * error); }
+
 std::vector<BlockDifference> block_differences(const ComparedPixels& p, const Regions& regions) {
   std::vector<Sums> sums(3 * static_cast<std::size_t>(regions.count));
   std::vector<BlockDifference> result(sums.size());
@@ -113,8 +126,8 @@ std::vector<BlockDifference> block_differences(const ComparedPixels& p, const Re
     }
     const double n = block.pixels, mean = sum.value / n;
     const double scatter = std::max(0.0, sum.square - sum.value * mean) / (n - 1);
-    block = {block.pixels, sum.expected / n, mean, std::sqrt(std::max(scatter, sum.variance / n) / n),
-             sum.tolerance / n};
+    block = {block.pixels,      sum.expected / n, mean, std::sqrt(std::max(scatter, sum.variance / n) / n),
+             sum.tolerance / n, p.jump / n};
   }
   return result;
 }
@@ -125,7 +138,7 @@ Misfit misfit_of(std::span<const BlockDifference> differences) {
     if (differences[block].pixels == 0) continue;
     bool different = false;
     for (std::size_t c = 0; c < 3; ++c)
-      different = different || excess_of(differences[block + c], differences[block + c].error, noise_limit) > 0;
+      different = different || excess_of(differences[block + c], differences[block + c].margin(noise_limit)) > 0;
     ++misfit.blocks;
     misfit.different += different ? 1 : 0;
   }
@@ -138,7 +151,8 @@ double amount_of(std::span<const BlockDifference> differences, std::span<const B
   for (std::size_t k = 0; k < differences.size(); ++k) {
     const BlockDifference& block = differences[k];
     if (block.pixels == 0) continue;
-    amount += block.pixels * excess_of(block, std::max(block.error, other[k].error), amount_errors) / block.tolerance;
+    const double margin = std::max(block.margin(amount_limit), other[k].margin(amount_limit));
+    amount += block.pixels * excess_of(block, margin) / block.tolerance;
   }
   return amount;
 }

@@ -12,13 +12,21 @@ namespace tyndall {
 struct SampleStatistics {
   std::vector<float> mean;
   std::vector<float> variance;  ///< of one sample
-  /// By how much white cuts the mean of a picture: the part of a mean of `group` samples that is above 1, averaged.
+  /// By how much white cuts the mean of a picture: the part of a mean of `group` samples that is above it, averaged.
   std::vector<float> excess;
+  std::vector<float> noise;   ///< variance of a mean of `group` samples, cut at white
+  std::vector<float> common;  ///< covariance of such a mean with the one that is not cut
 };
 
-/// count: samples a pixel; group: samples of one pixel of the picture whose excess is wanted, at most `count`.
-/// max_depth: light found after more scattering events is left out; negative: none is.
-SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count, int group, int max_depth = -1);
+/// What a picture holds of a pixel's samples: the mean of `group` of them, at most `white`.
+struct Exposure {
+  int group = 1;
+  double white = 1;  ///< infinity for pictures that are not cut
+};
+
+/// count: samples a pixel, from Exposure::group on. Where there are not two groups, noise and common are those of means
+/// that are not cut.
+SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count, const Exposure& exposure);
 
 /// What white cuts off of means of many samples, over what it cuts off of means of `count`, of each region and channel.
 /// many: more samples than there are of a pixel, so that those of neighbours are taken together; in the same way for
@@ -55,6 +63,11 @@ struct BlockDifference {
   double difference = 0;  ///< mean of the picture minus that
   double error = 0;       ///< standard error of the mean
   double tolerance = 0;   ///< by how much it may be off without noise
+  double jump = 0;        ///< by how much the noise of a single sample can change the mean
+  /// What noise exceeds with a probability of at most 2 exp(-z² / 2), however the samples are distributed: Bernstein's
+  /// inequality (S. Boucheron, G. Lugosi, P. Massart, Concentration Inequalities, 2.8). z errors where samples are
+  /// many.
+  double margin(double z) const;
 };
 
 /// What is compared.
@@ -63,6 +76,7 @@ struct ComparedPixels {
   const std::vector<float>& expected;   ///< likewise
   const std::vector<float>& tolerance;  ///< likewise
   const std::vector<float>& variance;   ///< of each pixel's noise, as far as it is known; likewise
+  double jump = 0;                      ///< by how much the noise of a single sample can change a pixel
 };
 
 /// Three of each region. The error of a region is the greater of two: what the scatter of its pixels' differences
@@ -70,18 +84,18 @@ struct ComparedPixels {
 /// right where rare bright paths have not happened to be met.
 std::vector<BlockDifference> block_differences(const ComparedPixels& pixels, const Regions& regions);
 
-/// Standard errors beyond which a difference is no noise. Errors are estimated, and the noise of few samples is no
-/// normal distribution, so that now and then a block of a right picture is beyond, too.
+/// The z of BlockDifference::margin() beyond which a difference is no noise. Errors are estimated, so that now and then
+/// a block of a right picture is beyond, too.
 inline constexpr double noise_limit = 5;
 
 /// How much two pictures differ by more than noise.
 struct Misfit {
   int blocks = 0;     ///< that were compared
-  int different = 0;  ///< in some channel by more than their tolerance and noise_limit errors
-  double amount = 0;  ///< of the difference beyond tolerance and 3 errors, in tolerances, summed over all pixels
+  int different = 0;  ///< in some channel by more than their tolerance and the margin of noise_limit
+  double amount = 0;  ///< of the difference beyond tolerance and the margin of 3, in tolerances, summed over all pixels
 };
 Misfit misfit_of(std::span<const BlockDifference> differences);
-/// The amount alone, where each block's error is the greater of its own and that of `other`: two amounts that are
+/// The amount alone, where each block's margin is the greater of its own and that of `other`: two amounts that are
 /// compared must not differ because one of the pictures is noisier.
 double amount_of(std::span<const BlockDifference> differences, std::span<const BlockDifference> other);
 
