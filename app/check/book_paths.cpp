@@ -183,7 +183,9 @@ class BookPaths {
     p.ray = {at.point, out.direction, loses_time ? 0 : p.ray.time, 4 * at.element + (inside ? 1 : 0)};
     if (loses_time && moves(at.element)) p.ray.from = from_nowhere;  // the ball has jumped, and can be met again
     p.length = out.length;
-    p.at_surface = rules_.meets_itself && p.sampler.next_1d(dimension::near_pair) < 0.5f;
+    // Whether rounding has put a point outside or inside is a matter of luck, which a second meeting there does not
+    // change.
+    p.at_surface = rules_.meets_itself && !p.at_surface && p.sampler.next_1d(dimension::near_pair) < 0.5f;
     return true;
   }
 

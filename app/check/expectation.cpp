@@ -19,7 +19,7 @@ constexpr std::size_t min_ratios = 8;             // blocks that tell how many s
 constexpr double rare_light = 0.5, dark = 0.003;  // of the light of a region, and light, that samples may be off
 constexpr double min_cut = 0.02;                  // of the light of single samples, that white cuts off
 constexpr double max_cut = 1e-3;                  // of light, that white cuts off of blocks whose noise tells anything
-constexpr double noise_factor = 1.4;              // by which noise tells the number of samples wrongly
+constexpr double noise_factor = 2;                // by which noise tells the number of samples wrongly
 
 /// A scene as kernels read it.
 struct Compiled {
@@ -178,8 +178,6 @@ void Expectation::take_samples(const CheckOptions& options) {
     count_ = static_cast<int>(std::clamp(fit, 1.0 * min_samples, 1.0 * max_samples_of_pixel));
   }
   samples_ = take(count_);
-  for (const BookSample& sample : samples_)
-    max_light_ = std::max(max_light_, static_cast<double>(max_component(sample.light)));
   group_ = count_;
   base_ = statistics_of(samples_, count_, {group_, white()});
 }
@@ -276,8 +274,7 @@ const ReadPixels& Expectation::read(const Reading& reading) {
 RegionDifferences Expectation::differences(const BookModel& model, const Reading& reading) {
   const ReadPixels& pixels = read(reading);
   const std::vector<float> expected = expected_of(model);
-  const double jump = samples_of_picture_ > 0 ? std::min(white(), max_light_ / samples_of_picture_) : 0;
-  const ComparedPixels compared{pixels.light, expected, pixels.tolerance, model.noise, jump};
+  const ComparedPixels compared{pixels.light, expected, pixels.tolerance, model.noise};
   RegionDifferences result{block_differences(compared, small_), block_differences(compared, whole_), 0, 0};
   result.small = result.all.size();
   const auto large = block_differences(compared, large_), objects = block_differences(compared, objects_);

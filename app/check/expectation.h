@@ -95,7 +95,6 @@ class Expectation {
   int count_ = 0;  ///< samples that were taken of each pixel
   int group_ = 0;  ///< samples of a pixel of the picture, as far as so many were taken
   double samples_of_picture_ = 0, comparable_ = 1;
-  double max_light_ = 0;  ///< of a sample
   std::vector<BookSample> samples_;
   SampleStatistics base_;       ///< of the scene as it is
   std::vector<double> passes_;  ///< what white lets through of a change of the means; of each large region and channel

@@ -10,10 +10,11 @@ namespace {
 constexpr double max_different = 1 / 150.0;  // of the small blocks of a picture that agrees
 constexpr double min_seen = 0.25;            // of a difference must be seen beside the noise of a mistake's picture
 constexpr double promising = 0.2;            // of a difference is explained where it is worth looking closer
-constexpr double min_comparable = 0.5;       // of the blocks must be comparable for an answer
-constexpr double clear_improvement = 0.7;    // of a difference is left where a choice is taken for the program's
-constexpr double max_unseen = 0.3;           // of the light, by which a picture that agrees may be off unseen
-constexpr std::size_t max_looked_at = 3;     // mistakes that are looked at closely
+constexpr double min_explained = 0.95;     // of a difference that blocks alone do not show, by a mistake that is named
+constexpr double min_comparable = 0.5;     // of the blocks must be comparable for an answer
+constexpr double clear_improvement = 0.7;  // of a difference is left where a choice is taken for the program's
+constexpr double max_unseen = 0.3;         // of the light, by which a picture that agrees may be off unseen
+constexpr std::size_t max_looked_at = 3;   // mistakes that are looked at closely
 
 /// A program, what is expected of its picture, and how far the user's picture is from that.
 struct Fit {
@@ -185,10 +186,14 @@ class Search {
     return best;
   }
 
-  static bool agrees(const RegionDifferences& regions) {
+  static bool agrees_in_blocks(const RegionDifferences& regions) {
     const Misfit small = misfit_of(regions.of_small());
-    return misfit_of(regions.whole).different == 0 && small.different <= max_different * small.blocks &&
-           misfit_of(regions.of_large()).different == 0 && misfit_of(regions.of_objects()).different == 0;
+    return small.different <= max_different * small.blocks;
+  }
+
+  static bool agrees(const RegionDifferences& regions) {
+    return agrees_in_blocks(regions) && misfit_of(regions.of_large()).different == 0 &&
+           misfit_of(regions.of_objects()).different == 0 && misfit_of(regions.whole).different == 0;
   }
 
   /// What the findings say of the picture before mistakes are looked for.
@@ -217,7 +222,7 @@ class Search {
     const bool agree = !findings_.unknown && agrees(right.regions);
     double light = 0, unseen = 0;
     for (const BlockDifference& channel : right.regions.whole)
-      light += channel.expected, unseen += channel.tolerance + channel.margin(noise_limit);
+      light += channel.expected, unseen += channel.tolerance + noise_limit * channel.error;
     findings_.unseen = light > 0 ? unseen / light : 0;
     findings_.too_few = agree && findings_.unseen > max_unseen;
     findings_.agrees = agree && !findings_.too_few;
@@ -307,11 +312,13 @@ class Search {
     return *best;
   }
 
-  /// Whether the picture agrees with those that are made with the mistake, and with choices of editions, which may not
-  /// have been seen beside it.
-  bool agrees_with(Candidate candidate, const Fit& right) {
+  /// How much of the difference a mistake explains if the picture agrees with those that are made with it, and with
+  /// choices of editions, which may not have been seen beside it; nothing: it does not agree. Where only larger parts
+  /// than blocks had differed, other mistakes that make the picture darker would agree as well: so nearly all of the
+  /// difference in blocks must be gone.
+  std::optional<double> explained_by(Candidate candidate, const Fit& right) {
     std::vector<BookSample> samples = samples_of(candidate);
-    if (samples.empty()) return ++findings_.untried, false;
+    if (samples.empty()) return ++findings_.untried, std::nullopt;
     RegionDifferences best = closest(candidate, samples);
     for (const Difference& choice : usual_choices()) {
       if (agrees(best)) break;
@@ -319,11 +326,13 @@ class Search {
       if (!other.program) other.program = right.program;
       if (!choice.apply(*other.program)) continue;
       samples = samples_of(other);
-      if (samples.empty()) return ++findings_.untried, false;
+      if (samples.empty()) return ++findings_.untried, std::nullopt;
       RegionDifferences found = expectation_.differences(expectation_.model_of(samples), other.reading);
       if (found.amount() < best.amount()) candidate = std::move(other), best = std::move(found);
     }
-    return agrees(best);
+    const double explained = 1 - best.amount() / right.regions.amount();
+    return agrees(best) && (explained >= min_explained || !agrees_in_blocks(right.regions)) ? std::optional(explained)
+                                                                                            : std::nullopt;
   }
 
   /// Names the best of all, never the best of those for which there was time, if it leaves nothing but noise.
@@ -333,13 +342,14 @@ class Search {
     for (const Candidate& candidate : candidates_) findings_.tried.push_back(candidate.told);
     const double told = expectation_.samples();
     const Candidate* named = nullptr;
-    for (std::size_t k = 0; k < std::min(max_looked_at, candidates_.size()) && !named; ++k)
-      if (findings_.untried == 0 && candidates_[k].told.explained > min_explained && agrees_with(candidates_[k], right))
-        named = &candidates_[k];
+    for (const Candidate& candidate : std::span(candidates_).first(std::min(max_looked_at, candidates_.size()))) {
+      if (named || findings_.untried > 0 || candidate.told.explained < promising) break;
+      const std::optional<double> explained = explained_by(candidate, right);
+      if (!explained) continue;
+      named = &candidate, findings_.mistake = {candidate.told.name, candidate.told.words, *explained};
+    }
     expectation_.set_samples(told);
-    if (!named || findings_.untried > 0) return;
-    findings_.mistake = named->told;
-    describe(fit(right.program, is_right(named->reading) ? named->reading : right.reading, right.model));
+    if (named) describe(fit(right.program, is_right(named->reading) ? named->reading : right.reading, right.model));
   }
 
   const PictureNumbers& picture_;

@@ -41,7 +41,4 @@ struct Findings {
 Findings explain(const PictureNumbers& picture, const Scene& scene, const Reference& reference,
                  const CheckOptions& options, const std::function<bool()>& go_on);
 
-/// Whether a mistake that explains so much of a difference is looked at closely.
-inline constexpr double min_explained = 0.5;
-
 }  // namespace tyndall

@@ -6,15 +6,15 @@
 namespace tyndall {
 namespace {
 
-constexpr double amount_limit = 3;  // z that an amount leaves to noise
-constexpr int min_pixels = 24;      // of a block that is compared
+constexpr double amount_errors = 3;  // standard errors that an amount leaves to noise
+constexpr int min_pixels = 24;       // of a block that is compared
 
 struct Sums {
   double expected = 0, value = 0, square = 0, variance = 0, tolerance = 0;
 };
 
-double excess_of(const BlockDifference& b, double margin) {
-  return std::max(0.0, std::abs(b.difference) - b.tolerance - margin);
+double excess_of(const BlockDifference& b, double error, double errors) {
+  return std::max(0.0, std::abs(b.difference) - b.tolerance - errors * error);
 }
 
 /// Pairs of numbers: their covariance.
@@ -99,8 +99,6 @@ Regions regions_of(const BlockGrid& grid) {
   return regions;
 }
 
-double BlockDifference::margin(double z) const { return z * z * jump / 6 + std::hypot(z * z * jump / 6, z * error); }
-
 std::vector<BlockDifference> block_differences(const ComparedPixels& p, const Regions& regions) {
   std::vector<Sums> sums(3 * static_cast<std::size_t>(regions.count));
   std::vector<BlockDifference> result(sums.size());
@@ -126,8 +124,8 @@ std::vector<BlockDifference> block_differences(const ComparedPixels& p, const Re
     }
     const double n = block.pixels, mean = sum.value / n;
     const double scatter = std::max(0.0, sum.square - sum.value * mean) / (n - 1);
-    block = {block.pixels,      sum.expected / n, mean, std::sqrt(std::max(scatter, sum.variance / n) / n),
-             sum.tolerance / n, p.jump / n};
+    block = {block.pixels, sum.expected / n, mean, std::sqrt(std::max(scatter, sum.variance / n) / n),
+             sum.tolerance / n};
   }
   return result;
 }
@@ -138,7 +136,7 @@ Misfit misfit_of(std::span<const BlockDifference> differences) {
     if (differences[block].pixels == 0) continue;
     bool different = false;
     for (std::size_t c = 0; c < 3; ++c)
-      different = different || excess_of(differences[block + c], differences[block + c].margin(noise_limit)) > 0;
+      different = different || excess_of(differences[block + c], differences[block + c].error, noise_limit) > 0;
     ++misfit.blocks;
     misfit.different += different ? 1 : 0;
   }
@@ -151,8 +149,7 @@ double amount_of(std::span<const BlockDifference> differences, std::span<const B
   for (std::size_t k = 0; k < differences.size(); ++k) {
     const BlockDifference& block = differences[k];
     if (block.pixels == 0) continue;
-    const double margin = std::max(block.margin(amount_limit), other[k].margin(amount_limit));
-    amount += block.pixels * excess_of(block, margin) / block.tolerance;
+    amount += block.pixels * excess_of(block, std::max(block.error, other[k].error), amount_errors) / block.tolerance;
   }
   return amount;
 }

@@ -63,11 +63,6 @@ struct BlockDifference {
   double difference = 0;  ///< mean of the picture minus that
   double error = 0;       ///< standard error of the mean
   double tolerance = 0;   ///< by how much it may be off without noise
-  double jump = 0;        ///< by how much the noise of a single sample can change the mean
-  /// What noise exceeds with a probability of at most 2 exp(-z² / 2), however the samples are distributed: Bernstein's
-  /// inequality (S. Boucheron, G. Lugosi, P. Massart, Concentration Inequalities, 2.8). z errors where samples are
-  /// many.
-  double margin(double z) const;
 };
 
 /// What is compared.
@@ -76,7 +71,6 @@ struct ComparedPixels {
   const std::vector<float>& expected;   ///< likewise
   const std::vector<float>& tolerance;  ///< likewise
   const std::vector<float>& variance;   ///< of each pixel's noise, as far as it is known; likewise
-  double jump = 0;                      ///< by how much the noise of a single sample can change a pixel
 };
 
 /// Three of each region. The error of a region is the greater of two: what the scatter of its pixels' differences
@@ -84,18 +78,18 @@ struct ComparedPixels {
 /// right where rare bright paths have not happened to be met.
 std::vector<BlockDifference> block_differences(const ComparedPixels& pixels, const Regions& regions);
 
-/// The z of BlockDifference::margin() beyond which a difference is no noise. Errors are estimated, so that now and then
-/// a block of a right picture is beyond, too.
+/// Standard errors beyond which a difference is no noise. Errors are estimated, and the noise of few samples is no
+/// normal distribution, so that now and then a block of a right picture is beyond, too.
 inline constexpr double noise_limit = 5;
 
 /// How much two pictures differ by more than noise.
 struct Misfit {
   int blocks = 0;     ///< that were compared
-  int different = 0;  ///< in some channel by more than their tolerance and the margin of noise_limit
-  double amount = 0;  ///< of the difference beyond tolerance and the margin of 3, in tolerances, summed over all pixels
+  int different = 0;  ///< in some channel by more than their tolerance and noise_limit errors
+  double amount = 0;  ///< of the difference beyond tolerance and 3 errors, in tolerances, summed over all pixels
 };
 Misfit misfit_of(std::span<const BlockDifference> differences);
-/// The amount alone, where each block's margin is the greater of its own and that of `other`: two amounts that are
+/// The amount alone, where each block's error is the greater of its own and that of `other`: two amounts that are
 /// compared must not differ because one of the pictures is noisier.
 double amount_of(std::span<const BlockDifference> differences, std::span<const BlockDifference> other);
 
