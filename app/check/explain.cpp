@@ -86,6 +86,11 @@ std::vector<double> light_by_depth(const std::vector<BookSample>& samples) {
   return light;
 }
 
+/// Whether clearly less of a difference is left, where both have the same noise.
+bool clearly_closer(const RegionDifferences& a, const RegionDifferences& b) {
+  return amount_of(a.all, b.all) < clear_improvement * amount_of(b.all, a.all);
+}
+
 /// The search for what explains a picture.
 class Search {
  public:
@@ -114,7 +119,7 @@ class Search {
   }
 
   /// The reading that fits best. A wrong one must be clearly better than the best right one; only_right: none is tried.
-  Reading best_reading(const BookModel& model, bool only_right, double* amount = nullptr) {
+  Reading best_reading(const BookModel& model, bool only_right) {
     std::optional<Reading> right, wrong;
     double of_right = 0, of_wrong = 0;
     for (const Reading& reading : readings_of(picture_.coded)) {
@@ -124,7 +129,6 @@ class Search {
       double& min_found = is_right(reading) ? of_right : of_wrong;
       if (!best || found < min_found) best = reading, min_found = found;
     }
-    if (amount) *amount = of_right;
     if (wrong) wrong_ = wrong;
     return wrong && of_wrong < clear_improvement * of_right ? *wrong : *right;
   }
@@ -135,15 +139,14 @@ class Search {
   void fit_samples() {
     const std::vector<double> likely =
         expectation_.likely_samples(expectation_.start_samples(), best_reading(start_model(), false));
-    double best = likely.front(), min_found = 0;
+    double best = likely.front();
+    std::optional<RegionDifferences> closest;
     for (const double samples : likely) {
       expectation_.set_samples(samples);
-      double amount = 0;
       const BookModel model = start_model();
-      const Reading reading = best_reading(model, true, &amount);
-      if (agrees(expectation_.differences(model, reading))) return;
-      if (samples == likely.front() && !expectation_.white_matters()) return;
-      if (samples == likely.front() || amount < clear_improvement * min_found) best = samples, min_found = amount;
+      RegionDifferences found = expectation_.differences(model, best_reading(model, true));
+      if (agrees(found) || (!closest && !expectation_.white_matters())) return;
+      if (!closest || clearly_closer(found, *closest)) best = samples, closest = std::move(found);
     }
     expectation_.set_samples(best);
   }
@@ -304,7 +307,7 @@ class Search {
     for (const double count : expectation_.likely_samples(samples, candidate.reading)) {
       expectation_.set_samples(count);
       RegionDifferences found = expectation_.differences(expectation_.model_of(samples), candidate.reading);
-      if (best && !agrees(found) && found.amount() >= best->amount()) continue;
+      if (best && !agrees(found) && !clearly_closer(found, *best)) continue;
       best = std::move(found), best_samples = count;
       if (agrees(*best)) break;
     }

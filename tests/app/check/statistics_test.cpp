@@ -22,6 +22,14 @@ struct NoisyPicture {
   BlockGrid grid = grid_of(lattice);
   Regions regions = regions_of(grid);
   std::vector<float> light, expected, tolerance, variance;
+  NoisyPicture(unsigned seed, double noise) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal(0.3, noise);
+    for (std::size_t k = 0; k < 3 * lattice.pixels(); ++k) {
+      light.push_back(static_cast<float>(normal(random)));
+      expected.push_back(0.3f), tolerance.push_back(0.004f), variance.push_back(0);
+    }
+  }
   Misfit misfit() const { return misfit_of(block_differences({light, expected, tolerance, variance}, regions)); }
 };
 
