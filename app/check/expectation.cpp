@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace tyndall {
@@ -19,6 +20,7 @@ constexpr std::size_t min_ratios = 8;             // blocks that tell how many s
 constexpr double rare_light = 0.5, dark = 0.003;  // of the light of a region, and light, that samples may be off
 constexpr double min_cut = 0.02;                  // of the light of single samples, that white cuts off
 constexpr double max_cut = 1e-3;                  // of light, that white cuts off of blocks whose noise tells anything
+constexpr double max_black_off = 0.1;             // of the pixels, by which a picture is black more or less often
 constexpr double noise_factor = 2;                // by which noise tells the number of samples wrongly
 
 /// A scene as kernels read it.
@@ -193,11 +195,18 @@ std::vector<double> Expectation::likely_samples(const std::vector<BookSample>& o
     noise[k] -= of_reference[k] + rounding;
     if (noise[k] < rounding) noise[k] = 0;
   }
+  double black_pixels = 0;
+  for (std::size_t at = 0; at < pixels.light.size(); ++at)
+    black_pixels += pixels.light[at] <= std::max(max_black, pixels.tolerance[at]) ? 1 : 0;
+  black_pixels /= static_cast<double>(pixels.light.size());
   std::vector<std::pair<double, double>> likely;  // how far off the noise is, and samples
   for (int group = 1; 2 * group <= count_; ++group) {
     const SampleStatistics few = statistics_of(of_program, count_, {group, white()});
     const double ratio = noise_ratio(means_of(few.noise, small_), {}, noise);
-    if (ratio > 1 / noise_factor && ratio < noise_factor) likely.emplace_back(std::abs(std::log(ratio)), group);
+    const double black =
+        std::accumulate(few.black.begin(), few.black.end(), 0.0) / static_cast<double>(few.black.size());
+    if (ratio > 1 / noise_factor && ratio < noise_factor && std::abs(black - black_pixels) < max_black_off)
+      likely.emplace_back(std::abs(std::log(ratio)), group);
   }
   const SampleStatistics many = statistics_of(of_program, count_, {count_, white()});
   const double told = noise_ratio(means_of(many.variance, small_), means_of(many.excess, small_), noise);

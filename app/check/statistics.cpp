@@ -27,7 +27,7 @@ struct Pairs {
 /// One channel of a pixel.
 void add_channel(const BookSample* samples, int count, const Exposure& exposure, float Vec3f::*channel,
                  SampleStatistics& to) {
-  double of_group = 0;
+  double of_group = 0, black = 0;
   int in_group = 0;
   Pairs single, cut, whole_and_cut;
   for (int k = 0; k < count; ++k) {
@@ -36,6 +36,7 @@ void add_channel(const BookSample* samples, int count, const Exposure& exposure,
     if (++in_group < exposure.group) continue;
     const double mean = of_group / exposure.group, shown = std::min(mean, exposure.white);
     cut.add(shown, shown), whole_and_cut.add(mean, shown);
+    black += mean < static_cast<double>(max_black) ? 1 : 0;
     of_group = 0, in_group = 0;
   }
   const double variance = std::max(0.0, single.covariance()), uncut = variance / exposure.group;
@@ -44,6 +45,7 @@ void add_channel(const BookSample* samples, int count, const Exposure& exposure,
   to.variance.push_back(static_cast<float>(variance));
   to.excess.push_back(static_cast<float>((whole_and_cut.a - whole_and_cut.b) / cut.count));
   to.noise.push_back(static_cast<float>(several ? std::max(0.0, cut.covariance()) : uncut));
+  to.black.push_back(static_cast<float>(black / cut.count));
   to.common.push_back(static_cast<float>(several ? whole_and_cut.covariance() : uncut));
 }
 
@@ -51,7 +53,8 @@ void add_channel(const BookSample* samples, int count, const Exposure& exposure,
 
 SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count, const Exposure& exposure) {
   SampleStatistics result;
-  for (std::vector<float>* list : {&result.mean, &result.variance, &result.excess, &result.noise, &result.common})
+  for (std::vector<float>* list :
+       {&result.mean, &result.variance, &result.excess, &result.noise, &result.common, &result.black})
     list->reserve(3 * samples.size() / static_cast<std::size_t>(count));
   for (std::size_t first = 0; first < samples.size(); first += static_cast<std::size_t>(count))
     for (float Vec3f::*channel : {&Vec3f::x, &Vec3f::y, &Vec3f::z})

@@ -16,7 +16,9 @@ struct SampleStatistics {
   std::vector<float> excess;
   std::vector<float> noise;   ///< variance of a mean of `group` samples, cut at white
   std::vector<float> common;  ///< covariance of such a mean with the one that is not cut
+  std::vector<float> black;   ///< fraction of such means that are below max_black
 };
+inline constexpr float max_black = 1e-3f;
 
 /// What a picture holds of a pixel's samples: the mean of `group` of them, at most `white`.
 struct Exposure {
