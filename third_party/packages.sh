@@ -141,7 +141,7 @@ compile() {
 # kind of file is known to take so many seconds on one machine; how much longer this one takes, its first files show.
 # Where only some files are built, they count as ninja numbers them.
 tell_progress() {
-  awk -v processors="$(nproc)" -v elapsed="$2" '
+  { awk -v processors="$(nproc)" -v elapsed="$2" '
     function usual(name) {
       if (name ~ /kernel_sets/) return 90
       if (name ~ /full_kernel/) return 60
@@ -167,5 +167,5 @@ tell_progress() {
       minutes = all * (steps < commands ? steps / commands : 1) * took / done / processors / 60
       share = 100 * elapsed / 60 / minutes
       printf "building: about %.1f minutes in all, %d %% of them are over\n", minutes, share < 99 ? share : 99
-    }' "$1/build.log.planned" "$1/build.log" "$1/build.log.before" "$1/.ninja_log" >&2 || :
+    }' "$1/build.log.planned" "$1/build.log" "$1/build.log.before" "$1/.ninja_log" 2>/dev/null || :; } >&2
 }
