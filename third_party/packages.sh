@@ -146,8 +146,8 @@ tell_progress() {
       if (name ~ /kernel_sets/) return 90
       if (name ~ /full_kernel/) return 60
       if (name ~ /targets\/scalar/) return 20
-      if (name ~ /Unity|cmake_pch/) return 6
-      return name ~ /\.o$/ ? 2.5 : 0.3
+      if (name ~ /Unity|cmake_pch/) return 5
+      return name ~ /\.o$/ ? 2 : 0.5
     }
     FILENAME == ARGV[1] {
       ++commands
@@ -163,7 +163,7 @@ tell_progress() {
     }
     END {
       if (all == 0 || steps == 0) exit
-      if (done == 0) took = done = 1 # none has been finished yet: as on the usual machine
+      if (done < all / 20) took = done = 1 # too few have been finished: as on the usual machine
       minutes = all * (steps < commands ? steps / commands : 1) * took / done / processors / 60
       share = 100 * elapsed / 60 / minutes
       printf "building: about %.1f minutes in all, %d %% of them are over\n", minutes, share < 99 ? share : 99
