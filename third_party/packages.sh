@@ -139,7 +139,7 @@ compile() {
 
 # tell_progress FOLDER SECONDS: says how far the build in FOLDER is after SECONDS, and how long it takes in all. Each
 # kind of file is known to take so many seconds on one machine; how much longer this one takes, its first files show.
-# Where only some files are built, they count as ninja numbers them.
+# Files that were built before count only as ninja numbers them.
 tell_progress() {
   { awk -v processors="$(nproc)" -v elapsed="$2" '
     function usual(name) {
@@ -150,12 +150,16 @@ tell_progress() {
       return name ~ /\.o$/ ? 2 : 0.5
     }
     FILENAME == ARGV[1] {
-      ++commands
+      before[$1, $2, $4]
+      built[$4]
+    }
+    FILENAME == ARGV[2] {
       name = match($0, / -o [^ ]+/) ? substr($0, RSTART + 4, RLENGTH - 4) : $NF
+      if (name in built) next
+      ++commands
       all += planned[name] = usual(name)
     }
-    FILENAME == ARGV[2] && match($1, /\/[0-9]+\]/) { steps = substr($1, RSTART + 1, RLENGTH - 2) }
-    FILENAME == ARGV[3] { before[$1, $2, $4] }
+    FILENAME == ARGV[3] && match($1, /\/[0-9]+\]/) { steps = substr($1, RSTART + 1, RLENGTH - 2) }
     FILENAME == ARGV[4] && $4 in planned && !(($1, $2, $4) in before) {
       took += ($2 - $1) / 1000
       done += planned[$4]
@@ -164,8 +168,8 @@ tell_progress() {
     END {
       if (all == 0 || steps == 0) exit
       if (done < all / 20) took = done = 1 # too few have been finished: as on the usual machine
-      minutes = all * (steps < commands ? steps / commands : 1) * took / done / processors / 60
+      minutes = all * steps / commands * took / done / processors / 60
       share = 100 * elapsed / 60 / minutes
       printf "building: about %.1f minutes in all, %d %% of them are over\n", minutes, share < 99 ? share : 99
-    }' "$1/build.log.planned" "$1/build.log" "$1/build.log.before" "$1/.ninja_log" 2>/dev/null || :; } >&2
+    }' "$1/build.log.before" "$1/build.log.planned" "$1/build.log" "$1/.ninja_log" 2>/dev/null || :; } >&2
 }
