@@ -4,7 +4,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/ccache.cmake)
 option(TYNDALL_QUICK_BUILD "compile the files of a room together; OFF: each alone, for quick rebuilds after edits" ON)
 
 # Small rooms that are compiled as one: their headers take longer than they do.
-set(small_rooms "^core_(base|system|film|accuracy)$" "^app_window_(timeline|handles|tools|gallery|inspector|rendering)$"
+set(small_rooms "^core_(base|system|film|accuracy)$" "^app_window_(timeline|handles|tools|gallery)$"
     "^app_window_(accuracy|edit|variations)$")
 
 # Compiles the files that lie in one folder as one. Files with compiler options of their own stay alone (the kernels).
