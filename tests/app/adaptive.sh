@@ -51,7 +51,7 @@ expect 0 "$tyndall" convert long.png -o -
 grep -q "\"spp\": $spp" out || fail "the picture does not say that it has $spp samples"
 
 # A chart can compare it with even samples.
-expect 0 "$tyndall" chart showroom --size 40x30 --budget 2 -q --method 'even=' --method 'adaptive=--adaptive' -o chart.svg
-grep -q '^adaptive,64,' chart.csv || fail "no point of 64 samples: $(cat chart.csv)"
+expect 0 "$tyndall" chart showroom --size 40x30 --budget 0.3 -q --method 'even=' --method 'adaptive=--adaptive' -o chart.svg
+grep -q '^adaptive,16,' chart.csv || fail "no point of 16 samples: $(cat chart.csv)"
 
 finish

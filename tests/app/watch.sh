@@ -56,8 +56,10 @@ expect 0 ./rings rings.pfm
 expect 0 python3 "$source_root/assets/examples/watch/rings.py" python.pfm
 [ -s python.pfm ] || fail 'nothing from Python'
 
-# Found by CMake.
-if cmake -S "$source_root/assets/examples/watch" -B example -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$PWD/moved" >log 2>&1 &&
+# Found by CMake: a program is configured and built.
+if [ -z "${TYNDALL_THOROUGH:-}" ]; then
+  : # ./test --all does that
+elif cmake -S "$source_root/assets/examples/watch" -B example -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$PWD/moved" >log 2>&1 &&
   cmake --build example >>log 2>&1; then
   expect 0 example/rings cmake.pfm
   cmp rings.pfm cmake.pfm || fail 'the program built by CMake renders something else'

@@ -7,11 +7,14 @@ import shutil
 import subprocess
 import sys
 
+import pytest
 import tyndall
 
 assets = pathlib.Path(os.environ["TYNDALL_ASSETS"])
+slow = pytest.mark.skipif("TYNDALL_THOROUGH" not in os.environ, reason="takes long: ./test --all runs it")
 
 
+@slow
 def test_notebook_runs(capsys):
     cells = json.loads((assets / "notebooks/first-look.ipynb").read_text())["cells"]
     names = {}
@@ -45,6 +48,7 @@ def test_kept_pictures(tmp_path):
     assert isinstance(tyndall.Film.load(folder / "baselines/glass-ball.exr").spp, int)
 
 
+@slow
 def test_switches(tmp_path):
     """A switch that says no keeps nothing, CI wants pictures that are there, and names may have folders."""
     folder = tmp_path / "mine"

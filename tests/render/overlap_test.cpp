@@ -1,6 +1,7 @@
 #include "core/scene/load.h"
 #include "tests/support/prepared.h"
 #include "tests/support/probe.h"
+#include "tests/support/thorough.h"
 
 #include <doctest/doctest.h>
 
@@ -55,7 +56,8 @@ Scene room() {
 
 TEST_CASE("lights: behind mirrors, next to hardly blurred ones, by every integrator") {
   // A mirror's direction has no density. If it were weighed as if it had one, light would be lost or counted twice.
-  for (const double fuzz : {0.0, 5e-4, 2e-3, 0.05}) {
+  constexpr double fuzzes[] = {5e-4, 0, 2e-3, 0.05};
+  for (const double fuzz : tried(fuzzes, 2)) {
     Scene scene = room();
     scene.materials[0] = metal(0.9, fuzz);
     add(scene, Quad<>{{-3, 0, -3}, {6, 0, 0}, {0, 3, 0}}, lambertian(0.6));

@@ -2,6 +2,7 @@
 
 #include "core/scene/scene.h"
 #include "tests/support/allocations.h"
+#include "tests/support/thorough.h"
 #include "tests/support/watched_renderer.h"
 
 #include <doctest/doctest.h>
@@ -248,7 +249,7 @@ TEST_CASE("edits: a scene that cannot be compiled leaves the last picture and sa
 
 TEST_CASE("edits: a renderer that is destroyed while it renders ends at once") {
   double going = 0;  // seconds of processor time
-  for (int round = 0; round < 20; ++round) {
+  for (int round = 0; round < (thorough() ? 20 : 8); ++round) {
     auto renderer = std::make_unique<WatchedRenderer>();
     renderer->submit(small_scene(round % 2 ? "next-week" : "showroom", 300, 200, 100000));
     renderer->wait_for([&](const Frame& f) { return f.pass > static_cast<std::uint64_t>(round % 8); });

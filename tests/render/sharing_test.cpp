@@ -4,6 +4,7 @@
 #include "tests/support/pictures.h"
 #include "tests/support/prepared.h"
 #include "tests/support/probe.h"
+#include "tests/support/thorough.h"
 
 #include <doctest/doctest.h>
 
@@ -86,14 +87,14 @@ Scene room_with_medium() {
 }  // namespace
 
 TEST_CASE("sharing: what leaves the blocks of a picture is what separate paths find") {
-  const std::pair<const char*, Scene> cases[] = {{"room", box(48)},
-                                                 {"posts", room_with_posts()},
-                                                 {"fog", room_with_medium()},
-                                                 {"mirror ball", small_scene("stress-caustic-mirror", 64, 48, 1)},
+  const std::pair<const char*, Scene> cases[] = {{"fog", room_with_medium()},
                                                  {"glass ball", small_scene("stress-caustic-glass", 64, 48, 1)},
+                                                 {"room", box(48)},
+                                                 {"posts", room_with_posts()},
+                                                 {"mirror ball", small_scene("stress-caustic-mirror", 64, 48, 1)},
                                                  {"shell in fog", small_scene("stress-caustic-shell", 64, 48, 1)},
                                                  {"flat mirrors", small_scene("stress-mirror-wall", 64, 48, 1)}};
-  for (const auto& one : cases) {
+  for (const auto& one : tried(cases, 2)) {
     const Scene& scene = one.second;
     CAPTURE(std::string(one.first));
     std::vector<Values> shared, alone;

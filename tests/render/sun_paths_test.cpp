@@ -3,6 +3,7 @@
 #include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 #include "tests/support/skies.h"
+#include "tests/support/thorough.h"
 
 #include <doctest/doctest.h>
 
@@ -70,7 +71,7 @@ TEST_CASE("sun: its light through and off spheres is that which chance finds, wi
                         {"shell", {{ball, glass(1.5)}, {hollow, glass(1.5)}}, 0.5, 1.5},
                         {"mirror", {{ball, metal(0.9, 0)}}, -2.5, 1.5},
                         {"fog", {{ball, glass(1.5)}}, 0.1, 2, true}};
-  for (const Case& c : cases) {
+  for (const Case& c : tried(cases, 1)) {
     CAPTURE(c.name);
     Scene scene = floor_under_sun();
     for (const auto& [shape, material] : c.spheres) add(scene, shape, material);

@@ -3,6 +3,7 @@
 #include "tests/support/mixed_scene.h"
 #include "tests/support/prepared.h"
 #include "tests/support/probe.h"
+#include "tests/support/thorough.h"
 
 #include <doctest/doctest.h>
 
@@ -53,8 +54,8 @@ void check(const std::vector<Object>& lamps, Vec3d from, Vec3d towards, double w
   const LightView& lights = view.view().lights;
   const Vec3f point = rounded(from - scene.origin);
   CapCells cap(normalize(towards - from), width);
-  constexpr int drawn = 100000;
-  for (std::uint32_t i = 0; i < drawn; ++i) {
+  const int drawn = thorough() ? 100000 : 20000;
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(drawn); ++i) {
     const Sampler<float> d = sampler_of(i);
     const LightChoice<float> choice = choose_light<float>(lights, point, d.next_1d(dimension::light_choice));
     const LightSample<float> s =
