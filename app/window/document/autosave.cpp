@@ -120,15 +120,15 @@ void Autosave::State::work(const StopToken& stop) {
     lock.unlock();
     Keeping now = write(edits.get(), of.get());
     lock.lock();
-    writes = false;
-    if (!waits) hurries = false;
     const bool changed = now.kind != keeping.kind || now.why != keeping.why;
     keeping = std::move(now);
     holds_older = keeping.kind == Keeping::Kind::lost && slot.used();
-    written.notify_all();
     lock.unlock();
-    if (changed && on_change) on_change();
+    if (changed && on_change) on_change();  // before flush() returns
     lock.lock();
+    writes = false;
+    if (!waits) hurries = false;
+    written.notify_all();
     news.wait_for(lock, stop, min_interval, [&] { return hurries; });
   }
 }
