@@ -10,20 +10,13 @@
 #include "core/trace/shade.h"
 
 #include <algorithm>
-#include <map>
 #include <set>
 #include <utility>
 
 namespace tyndall {
 namespace {
 
-constexpr double places_of_search = 3072;   // of the grid in the picture, about
-constexpr std::size_t max_approached = 64;  // images that are searched for, so that an edit stays quick
-constexpr double max_miss = 0.3;            // sine of the angle by which a path from the grid may pass a light
-constexpr std::size_t max_boxes = 64;       // because all samples of a row of tiles look at all boxes there
-constexpr std::size_t max_events = 6;       // in images that are searched for; more carry too little light to be seen
-constexpr int newton_steps = 12;
-constexpr double longest_step = 8, closest_step = 1e-3;  // of Newton's method, in pixels
+constexpr std::size_t max_boxes = 64;  // because all samples of a row of tiles look at all boxes there
 
 using Events = std::vector<std::int32_t>;  // indices of the things that reflect, from the camera on
 
@@ -74,21 +67,6 @@ class CameraPath {
     const bool inside = (dot(ray.direction, p.normal) > 0) != p.inverted;
     from_ = 4 * thing.element + (inside ? 1 : 0);
     return !(thing.is_sphere && inside) && reflect(thing);
-  }
-
-  /// How far the path passes the middle of a light: the sine of an angle. 1: the light is behind.
-  double miss(Vec3d light) const {
-    const Vec3d to_light = light - rays_[0].origin, across = cross(rays_[0].direction, to_light);
-    return dot(rays_[0].direction, to_light) > 0 ? std::sqrt(squared_length(across) / squared_length(to_light)) : 1;
-  }
-
-  /// The step in the picture, in pixels, that leads the path to the middle of a light, to first order.
-  void step_to(Vec3d light, double& x, double& y) const {
-    const Vec3d d = rays_[0].direction, point = rays_[0].origin + dot(light - rays_[0].origin, d) * d;
-    const Basis<double> b = basis_around(d);
-    const Matrix to_picture = inverse(changes(1, point, step_));
-    const double s = dot(light - point, b.s), t = dot(light - point, b.t);
-    x = to_picture.a * s + to_picture.b * t, y = to_picture.c * s + to_picture.d * t;
   }
 
   /// The box around a light, if the path meets one next; else an empty one.
@@ -164,29 +142,9 @@ class Finder {
     }
   }
 
-  /// Images by two reflections off spheres, or more: paths through a grid of places of the picture tell where each
-  /// sequence of events passes a light most closely, and Newton's method leads from there to the light.
-  void search() {
-    const double apart = std::sqrt(static_cast<double>(s_.width) * s_.height / places_of_search);
-    for (double y = 0.5 * apart; y < s_.height; y += apart)
-      for (double x = 0.5 * apart; x < s_.width; x += apart) look_through(x, y);
-    std::vector<const std::pair<const Image, Nearest>*> list;
-    for (const auto& entry : nearest_) list.push_back(&entry);
-    std::stable_sort(list.begin(), list.end(),
-                     [](const auto* a, const auto* b) { return a->second.miss < b->second.miss; });
-    if (list.size() > max_approached) list.resize(max_approached);
-    for (const auto* entry : list)
-      approach(entry->first.first, lights_[entry->first.second], entry->second.x, entry->second.y);
-  }
-
   std::vector<PictureBox> boxes;
 
  private:
-  using Image = std::pair<Events, std::size_t>;  // of a light
-  struct Nearest {
-    double miss = max_miss, x = 0, y = 0;
-  };
-
   bool is_metal(const Thing& thing) const {
     return has_trait<&BsdfTraits::glossy>(s_, s_.kind[s_.material[thing.element]]);
   }
@@ -201,41 +159,6 @@ class Finder {
       events = {events.low >> 6 | (events.high & 63) << 24, events.high >> 6};
     }
     return list;
-  }
-
-  void look_through(double x, double y) {
-    CameraPath path(s_, x, y);
-    Events events;
-    int spheres = 0;
-    while (events.size() < max_events) {
-      double t;
-      const std::int32_t element = path.closest_element(t), thing = element < 0 ? -1 : s_.guide.thing_of[element];
-      if (thing < 0 || !is_metal(things_[static_cast<std::size_t>(thing)])) return;
-      if (!path.meet(things_[static_cast<std::size_t>(thing)])) return;
-      events.push_back(thing);
-      spheres += things_[static_cast<std::size_t>(thing)].is_sphere;
-      for (std::size_t light = 0; spheres > 1 && light < lights_.size(); ++light) {
-        const double miss = path.miss(lights_[light]);
-        if (!(miss < max_miss)) continue;
-        Nearest& nearest = nearest_[{events, light}];
-        if (miss < nearest.miss) nearest = {miss, x, y};
-      }
-    }
-  }
-
-  void approach(const Events& events, Vec3d light, double x, double y) {
-    for (int i = 0; i < newton_steps; ++i) {
-      CameraPath path(s_, x, y);
-      for (const std::int32_t thing : events)
-        if (!path.reflect(things_[static_cast<std::size_t>(thing)])) return;
-      double right = 0, down = 0;
-      path.step_to(light, right, down);
-      const double length = std::sqrt(right * right + down * down);
-      if (!(length < 1e6)) return;
-      const double part = std::min(1.0, longest_step / std::max(length, 1e-30));
-      x += part * right, y += part * down;
-      if (length < closest_step) return add(events, x, y);
-    }
   }
 
   void add_in_direction(const Events& events, Vec3d direction) {
@@ -255,7 +178,6 @@ class Finder {
   const SceneView& s_;
   std::vector<Thing> things_;
   std::vector<Vec3d> lights_;  ///< their middles
-  std::map<Image, Nearest> nearest_;
 };
 
 }  // namespace
@@ -265,7 +187,6 @@ std::vector<PictureBox> find_camera_images(const SceneView& s) {
   Finder finder(s);
   finder.add_lights();
   finder.add_known();
-  finder.search();
   return std::move(finder.boxes);
 }
 

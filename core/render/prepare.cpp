@@ -193,15 +193,10 @@ double chance_of_caustics(const Scene& scene, const RenderScene& compiled, const
 
 namespace {
 
-/// The guide of `before` if its scene differs in nothing but its picture; else null.
+/// The guide of `before` if its light paths are those of the scene; else null.
 std::shared_ptr<const Guide> kept_guide(const Scene& scene, const PreparedScene* before) {
   if (!before || before->guide().light_paths == 0) return nullptr;
-  Scene old = before->scene();
-  if (old.camera.shutter_open != scene.camera.shutter_open || old.camera.shutter_close != scene.camera.shutter_close)
-    return nullptr;
-  old.width = scene.width, old.height = scene.height, old.camera = scene.camera, old.display = scene.display;
-  old.render.seed = scene.render.seed, old.render.spp = scene.render.spp, old.render.sampler = scene.render.sampler;
-  return old == scene ? before->shared_guide() : nullptr;
+  return change_between(before->scene(), scene).light ? nullptr : before->shared_guide();
 }
 
 /// The kernel set of a scene with a guide. minimum: without one.

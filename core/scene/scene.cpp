@@ -20,9 +20,13 @@ SceneChange change_between(const Scene& before, const Scene& after) {
                materials_b, objects_b] = after;
   RenderSettings render = render_b;
   render.spp = render_a.spp;
-  const bool same = width_a == width_b && height_a == height_b && background_a == background_b && render_a == render &&
-                    textures_a == textures_b && materials_a == materials_b && objects_a == objects_b;
-  return {!same_view(camera_a, camera_b), !same};
+  const bool same_things = background_a == background_b && textures_a == textures_b && materials_a == materials_b &&
+                           objects_a == objects_b;
+  const bool same = width_a == width_b && height_a == height_b && render_a == render && same_things;
+  render.seed = render_a.seed, render.sampler = render_a.sampler;
+  const bool same_light = same_things && render_a == render && camera_a.shutter_open == camera_b.shutter_open &&
+                          camera_a.shutter_close == camera_b.shutter_close;
+  return {!same_view(camera_a, camera_b), !same, !same_light};
 }
 
 }  // namespace tyndall

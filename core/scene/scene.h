@@ -166,6 +166,8 @@ inline constexpr auto image_fields() {
 struct SceneChange {
   bool camera = false;
   bool others = false;  ///< anything but the camera
+  bool light = false;   ///< what light paths from lamps depend on: all but the picture, its sampling and the camera,
+                        ///< of which the shutter counts
   bool none() const { return !camera && !others; }
 };
 SceneChange change_between(const Scene& before, const Scene& after);

@@ -70,9 +70,9 @@ TYNDALL_INLINE void first_hits(const SceneView& s, const Region& region, FirstHi
     }
 }
 
-/// Samples of either kind, for kernels that render scenes with and without reuse by one path loop: a loop for each
-/// would take twice as long to compile. It holds the samples of paths that share nothing, which makes them as quick as
-/// in a loop of their own but for a few percent.
+/// Samples of either kind, for the kernel with every model, which renders scenes with and without reuse by one path
+/// loop: a loop for each would take twice as long to compile. It holds the samples of paths that share nothing, which
+/// makes them as quick as in a loop of their own but for a few percent.
 class EitherSamples {
  public:
   /// groups: null, or what is taken in place of the tile job's samples.
@@ -139,12 +139,8 @@ static void render_tile_entry(const SceneView& scene, const TileJob& job, double
                               EmissionSums* emission, TileCounts& counts) {
   const TileFilm film{1 / film_quantum, pixels, emission, counts};
   NoRecorder recorder;
-  if constexpr (set == KernelSet::no_specular_paths) {
-    const SceneViewFor<set, Reuse::either> s{{scene}};
-    return render_either_tile<F>(s, job, film, recorder, [](const GroupSamples&) {});
-  }
-  // Its scenes are so cheap that the question which samples they are would cost them up to a seventh of their time.
-  if constexpr (set == KernelSet::no_media_no_textures)
+  // The question which samples they are would cost these scenes, which are cheap, up to a seventh of their time.
+  if constexpr (!solves_specular_paths(set))
     if (scene.reuses_paths) {
       const SceneViewFor<set, Reuse::always> s{{scene}};
       return render_tile_reusing<F>(

@@ -168,7 +168,15 @@ TEST_CASE("guide: the same bits whatever was edited before") {
   for (const Scene& before :
        {moved, brighter, small_scene("stress-two-balls", 32, 24, 1), small_scene("cornell-box", 8, 8, 1)})
     CHECK(same(*prepare(scene, prepare(before).get())));
-  CHECK(&prepare(std::make_shared<const Scene>(moved), fresh.get())->guide() == &fresh->guide());  // not made twice
+  // It is not made twice for another picture, a name or a key; it is for another shutter.
+  const auto is_kept = [&](Scene edited) {
+    return &prepare(std::make_shared<const Scene>(std::move(edited)), fresh.get())->guide() == &fresh->guide();
+  };
+  CHECK(is_kept(moved));
+  moved.name = "moved", moved.animation.emplace();
+  CHECK(is_kept(moved));
+  moved.camera.shutter_close = 1;
+  CHECK_FALSE(is_kept(moved));
 }
 
 TEST_CASE("guide: none without small lights, or without something near-specular, or where it is switched off") {

@@ -169,6 +169,9 @@ TEST_CASE("edits: what has changed is the camera, something else, or nothing tha
     const SceneChange change = change_between(scene, edited);
     return change.others && !change.camera;
   };
+  CHECK_FALSE(change_between(scene, other).light);
+  other.camera.shutter_close += 1;
+  CHECK(change_between(scene, other).light);
   CHECK(changes_others([](Scene& s) { ++s.width; }));
   CHECK(changes_others([](Scene& s) { ++s.height; }));
   CHECK(changes_others([](Scene& s) { s.background = Vec3d{1, 2, 3}; }));
