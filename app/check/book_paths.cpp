@@ -124,7 +124,9 @@ class BookPaths {
     MediumEvent<float> medium = no_event<float>();
     if (s_.features.media && !p.at_surface) {
       fly_through_media(s_, p.ray, p.sampler, true, nearest, medium);
-      p.throughput = transmitted_by_absorbers(s_, p.ray, p.sampler, nearest, true) * p.throughput;
+      // The books' black smoke ends paths at random, so that samples vary more than with this as their weight.
+      if (p.sampler.next_1d(dimension::roulette) >= transmitted_by_absorbers(s_, p.ray, p.sampler, nearest, true))
+        return false;
     }
     const bool goes_on = medium.happens     ? meet_medium(p, medium)
                          : hit.element >= 0 ? meet_surface(p, hit)
@@ -181,7 +183,9 @@ class BookPaths {
     p.ray = {at.point, out.direction, loses_time ? 0 : p.ray.time, 4 * at.element + (inside ? 1 : 0)};
     if (loses_time && moves(at.element)) p.ray.from = from_nowhere;  // the ball has jumped, and can be met again
     p.length = out.length;
-    p.at_surface = rules_.meets_itself && p.sampler.next_1d(dimension::near_pair) < 0.5f;
+    // Whether rounding has put a point outside or inside is a matter of luck, which a second meeting there does not
+    // change.
+    p.at_surface = rules_.meets_itself && !p.at_surface && p.sampler.next_1d(dimension::near_pair) < 0.5f;
     return true;
   }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace tyndall {
@@ -18,6 +19,9 @@ constexpr int large_edge = 4;                     // of a large block, in small 
 constexpr std::size_t min_ratios = 8;             // blocks that tell how many samples a picture has
 constexpr double rare_light = 0.5, dark = 0.003;  // of the light of a region, and light, that samples may be off
 constexpr double min_cut = 0.02;                  // of the light of single samples, that white cuts off
+constexpr double max_cut = 1e-3;                  // of light, that white cuts off of blocks whose noise tells anything
+constexpr double max_black_off = 0.1;             // of the pixels, by which a picture is black more or less often
+constexpr double noise_factor = 2;                // by which noise tells the number of samples wrongly
 
 /// A scene as kernels read it.
 struct Compiled {
@@ -103,6 +107,19 @@ std::vector<double> noise_of(const std::vector<float>& light, const std::vector<
   return sums;
 }
 
+/// Median over blocks and channels of what a program's noise is over that of the picture, among those of much noise; 0:
+/// too few of them tell. cut: what white cuts off; blocks where that is much tell nothing; empty: it does not matter.
+double noise_ratio(const std::vector<double>& of_program, const std::vector<double>& cut,
+                   const std::vector<double>& of_picture) {
+  const double median = quantile_of(of_program, 0.5);
+  std::vector<double> ratios;
+  for (std::size_t k = 0; k < of_program.size(); ++k)
+    if (of_program[k] >= median && of_picture[k] > 0 && (cut.empty() || cut[k] <= max_cut))
+      ratios.push_back(of_program[k] / of_picture[k]);
+  // Edges that lie elsewhere in the picture make blocks look noisier than they are: so more than the median.
+  return ratios.size() >= min_ratios ? quantile_of(ratios, 0.6) : 0;
+}
+
 }  // namespace
 
 Expectation::Expectation(const PictureNumbers& picture, const Scene& scene, const Reference& reference,
@@ -130,6 +147,9 @@ Expectation::Expectation(const PictureNumbers& picture, const Scene& scene, cons
   const double pixels = static_cast<double>(small_.of_pixel.size()) - left_out(small_);
   comparable_ = pixels > 0 ? 1 - (left_out(small) - left_out(small_)) / pixels : 1;
   small_ = small, large_ = without_rare_light(large_), objects_ = without_rare_light(objects_);
+  whole_ = {small_.of_pixel, 1};
+  for (int& region : whole_.of_pixel) region = std::min(region, 0);
+  set_samples(0);
 }
 
 /// The regions without those in which the samples show quite another amount of light than there is: it comes on few
@@ -161,75 +181,73 @@ void Expectation::take_samples(const CheckOptions& options) {
   }
   samples_ = take(count_);
   group_ = count_;
-  base_ = statistics_of(samples_, count_, group_);
-  variance_.assign(base_.variance.size(), 0);
+  base_ = statistics_of(samples_, count_, {group_, white()});
 }
 
-void Expectation::find_samples(const Reading& reading) {
+std::vector<double> Expectation::likely_samples(const std::vector<BookSample>& of_program,
+                                                const Reading& reading) const {
   const ReadPixels pixels = read_pixels(picture_, lattice_, reading);
-  const std::vector<double> noise = noise_of(pixels.light, reference_, small_), excess = means_of(base_.excess, small_),
-                            of_sample = means_of(base_.variance, small_), steps = means_of(pixels.tolerance, small_),
+  const std::vector<double> steps = means_of(pixels.tolerance, small_),
                             of_reference = means_of(reference_variance_, small_);
-  const double median = quantile_of(of_sample, 0.5);
-  std::vector<double> ratios;
+  std::vector<double> noise = noise_of(pixels.light, reference_, small_);
   for (std::size_t k = 0; k < noise.size(); ++k) {
-    if (noise[k] <= 0 || of_sample[k] < median || excess[k] > 1e-3) continue;
-    const double rounding = steps[k] * steps[k] / 12, of_picture = noise[k] - of_reference[k] - rounding;
-    if (of_picture > rounding) ratios.push_back(of_sample[k] / of_picture);
+    const double rounding = steps[k] * steps[k] / 12;
+    noise[k] -= of_reference[k] + rounding;
+    if (noise[k] < rounding) noise[k] = 0;
   }
-  // Edges that lie elsewhere in the picture make blocks look noisier than they are: so more than the median.
-  if (ratios.size() >= min_ratios) set_samples(std::max(1.0, quantile_of(ratios, 0.6)));
-}
-
-std::vector<double> Expectation::light_by_depth() const {
-  std::vector<double> light;
-  for (const BookSample& sample : samples_) {
-    if (light.size() <= static_cast<std::size_t>(sample.depth))
-      light.resize(static_cast<std::size_t>(sample.depth) + 1);
-    light[static_cast<std::size_t>(sample.depth)] +=
-        static_cast<double>(sample.light.x + sample.light.y + sample.light.z);
+  double black_pixels = 0;
+  for (std::size_t at = 0; at < pixels.light.size(); ++at)
+    black_pixels += pixels.light[at] <= std::max(max_black, pixels.tolerance[at]) ? 1 : 0;
+  black_pixels /= static_cast<double>(pixels.light.size());
+  std::vector<std::pair<double, double>> likely;  // how far off the noise is, and samples
+  for (int group = 1; 2 * group <= count_; ++group) {
+    const SampleStatistics few = statistics_of(of_program, count_, {group, white()});
+    const double ratio = noise_ratio(means_of(few.noise, small_), {}, noise);
+    const double black =
+        std::accumulate(few.black.begin(), few.black.end(), 0.0) / static_cast<double>(few.black.size());
+    if (ratio > 1 / noise_factor && ratio < noise_factor && std::abs(black - black_pixels) < max_black_off)
+      likely.emplace_back(std::abs(std::log(ratio)), group);
   }
-  for (std::size_t k = 1; k < light.size(); ++k) light[k] += light[k - 1];
-  for (double& value : light) value /= std::max(light.back(), 1e-30);
-  return light;
+  const SampleStatistics many = statistics_of(of_program, count_, {count_, white()});
+  const double told = noise_ratio(means_of(many.variance, small_), means_of(many.excess, small_), noise);
+  for (const double factor : {1.0, 1 / 1.1, 1.1, 1 / 1.25, 1.25, 1 / 1.4, 1.4, 1 / 1.7, 1.7, 0.5, 2.0})
+    if (2 * factor * told > count_) likely.emplace_back(std::abs(std::log(factor)), factor * told);
+  std::stable_sort(likely.begin(), likely.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<double> samples;
+  for (const auto& [off, count] : likely) samples.push_back(count);
+  if (samples.empty()) samples = {0, 1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048};
+  return samples;
 }
 
 void Expectation::set_samples(double samples) {
   samples_of_picture_ = samples;
-  known_.clear();
-  group_ = std::clamp(static_cast<int>(std::lround(samples)), 1, count_);
-  base_ = statistics_of(samples_, count_, group_);
-  for (std::size_t at = 0; at < variance_.size(); ++at)
-    variance_[at] = base_.variance[at] / static_cast<float>(samples);
+  group_ = samples > 0 ? std::clamp(static_cast<int>(std::lround(samples)), 1, count_) : count_;
+  base_ = statistics_of(samples_, count_, {group_, white()});
+  passes_ = means_of(base_.common, large_);
+  const std::vector<double> variance = means_of(base_.variance, large_);
+  for (std::size_t k = 0; k < passes_.size(); ++k)
+    passes_[k] = variance[k] > 0 ? std::clamp(passes_[k] * group_ / variance[k], 0.0, 1.0) : 1;
 }
 
 bool Expectation::white_matters() const {
-  const SampleStatistics single = statistics_of(samples_, count_, 1);
+  const SampleStatistics single = statistics_of(samples_, count_, {});
   double cut = 0, all = 0;
   for (std::size_t at = 0; at < single.mean.size(); ++at)
     cut += static_cast<double>(single.excess[at]), all += static_cast<double>(single.mean[at]);
   return picture_.coded && cut > min_cut * all;
 }
 
-BookModel Expectation::start_model(int max_depth) const { return model_of(samples_, max_depth); }
-
-const BookModel* Expectation::model_of(const BookProgram& program, bool in_time) {
-  const bool by_rules = program.scene == start_.scene && !program.columns;
-  for (const auto& [rules, model] : known_)
-    if (by_rules && rules == program.rules) return model.get();
-  const auto samples = book_samples(
+std::vector<BookSample> Expectation::samples_of(const BookProgram& program, bool in_time) {
+  return book_samples(
       Compiled(program).view, kernels_, program.rules, lattice_, count_, threads_,
       in_time ? go_on_ : [] { return true; });
-  if (samples.empty()) return nullptr;
-  auto model = std::make_unique<BookModel>(model_of(samples, -1));
-  if (!by_rules) return (newest_ = std::move(model)).get();
-  known_.emplace_back(program.rules, std::move(model));
-  return known_.back().second.get();
 }
 
-BookModel Expectation::model_of(const std::vector<BookSample>& samples, int max_depth) const {
-  SampleStatistics statistics = statistics_of(samples, count_, group_, max_depth);
-  BookModel model{std::move(statistics.mean), std::move(statistics.excess)};
+BookModel Expectation::model_of(const std::vector<BookSample>& samples) const {
+  SampleStatistics statistics = statistics_of(samples, count_, {group_, white()});
+  BookModel model{std::move(statistics.mean), std::move(statistics.excess), std::move(statistics.noise)};
+  for (float& noise : model.noise)  // a picture of unknown samples shows by itself alone how noisy it is
+    noise *= samples_of_picture_ > 0 ? static_cast<float>(group_ / samples_of_picture_) : 0;
   if (!picture_.coded || samples_of_picture_ <= count_ * 1.2) return model;
   const std::vector<double> ratios = excess_ratios(samples, count_, samples_of_picture_, large_);
   for (std::size_t at = 0; at < model.mean.size(); ++at) {
@@ -245,8 +263,9 @@ BookModel Expectation::model_of(const std::vector<BookSample>& samples, int max_
 std::vector<float> Expectation::expected_of(const BookModel& model) const {
   std::vector<float> expected(reference_.size());
   for (std::size_t at = 0; at < expected.size(); ++at) {
-    const float cut = picture_.coded ? model.excess[at] : 0;
-    expected[at] = reference_[at] + (model.mean[at] - base_.mean[at]) - cut;
+    const int region = large_.of_pixel[at / 3];
+    const double passes = region < 0 ? 1 : passes_[3 * static_cast<std::size_t>(region) + at % 3];
+    expected[at] = model.mean[at] - model.excess[at] + static_cast<float>(passes) * (reference_[at] - base_.mean[at]);
   }
   return expected;
 }
@@ -264,8 +283,8 @@ const ReadPixels& Expectation::read(const Reading& reading) {
 RegionDifferences Expectation::differences(const BookModel& model, const Reading& reading) {
   const ReadPixels& pixels = read(reading);
   const std::vector<float> expected = expected_of(model);
-  const ComparedPixels compared{pixels.light, expected, pixels.tolerance, variance_};
-  RegionDifferences result{block_differences(compared, small_), 0, 0};
+  const ComparedPixels compared{pixels.light, expected, pixels.tolerance, model.noise};
+  RegionDifferences result{block_differences(compared, small_), block_differences(compared, whole_), 0, 0};
   result.small = result.all.size();
   const auto large = block_differences(compared, large_), objects = block_differences(compared, objects_);
   result.large = large.size();
@@ -282,7 +301,7 @@ Misfit rough_misfit(const PictureNumbers& picture, const Scene& scene, int threa
   ThreadPool pool(threads);
   const auto samples =
       book_samples(compiled.view, *choose_kernels(""), program.rules, lattice, count, pool, [] { return true; });
-  const SampleStatistics statistics = statistics_of(samples, count, count);
+  const SampleStatistics statistics = statistics_of(samples, count, {count});
   std::vector<float> expected = statistics.mean;
   const std::vector<float> none(expected.size());
   for (std::size_t at = 0; at < expected.size() && picture.coded; ++at) expected[at] -= statistics.excess[at];

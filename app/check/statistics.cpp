@@ -17,34 +17,48 @@ double excess_of(const BlockDifference& b, double error, double errors) {
   return std::max(0.0, std::abs(b.difference) - b.tolerance - errors * error);
 }
 
-/// One channel of a pixel: its mean, its variance, its excess.
-void add_channel(const BookSample* samples, int count, int group, int max_depth, float Vec3f::*channel,
+/// Pairs of numbers: their covariance.
+struct Pairs {
+  double a = 0, b = 0, products = 0, count = 0;
+  void add(double x, double y) { a += x, b += y, products += x * y, ++count; }
+  double covariance() const { return count > 1 ? (products - a * b / count) / (count - 1) : 0; }
+};
+
+/// One channel of a pixel.
+void add_channel(const BookSample* samples, int count, const Exposure& exposure, float Vec3f::*channel,
                  SampleStatistics& to) {
-  double sum = 0, squares = 0, of_group = 0, excess = 0;
-  int in_group = 0, groups = 0;
+  double of_group = 0, black = 0;
+  int in_group = 0;
+  Pairs single, cut, whole_and_cut;
   for (int k = 0; k < count; ++k) {
-    const bool found = max_depth < 0 || samples[k].depth <= max_depth;
-    const double value = found ? static_cast<double>(samples[k].light.*channel) : 0;
-    sum += value, squares += value * value, of_group += value;
-    if (++in_group < group) continue;
-    excess += std::max(0.0, of_group / group - 1), ++groups;
+    const auto value = static_cast<double>(samples[k].light.*channel);
+    single.add(value, value), of_group += value;
+    if (++in_group < exposure.group) continue;
+    const double mean = of_group / exposure.group, shown = std::min(mean, exposure.white);
+    cut.add(shown, shown), whole_and_cut.add(mean, shown);
+    black += mean < static_cast<double>(max_black) ? 1 : 0;
     of_group = 0, in_group = 0;
   }
-  const double mean = sum / count;
-  to.mean.push_back(static_cast<float>(mean));
-  to.variance.push_back(static_cast<float>(count > 1 ? std::max(0.0, squares - sum * mean) / (count - 1) : 0));
-  to.excess.push_back(static_cast<float>(groups > 0 ? excess / groups : 0));
+  const double variance = std::max(0.0, single.covariance()), uncut = variance / exposure.group;
+  const bool several = cut.count > 1;
+  to.mean.push_back(static_cast<float>(single.a / count));
+  to.variance.push_back(static_cast<float>(variance));
+  to.excess.push_back(static_cast<float>((whole_and_cut.a - whole_and_cut.b) / cut.count));
+  to.noise.push_back(static_cast<float>(several ? std::max(0.0, cut.covariance()) : uncut));
+  to.black.push_back(static_cast<float>(black / cut.count));
+  to.common.push_back(static_cast<float>(several ? whole_and_cut.covariance() : uncut));
 }
 
 }  // namespace
 
-SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count, int group, int max_depth) {
+SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count, const Exposure& exposure) {
   SampleStatistics result;
-  const std::size_t numbers = 3 * samples.size() / static_cast<std::size_t>(count);
-  result.mean.reserve(numbers), result.variance.reserve(numbers), result.excess.reserve(numbers);
+  for (std::vector<float>* list :
+       {&result.mean, &result.variance, &result.excess, &result.noise, &result.common, &result.black})
+    list->reserve(3 * samples.size() / static_cast<std::size_t>(count));
   for (std::size_t first = 0; first < samples.size(); first += static_cast<std::size_t>(count))
     for (float Vec3f::*channel : {&Vec3f::x, &Vec3f::y, &Vec3f::z})
-      add_channel(samples.data() + first, count, group, max_depth, channel, result);
+      add_channel(samples.data() + first, count, exposure, channel, result);
   return result;
 }
 

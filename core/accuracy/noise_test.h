@@ -55,10 +55,13 @@ struct NoiseScores {
 
   std::array<double, 3> mean_z{};               ///< of the mean of each channel
   std::array<double, 3> difference{}, error{};  ///< of the means: image minus reference, and its standard error
-  std::array<bool, 3> mean_is_clear{};          ///< false: too few effective samples
+  std::array<bool, 3> mean_tells{};             ///< lit, and with more than too_few_effective_samples
 
   int blocks = 0;                 ///< of 16 x 16 pixels; those at the edges may be smaller
-  int unclear_blocks = 0;         ///< of them, with too few effective samples: only a large difference would show
+  int lit_blocks = 0;             ///< of them, with a mean above its own noise in some channel of either picture
+  int unclear_blocks = 0;         ///< of those, with too few effective samples: only a large difference would show
+  double effective_samples = 0;   ///< the most that a lit channel of a block or of the whole has
+  double enough_spp = 0;          ///< samples a pixel with which that would be enough; 0: not known
   double block_z = 0;             ///< the largest of all blocks and channels
   Region worst_block;             ///< its pixels
   std::vector<float> z_of_block;  ///< the largest of the channels, row by row
@@ -70,8 +73,11 @@ struct NoiseScores {
   double explained_outliers = 0;
   double outlier_z = 0;
 
-  /// Whether there is anything that would have shown a difference.
-  bool tells() const { return unclear_blocks < blocks || mean_is_clear[0] || mean_is_clear[1] || mean_is_clear[2]; }
+  /// Whether there is anything that would have shown a difference, or nothing that could differ: what is black in both
+  /// pictures is no evidence.
+  bool tells() const {
+    return unclear_blocks < lit_blocks || lit_blocks == 0 || mean_tells[0] || mean_tells[1] || mean_tells[2];
+  }
   int blocks_above(double z) const;
 };
 
