@@ -149,13 +149,12 @@ Expectation::Expectation(const PictureNumbers& picture, const Scene& scene, cons
   small_ = small, large_ = without_rare_light(large_), objects_ = without_rare_light(objects_);
   whole_ = {small_.of_pixel, 1};
   for (int& region : whole_.of_pixel) region = std::min(region, 0);
-  set_samples(0);
 }
 
 /// The regions without those in which the samples show quite another amount of light than there is: it comes on few
 /// paths, so that nobody knows how often white cuts it off.
 Regions Expectation::without_rare_light(Regions regions) const {
-  const std::vector<double> sampled = means_of(base_.mean, regions), right = means_of(reference_, regions);
+  const std::vector<double> sampled = means_of(mean_, regions), right = means_of(reference_, regions);
   for (int& region : regions.of_pixel) {
     if (region < 0) continue;
     const auto first = 3 * static_cast<std::size_t>(region);
@@ -180,8 +179,7 @@ void Expectation::take_samples(const CheckOptions& options) {
     count_ = static_cast<int>(std::clamp(fit, 1.0 * min_samples, 1.0 * max_samples_of_pixel));
   }
   samples_ = take(count_);
-  group_ = count_;
-  base_ = statistics_of(samples_, count_, {group_, white()});
+  mean_ = statistics_of(samples_, count_, {}).mean;
 }
 
 std::vector<double> Expectation::likely_samples(const std::vector<BookSample>& of_program,
@@ -219,16 +217,6 @@ std::vector<double> Expectation::likely_samples(const std::vector<BookSample>& o
   return samples;
 }
 
-void Expectation::set_samples(double samples) {
-  samples_of_picture_ = samples;
-  group_ = samples > 0 ? std::clamp(static_cast<int>(std::lround(samples)), 1, count_) : count_;
-  base_ = statistics_of(samples_, count_, {group_, white()});
-  passes_ = means_of(base_.common, large_);
-  const std::vector<double> variance = means_of(base_.variance, large_);
-  for (std::size_t k = 0; k < passes_.size(); ++k)
-    passes_[k] = variance[k] > 0 ? std::clamp(passes_[k] * group_ / variance[k], 0.0, 1.0) : 1;
-}
-
 bool Expectation::white_matters() const {
   const SampleStatistics single = statistics_of(samples_, count_, {});
   double cut = 0, all = 0;
@@ -243,19 +231,24 @@ std::vector<BookSample> Expectation::samples_of(const BookProgram& program, bool
       in_time ? go_on_ : [] { return true; });
 }
 
-BookModel Expectation::model_of(const std::vector<BookSample>& samples) const {
-  SampleStatistics statistics = statistics_of(samples, count_, {group_, white()});
-  BookModel model{std::move(statistics.mean), std::move(statistics.excess), std::move(statistics.noise)};
+BookModel Expectation::model_of(const std::vector<BookSample>& samples, double count) const {
+  const int group = count > 0 ? std::clamp(static_cast<int>(std::lround(count)), 1, count_) : count_;
+  SampleStatistics statistics = statistics_of(samples, count_, {group, white()});
+  BookModel model{std::move(statistics.mean), std::move(statistics.excess), std::move(statistics.noise),
+                  means_of(statistics.common, large_)};
+  const std::vector<double> variance = means_of(statistics.variance, large_);
+  for (std::size_t k = 0; k < variance.size(); ++k)
+    model.passes[k] = variance[k] > 0 ? std::clamp(model.passes[k] * group / variance[k], 0.0, 1.0) : 1;
   for (float& noise : model.noise)  // a picture of unknown samples shows by itself alone how noisy it is
-    noise *= samples_of_picture_ > 0 ? static_cast<float>(group_ / samples_of_picture_) : 0;
-  if (!picture_.coded || samples_of_picture_ <= count_ * 1.2) return model;
-  const std::vector<double> ratios = excess_ratios(samples, count_, samples_of_picture_, large_);
+    noise *= count > 0 ? static_cast<float>(group / count) : 0;
+  if (!picture_.coded || count <= count_ * 1.2) return model;
+  const std::vector<double> ratios = excess_ratios(samples, count_, count, large_);
   for (std::size_t at = 0; at < model.mean.size(); ++at) {
     const int region = large_.of_pixel[at / 3];
     if (region < 0) continue;
     const auto ratio = static_cast<float>(std::min(1.0, ratios[3 * static_cast<std::size_t>(region) + at % 3]));
-    const float light = reference_[at] + model.mean[at] - base_.mean[at];  // means of a few samples are too noisy
-    model.excess[at] = std::max(model.excess[at] * ratio, light - 1);      // no pixel is brighter than white
+    const float light = reference_[at] + model.mean[at] - mean_[at];   // means of a few samples are too noisy
+    model.excess[at] = std::max(model.excess[at] * ratio, light - 1);  // no pixel is brighter than white
   }
   return model;
 }
@@ -264,8 +257,8 @@ std::vector<float> Expectation::expected_of(const BookModel& model) const {
   std::vector<float> expected(reference_.size());
   for (std::size_t at = 0; at < expected.size(); ++at) {
     const int region = large_.of_pixel[at / 3];
-    const double passes = region < 0 ? 1 : passes_[3 * static_cast<std::size_t>(region) + at % 3];
-    expected[at] = model.mean[at] - model.excess[at] + static_cast<float>(passes) * (reference_[at] - base_.mean[at]);
+    const double passes = region < 0 ? 1 : model.passes[3 * static_cast<std::size_t>(region) + at % 3];
+    expected[at] = model.mean[at] - model.excess[at] + static_cast<float>(passes) * (reference_[at] - mean_[at]);
   }
   return expected;
 }

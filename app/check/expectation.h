@@ -1,4 +1,5 @@
 #pragma once
+#include "app/check/differences.h"
 #include "app/check/objects.h"
 #include "app/check/reading.h"
 #include "app/check/reference.h"
@@ -27,17 +28,7 @@ struct CheckOptions {
 struct BookModel {
   std::vector<float> mean, excess;  ///< see SampleStatistics
   std::vector<float> noise;         ///< variance of a pixel of a picture with the number of samples of the user's
-};
-
-/// How the means of a picture differ from what is expected, in small blocks, in large ones, and by object: three of
-/// each region; and over the whole picture.
-struct RegionDifferences {
-  std::vector<BlockDifference> all, whole;
-  std::size_t small = 0, large = 0;  ///< how many of them are of small and of large blocks, which come first
-  std::span<const BlockDifference> of_small() const { return {all.data(), small}; }
-  std::span<const BlockDifference> of_large() const { return {all.data() + small, large}; }
-  std::span<const BlockDifference> of_objects() const { return std::span(all).subspan(small + large); }
-  double amount() const { return amount_of(all, all); }
+  std::vector<double> passes;  ///< what white lets through of a change of the means; of each large region and channel
 };
 
 /// The pictures that are expected of programs, and how the user's picture differs from them.
@@ -56,13 +47,9 @@ class Expectation {
   const BookProgram& start() const { return start_; }
   const SeenObjects& seen() const { return seen_; }
   int block_edge() const { return grid_.edge * lattice_.step; }  ///< of a small block, in pixels
-  /// Samples a pixel of the picture, as its noise tells; 0: not known.
-  double samples() const { return samples_of_picture_; }
   /// The numbers that the picture's noise may stand for if a program's samples are those of the picture's program, the
   /// likeliest first; 0: not known. White makes few samples show as little noise as many.
   std::vector<double> likely_samples(const std::vector<BookSample>& of_program, const Reading& reading) const;
-  /// Sets it. Models that were made before are of no use after that.
-  void set_samples(double samples);
   /// Fraction of the small blocks in which the samples show about as much light as there is. The others are left out.
   double comparable() const { return comparable_; }
   /// Whether so much of the samples is brighter than white that their number decides what the picture looks like.
@@ -72,7 +59,8 @@ class Expectation {
   const std::vector<BookSample>& start_samples() const { return samples_; }
   /// Renders a program; empty: there is no time left; in_time: whether that matters.
   std::vector<BookSample> samples_of(const BookProgram& program, bool in_time);
-  BookModel model_of(const std::vector<BookSample>& samples) const;
+  /// What is expected of a program with these samples if the picture has `count` samples a pixel; 0: not known.
+  BookModel model_of(const std::vector<BookSample>& samples, double count) const;
   RegionDifferences differences(const BookModel& model, const Reading& reading);
 
  private:
@@ -93,11 +81,9 @@ class Expectation {
   SeenObjects seen_;
   Regions small_, large_, objects_, whole_;
   int count_ = 0;  ///< samples that were taken of each pixel
-  int group_ = 0;  ///< samples of a pixel of the picture, as far as so many were taken
-  double samples_of_picture_ = 0, comparable_ = 1;
+  double comparable_ = 1;
   std::vector<BookSample> samples_;
-  SampleStatistics base_;       ///< of the scene as it is
-  std::vector<double> passes_;  ///< what white lets through of a change of the means; of each large region and channel
+  std::vector<float> mean_;  ///< of these
   std::vector<std::pair<Reading, std::unique_ptr<ReadPixels>>> read_;
   std::unique_ptr<ReadPixels> newest_read_;
 };

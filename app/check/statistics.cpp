@@ -89,6 +89,18 @@ std::vector<double> excess_ratios(const std::vector<BookSample>& samples, int co
   return of_many;
 }
 
+std::vector<double> light_by_depth(const std::vector<BookSample>& samples) {
+  std::vector<double> light;
+  for (const BookSample& sample : samples) {
+    const auto depth = static_cast<std::size_t>(sample.depth);
+    if (light.size() <= depth) light.resize(depth + 1);
+    light[depth] += static_cast<double>(sample.light.x + sample.light.y + sample.light.z);
+  }
+  for (std::size_t k = 1; k < light.size(); ++k) light[k] += light[k - 1];
+  for (double& value : light) value /= std::max(light.back(), 1e-30);
+  return light;
+}
+
 BlockGrid grid_of(const Lattice& lattice) {
   const double edge = std::sqrt(static_cast<double>(lattice.pixels()) / 400);
   return {lattice.columns(), lattice.rows(), std::clamp(static_cast<int>(std::lround(edge)), 8, 32)};

@@ -36,6 +36,9 @@ SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count
 std::vector<double> excess_ratios(const std::vector<BookSample>& samples, int count, double many,
                                   const struct Regions& regions);
 
+/// Fraction of the light of samples that is found after at most so many scattering events, from 0 on.
+std::vector<double> light_by_depth(const std::vector<BookSample>& samples);
+
 /// Sets of pixels whose mean differences are looked at.
 struct Regions {
   std::vector<int> of_pixel;  ///< -1: the pixel is in none

@@ -49,7 +49,7 @@ void find_more_than_noise(const NoiseScores& s, double limit, std::vector<std::s
   if (s.tells()) return;
   lines.push_back(fmt::format("too few samples to tell: no block with light, of {}, has more than 60 effective samples",
                               s.lit_blocks));
-  if (s.enough_spp > 0) lines.back() += fmt::format("; about {:.0f} a pixel would do", std::ceil(1.1 * s.enough_spp));
+  if (s.enough_spp > 0) lines.back() += fmt::format("; about {:.0f} a pixel would do", std::ceil(s.enough_spp));
 }
 
 }  // namespace

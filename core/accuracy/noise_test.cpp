@@ -254,8 +254,7 @@ void set_means(const std::array<GroupSums, 3>& picture, const Counts& counts, do
                NoiseScores& scores) {
   for (std::size_t c = 0; c < 3; ++c) {
     const Score score = score_of(picture[c], counts);
-    scores.mean_z[c] = corrected(score.log_p, 3, kinds), scores.mean_tells[c] = score.lit && score.clear();
-    if (score.lit) scores.effective_samples = std::max(scores.effective_samples, score.effective_samples);
+    scores.mean_z[c] = corrected(score.log_p, 3, kinds);
     scores.difference[c] = (picture[c].level_a - picture[c].level_b) / pixels;
     scores.error[c] = std::sqrt(picture[c].variance()) / pixels;
     scores.z = std::max(scores.z, scores.mean_z[c]);
@@ -318,8 +317,8 @@ NoiseScores noise_scores(const NoisyImage& a, const NoisyImage& b) {
   }
   if (scores.compares_outliers) scores.outlier_z = corrected(count_outliers(a, b, r, scores), 1, kinds);
   scores.z = std::max({scores.z, scores.block_z, scores.outlier_z});
-  if (scores.effective_samples > 0)
-    scores.enough_spp = std::min(a.spp, b.spp) * too_few_effective_samples / scores.effective_samples;
+  if (!scores.tells())
+    scores.enough_spp = 1.1 * std::min(a.spp, b.spp) * too_few_effective_samples / std::max(scores.effective_samples, 1.0);
   return scores;
 }
 
