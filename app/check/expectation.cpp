@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace tyndall {
@@ -16,12 +15,8 @@ constexpr std::size_t max_lattice_pixels = 100'000;
 constexpr int min_samples = 4, max_samples_of_pixel = 24;
 constexpr double part_for_samples = 1 / 60.0;     // of the time, for the samples of one program
 constexpr int large_edge = 4;                     // of a large block, in small ones
-constexpr std::size_t min_ratios = 8;             // blocks that tell how many samples a picture has
 constexpr double rare_light = 0.5, dark = 0.003;  // of the light of a region, and light, that samples may be off
 constexpr double min_cut = 0.02;                  // of the light of single samples, that white cuts off
-constexpr double max_cut = 1e-3;                  // of light, that white cuts off of blocks whose noise tells anything
-constexpr double max_black_off = 0.1;             // of the pixels, by which a picture is black more or less often
-constexpr double noise_factor = 2;                // by which noise tells the number of samples wrongly
 
 /// A scene as kernels read it.
 struct Compiled {
@@ -67,66 +62,6 @@ Regions without_noise(Regions regions, const SeenObjects& seen) {
   for (std::size_t pixel = 0; pixel < seen.of_pixel.size(); ++pixel)
     if (seen.objects[static_cast<std::size_t>(seen.of_pixel[pixel])].noisy_texture) regions.of_pixel[pixel] = -1;
   return regions;
-}
-
-/// The value below which a fraction of the values lies.
-double quantile_of(std::vector<double> values, double fraction) {
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
-
-/// Means over the pixels of each region and channel.
-std::vector<double> means_of(const std::vector<float>& numbers, const Regions& regions) {
-  std::vector<double> sums(3 * static_cast<std::size_t>(regions.count)), counts(sums.size());
-  for (std::size_t at = 0; at < numbers.size(); ++at) {
-    const int region = regions.of_pixel[at / 3];
-    if (region < 0) continue;
-    sums[3 * static_cast<std::size_t>(region) + at % 3] += static_cast<double>(numbers[at]);
-    ++counts[3 * static_cast<std::size_t>(region) + at % 3];
-  }
-  for (std::size_t k = 0; k < sums.size(); ++k) sums[k] /= std::max(counts[k], 1.0);
-  return sums;
-}
-
-/// The variance of the noise of the pixels in each region and channel, from neighbours in a row, so that what changes
-/// slowly from pixel to pixel counts little, and what is brighter than white nothing. Negative where there are few.
-std::vector<double> noise_of(const std::vector<float>& light, const std::vector<float>& expected,
-                             const Regions& regions, double white) {
-  constexpr double min_pairs = 20;
-  std::vector<double> sums(3 * static_cast<std::size_t>(regions.count)), counts(sums.size());
-  for (std::size_t at = 3; at < light.size(); ++at) {
-    const int region = regions.of_pixel[at / 3];
-    if (region < 0 || regions.of_pixel[at / 3 - 1] != region) continue;
-    if (static_cast<double>(std::max(expected[at], expected[at - 3])) > white) continue;
-    const double step =
-        static_cast<double>(light[at] - expected[at]) - static_cast<double>(light[at - 3] - expected[at - 3]);
-    sums[3 * static_cast<std::size_t>(region) + at % 3] += step * step / 2;
-    ++counts[3 * static_cast<std::size_t>(region) + at % 3];
-  }
-  for (std::size_t k = 0; k < sums.size(); ++k) sums[k] = counts[k] < min_pairs ? -1 : sums[k] / counts[k];
-  return sums;
-}
-
-/// What a program's noise is over that of the picture.
-double noise_ratio(const std::vector<double>& of_program, const std::vector<double>& of_picture) {
-  double program = 0, picture = 0;
-  for (std::size_t k = 0; k < of_program.size(); ++k)
-    if (of_picture[k] >= 0) program += of_program[k], picture += of_picture[k];
-  return picture > 0 ? program / picture : 0;
-}
-
-/// Median of that over blocks and channels, among those of much noise of which white cuts off little: right also where
-/// edges lie elsewhere in the picture. 0: too few of them tell.
-double median_noise_ratio(const std::vector<double>& of_program, const std::vector<double>& cut,
-                          const std::vector<double>& of_picture) {
-  const double median = quantile_of(of_program, 0.5);
-  std::vector<double> ratios;
-  for (std::size_t k = 0; k < of_program.size(); ++k)
-    if (of_program[k] >= median && of_picture[k] > 0 && cut[k] <= max_cut)
-      ratios.push_back(of_program[k] / of_picture[k]);
-  // Edges that lie elsewhere in the picture make blocks look noisier than they are: so more than the median.
-  return ratios.size() >= min_ratios ? quantile_of(ratios, 0.6) : 0;
 }
 
 }  // namespace
@@ -193,38 +128,9 @@ void Expectation::take_samples(const CheckOptions& options) {
 
 std::vector<double> Expectation::likely_samples(const std::vector<BookSample>& of_program,
                                                 const Reading& reading) const {
-  const ReadPixels pixels = read_pixels(picture_, lattice_, reading);
-  const std::vector<double> steps = means_of(pixels.tolerance, small_),
-                            of_reference = means_of(reference_variance_, small_);
-  std::vector<double> noise = noise_of(pixels.light, reference_, small_, white());
-  for (std::size_t k = 0; k < noise.size(); ++k) {
-    if (noise[k] < 0) continue;
-    const double rounding = steps[k] * steps[k] / 12;
-    noise[k] -= of_reference[k] + rounding;
-    if (noise[k] < rounding) noise[k] = 0;
-  }
-  double black_pixels = 0;
-  for (std::size_t at = 0; at < pixels.light.size(); ++at)
-    black_pixels += pixels.light[at] <= std::max(max_black, pixels.tolerance[at]) ? 1 : 0;
-  black_pixels /= static_cast<double>(pixels.light.size());
-  std::vector<std::pair<double, double>> likely;  // how far off the noise is, and samples
-  for (int group = 1; 2 * group <= count_; ++group) {
-    const SampleStatistics few = statistics_of(of_program, count_, {group, white()});
-    const double ratio = noise_ratio(means_of(few.noise, small_), noise);
-    const double black =
-        std::accumulate(few.black.begin(), few.black.end(), 0.0) / static_cast<double>(few.black.size());
-    if (ratio > 1 / noise_factor && ratio < noise_factor && std::abs(black - black_pixels) < max_black_off)
-      likely.emplace_back(std::abs(std::log(ratio)), group);
-  }
-  const SampleStatistics many = statistics_of(of_program, count_, {count_, white()});
-  const double told = median_noise_ratio(means_of(many.variance, small_), means_of(many.excess, small_), noise);
-  for (const double factor : {1.0, 1 / 1.1, 1.1, 1 / 1.25, 1.25, 1 / 1.4, 1.4, 1 / 1.7, 1.7, 0.5, 2.0})
-    if (2 * factor * told > count_) likely.emplace_back(std::abs(std::log(factor)), factor * told);
-  std::stable_sort(likely.begin(), likely.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<double> samples;
-  for (const auto& [off, count] : likely) samples.push_back(count);
-  if (samples.empty()) samples = {0, 1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048};
-  return samples;
+  const PictureNoise noise =
+      noise_of(read_pixels(picture_, lattice_, reading), reference_, reference_variance_, small_, white());
+  return likely_counts(noise, of_program, count_, small_, white());
 }
 
 bool Expectation::white_matters() const {

@@ -4,6 +4,7 @@
 #include "app/check/reading.h"
 #include "app/check/reference.h"
 #include "app/check/rules.h"
+#include "app/check/sample_count.h"
 #include "app/check/statistics.h"
 #include "core/base/thread_pool.h"
 #include "core/targets/kernels.h"

@@ -109,7 +109,8 @@ class Search {
     return *best;
   }
 
-  /// Takes over the choices of editions that bring the picture clearly closer to the program's, where they show at all.
+  /// Takes over the choices of editions that bring the picture clearly closer to the program's, where they show at all,
+  /// or with which nothing but noise is left.
   Fit with_choices(Fit best) {
     for (const Difference& choice : usual_choices()) {
       if (agrees(best.regions)) break;
@@ -118,7 +119,7 @@ class Search {
       const Model model = known_model_of(suspect, best.samples);
       if (!model) continue;
       Fit other = fit(suspect, best.reading, best.samples, model);
-      if (left_by(best.regions, other.regions) <= clear_improvement) best = std::move(other);
+      if (agrees(other.regions) || left_by(best.regions, other.regions) <= clear_improvement) best = std::move(other);
     }
     return best;
   }

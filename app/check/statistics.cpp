@@ -114,6 +114,18 @@ Regions regions_of(const BlockGrid& grid) {
   return regions;
 }
 
+std::vector<double> means_of(const std::vector<float>& numbers, const Regions& regions) {
+  std::vector<double> sums(3 * static_cast<std::size_t>(regions.count)), counts(sums.size());
+  for (std::size_t at = 0; at < numbers.size(); ++at) {
+    const int region = regions.of_pixel[at / 3];
+    if (region < 0) continue;
+    sums[3 * static_cast<std::size_t>(region) + at % 3] += static_cast<double>(numbers[at]);
+    ++counts[3 * static_cast<std::size_t>(region) + at % 3];
+  }
+  for (std::size_t k = 0; k < sums.size(); ++k) sums[k] /= std::max(counts[k], 1.0);
+  return sums;
+}
+
 std::vector<BlockDifference> block_differences(const ComparedPixels& p, const Regions& regions) {
   std::vector<Sums> sums(3 * static_cast<std::size_t>(regions.count));
   std::vector<BlockDifference> result(sums.size());

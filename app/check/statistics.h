@@ -58,6 +58,8 @@ struct BlockGrid {
   }
 };
 Regions regions_of(const BlockGrid& grid);
+/// Means over the pixels of each region and channel, of three numbers a pixel.
+std::vector<double> means_of(const std::vector<float>& numbers, const Regions& regions);
 /// Some 400 blocks, with as many pixels each as statistics need.
 BlockGrid grid_of(const Lattice& lattice);
 
