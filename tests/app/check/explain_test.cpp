@@ -55,6 +55,7 @@ TEST_CASE("check: planted mistakes are named") {
   CHECK(name_of(verdict_of(metal, planted(Plant::no_gamma), spp)) == "no-gamma");
   CHECK(name_of(verdict_of(metal, planted(Plant::upside_down), spp)) == "upside-down");
   CHECK(name_of(verdict_of(metal, planted(Plant::hemisphere), spp)) == "hemisphere");
+  CHECK(name_of(verdict_of(metal, planted(Plant::acne), spp)) == "shadow-acne");
   CHECK(name_of(verdict_of(glass, planted(Plant::schlick_is_one), spp)) == "schlick-always-1");
   CHECK(name_of(verdict_of(glass, planted(Plant::sky_brackets), spp)) == "sky-brackets");
 }
