@@ -91,6 +91,7 @@ Expectation::Expectation(const PictureNumbers& picture, const Scene& scene, cons
   const double pixels = static_cast<double>(small_.of_pixel.size()) - left_out(small_);
   comparable_ = pixels > 0 ? 1 - (left_out(small) - left_out(small_)) / pixels : 1;
   small_ = small, large_ = without_rare_light(large_), objects_ = without_rare_light(objects_);
+  variance_ = means_of(statistics_of(samples_, count_, {}).variance, large_);
   whole_ = {small_.of_pixel, 1};
   for (int& region : whole_.of_pixel) region = std::min(region, 0);
 }
@@ -149,12 +150,11 @@ std::vector<BookSample> Expectation::samples_of(const BookProgram& program, bool
 
 BookModel Expectation::model_of(const std::vector<BookSample>& samples, double count) const {
   const int group = count > 0 ? std::clamp(static_cast<int>(std::lround(count)), 1, count_) : count_;
-  SampleStatistics statistics = statistics_of(samples, count_, {group, white()});
+  SampleStatistics statistics = statistics_of(samples, count_, {group, white()}, &samples_);
   BookModel model{std::move(statistics.mean), std::move(statistics.excess), std::move(statistics.noise),
                   means_of(statistics.common, large_)};
-  const std::vector<double> variance = means_of(statistics.variance, large_);
-  for (std::size_t k = 0; k < variance.size(); ++k)
-    model.passes[k] = variance[k] > 0 ? std::clamp(model.passes[k] * group / variance[k], 0.0, 1.0) : 1;
+  for (std::size_t k = 0; k < model.passes.size(); ++k)
+    model.passes[k] = variance_[k] > 0 ? std::clamp(model.passes[k] * group / variance_[k], 0.0, 1.0) : 1;
   for (float& noise : model.noise)  // a picture of unknown samples shows by itself alone how noisy it is
     noise *= count > 0 ? static_cast<float>(group / count) : 0;
   if (!picture_.coded || count <= count_ * 1.2) return model;

@@ -29,7 +29,7 @@ struct CheckOptions {
 struct BookModel {
   std::vector<float> mean, excess;  ///< see SampleStatistics
   std::vector<float> noise;         ///< variance of a pixel of a picture with the number of samples of the user's
-  std::vector<double> passes;  ///< what white lets through of a change of the means; of each large region and channel
+  std::vector<double> passes;  ///< what it has of the luck of the scene's own samples; of each large region and channel
 };
 
 /// The pictures that are expected of programs, and how the user's picture differs from them.
@@ -84,7 +84,8 @@ class Expectation {
   int count_ = 0;  ///< samples that were taken of each pixel
   double comparable_ = 1;
   std::vector<BookSample> samples_;
-  std::vector<float> mean_;  ///< of these
+  std::vector<float> mean_;       ///< of these
+  std::vector<double> variance_;  ///< of one of them, of each large region and channel
   std::vector<std::pair<Reading, std::unique_ptr<ReadPixels>>> read_;
   std::unique_ptr<ReadPixels> newest_read_;
 };

@@ -112,7 +112,9 @@ class Search {
   /// Takes over the choices of editions that bring the picture clearly closer to the program's, where they show at all,
   /// or with which nothing but noise is left.
   Fit with_choices(Fit best) {
-    for (const Difference& choice : usual_choices()) {
+    std::vector<Difference> choices = usual_choices();
+    for (const Difference& again : usual_choices()) choices.push_back(again);  // a small one may show after a large one
+    for (const Difference& choice : choices) {
       if (agrees(best.regions)) break;
       Suspect suspect = best.suspect;
       suspect.choices.push_back(choice);

@@ -103,7 +103,7 @@ std::vector<double> likely_counts(const PictureNoise& noise, const std::vector<B
   std::stable_sort(likely.begin(), likely.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<double> counts;
   for (const auto& [off, of_picture] : likely) counts.push_back(of_picture);
-  if (counts.empty()) counts = {0, 1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048};
+  if (counts.empty()) counts = {0};
   return counts;
 }
 

@@ -25,40 +25,42 @@ struct Pairs {
 };
 
 /// One channel of a pixel.
-void add_channel(const BookSample* samples, int count, const Exposure& exposure, float Vec3f::*channel,
-                 SampleStatistics& to) {
-  double of_group = 0, black = 0;
+void add_channel(const BookSample* samples, const BookSample* other, int count, const Exposure& exposure,
+                 float Vec3f::*channel, SampleStatistics& to) {
+  double of_group = 0, of_other = 0, excess = 0, black = 0;
   int in_group = 0;
-  Pairs single, cut, whole_and_cut;
+  Pairs single, both, cut, cut_and_other;
   for (int k = 0; k < count; ++k) {
     const auto value = static_cast<double>(samples[k].light.*channel);
-    single.add(value, value), of_group += value;
+    const auto other_value = static_cast<double>(other[k].light.*channel);
+    single.add(value, value), both.add(value, other_value), of_group += value, of_other += other_value;
     if (++in_group < exposure.group) continue;
     const double mean = of_group / exposure.group, shown = std::min(mean, exposure.white);
-    cut.add(shown, shown), whole_and_cut.add(mean, shown);
+    cut.add(shown, shown), cut_and_other.add(shown, of_other / exposure.group), excess += mean - shown;
     black += mean < static_cast<double>(max_black) ? 1 : 0;
-    of_group = 0, in_group = 0;
+    of_group = 0, of_other = 0, in_group = 0;
   }
   const double variance = std::max(0.0, single.covariance()), uncut = variance / exposure.group;
   const bool several = cut.count > 1;
   to.mean.push_back(static_cast<float>(single.a / count));
   to.variance.push_back(static_cast<float>(variance));
-  to.excess.push_back(static_cast<float>((whole_and_cut.a - whole_and_cut.b) / cut.count));
+  to.excess.push_back(static_cast<float>(excess / cut.count));
   to.noise.push_back(static_cast<float>(several ? std::max(0.0, cut.covariance()) : uncut));
   to.black.push_back(static_cast<float>(black / cut.count));
-  to.common.push_back(static_cast<float>(several ? whole_and_cut.covariance() : uncut));
+  to.common.push_back(static_cast<float>(several ? cut_and_other.covariance() : both.covariance() / exposure.group));
 }
 
 }  // namespace
 
-SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count, const Exposure& exposure) {
+SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count, const Exposure& exposure,
+                               const std::vector<BookSample>* other) {
   SampleStatistics result;
   for (std::vector<float>* list :
        {&result.mean, &result.variance, &result.excess, &result.noise, &result.common, &result.black})
     list->reserve(3 * samples.size() / static_cast<std::size_t>(count));
   for (std::size_t first = 0; first < samples.size(); first += static_cast<std::size_t>(count))
     for (float Vec3f::*channel : {&Vec3f::x, &Vec3f::y, &Vec3f::z})
-      add_channel(samples.data() + first, count, exposure, channel, result);
+      add_channel(samples.data() + first, (other ? *other : samples).data() + first, count, exposure, channel, result);
   return result;
 }
 

@@ -15,7 +15,7 @@ struct SampleStatistics {
   /// By how much white cuts the mean of a picture: the part of a mean of `group` samples that is above it, averaged.
   std::vector<float> excess;
   std::vector<float> noise;   ///< variance of a mean of `group` samples, cut at white
-  std::vector<float> common;  ///< covariance of such a mean with the one that is not cut
+  std::vector<float> common;  ///< covariance of such a mean with that of other samples, which is not cut
   std::vector<float> black;   ///< fraction of such means that are below max_black
 };
 inline constexpr float max_black = 1e-3f;
@@ -27,8 +27,9 @@ struct Exposure {
 };
 
 /// count: samples a pixel, from Exposure::group on. Where there are not two groups, noise and common are those of means
-/// that are not cut.
-SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count, const Exposure& exposure);
+/// that are not cut. other: of the same random numbers; null: the samples themselves.
+SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count, const Exposure& exposure,
+                               const std::vector<BookSample>* other = nullptr);
 
 /// What white cuts off of means of many samples, over what it cuts off of means of `count`, of each region and channel.
 /// many: more samples than there are of a pixel, so that those of neighbours are taken together; in the same way for
