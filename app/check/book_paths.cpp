@@ -204,9 +204,9 @@ class BookPaths {
       const auto distance = [&](Vec3d way) {
         return book_distance(s_, at.element, at.point, p.exact, way, p.ray.time);
       };
-      const Vec3d way = static_cast<double>(p.length) * normalize(to_double(p.ray.direction));
+      const Vec3d way = static_cast<double>(p.length) * to_double(p.ray.direction);
       p.exact = p.exact + distance(way) * way;
-      const double again = distance(static_cast<double>(out.length) * normalize(to_double(out.direction)));
+      const double again = distance(static_cast<double>(out.length) * to_double(out.direction));
       p.at_surface = again > 0 && again < at_once;
     }
     p.throughput = p.throughput * colour;
