@@ -201,11 +201,11 @@ class BookPaths {
     const bool loses_time =
         p.ray.time != 0 && (rules_.time == TimeRule::lost || (rules_.time == TimeRule::lost_by_matt && matt));
     if (rules_.meets_itself) {
-      const auto distance = [&](Vec3d way) {
-        return book_distance(s_, at.element, at.point, p.exact, way, p.ray.time);
+      const auto distance = [&](Vec3d direction) {
+        return book_distance(s_, at.element, at.point, p.exact, direction, p.ray.time);
       };
-      const Vec3d way = static_cast<double>(p.length) * to_double(p.ray.direction);
-      p.exact = p.exact + distance(way) * way;
+      const Vec3d direction = static_cast<double>(p.length) * to_double(p.ray.direction);
+      p.exact = p.exact + distance(direction) * direction;
       const double again = distance(static_cast<double>(out.length) * to_double(out.direction));
       p.at_surface = again > 0 && again < at_once;
     }
