@@ -163,8 +163,9 @@ BookModel Expectation::model_of(const std::vector<BookSample>& samples, double c
     const int region = large_.of_pixel[at / 3];
     if (region < 0) continue;
     const auto ratio = static_cast<float>(std::min(1.0, ratios[3 * static_cast<std::size_t>(region) + at % 3]));
-    const float light = reference_[at] + model.mean[at] - mean_[at];   // means of a few samples are too noisy
-    model.excess[at] = std::max(model.excess[at] * ratio, light - 1);  // no pixel is brighter than white
+    const auto passes = static_cast<float>(model.passes[3 * static_cast<std::size_t>(region) + at % 3]);
+    const float light = model.mean[at] + passes * (reference_[at] - mean_[at]);  // means of few samples are too noisy
+    model.excess[at] = std::max(model.excess[at] * ratio, light - 1);            // no pixel is brighter than white
   }
   return model;
 }
