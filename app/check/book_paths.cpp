@@ -17,6 +17,7 @@ namespace tyndall {
 namespace {
 
 constexpr int paths_per_job = 4096;
+constexpr double at_once = 1e-6;         // a distance, of a ray that meets the surface that it leaves
 constexpr float min_throughput = 1e-4f;  // what carries less is not followed: far below what 8 bits show
 
 struct BookPath {
@@ -27,6 +28,7 @@ struct BookPath {
   std::size_t sample;  ///< place of its result
   std::int32_t depth;  ///< scattering events so far
   bool at_surface;     ///< it meets the surface that it leaves at once, see BookRules::meets_itself
+  Vec3d exact;         ///< where the ray begins in the books' program; only with that rule
 };
 
 /// Scattered light as the books' programs have it: a direction that need not be a unit vector.
@@ -75,6 +77,23 @@ BookDirection scatter_glass(const Dielectric<float>& glass, const BookRules& rul
   return {out.direction, 1, false, out.flags.transmitted};
 }
 
+Vec3d to_double(Vec3f v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
+
+/// The distance above 0 at which the books' programs find an element, in their arithmetic, whose rounding puts a point
+/// of a surface a little outside or inside; negative: they do not find it. point: one of the element.
+double book_distance(const SceneView& s, std::int32_t element, Vec3f point, Vec3d origin, Vec3d direction, float time) {
+  const Vec3f at{s.x[element], s.y[element], s.z[element]};
+  if (s.inverse_radius[element] == 0)
+    return dot(to_double(at), to_double(point) - origin) / dot(to_double(at), direction);
+  const Vec3f move =
+      s.features.moving_spheres ? Vec3f{s.move_x[element], s.move_y[element], s.move_z[element]} : Vec3f{};
+  const Vec3d to_center = to_double(at + time * move) - origin;
+  const double radius = 1 / static_cast<double>(s.inverse_radius[element]);
+  const double a = dot(direction, direction), h = dot(direction, to_center);
+  const double c = dot(to_center, to_center) - radius * radius, root = std::sqrt(std::max(0.0, h * h - a * c));
+  return (h - root) / a > 0 ? (h - root) / a : (h + root) / a;
+}
+
 /// The ray on which a sample starts, with the length that its direction has there.
 BookPath begin(const SceneView& s, const BookRules& rules, int x, int y, int index, std::size_t place) {
   BookPath p{};
@@ -92,6 +111,7 @@ BookPath begin(const SceneView& s, const BookRules& rules, int x, int y, int ind
   p.sampler.event = static_cast<std::uint32_t>(dimension::camera_count * golden_ratio);
   p.throughput = {1, 1, 1};
   p.sample = place;
+  p.exact = to_double(p.ray.origin);
   return p;
 }
 
@@ -124,7 +144,9 @@ class BookPaths {
     MediumEvent<float> medium = no_event<float>();
     if (s_.features.media && !p.at_surface) {
       fly_through_media(s_, p.ray, p.sampler, true, nearest, medium);
-      p.throughput = transmitted_by_absorbers(s_, p.ray, p.sampler, nearest, true) * p.throughput;
+      // The books' black smoke ends paths at random, so that samples vary more than with this as their weight.
+      if (p.sampler.next_1d(dimension::roulette) >= transmitted_by_absorbers(s_, p.ray, p.sampler, nearest, true))
+        return false;
     }
     const bool goes_on = medium.happens     ? meet_medium(p, medium)
                          : hit.element >= 0 ? meet_surface(p, hit)
@@ -152,7 +174,7 @@ class BookPaths {
     const Vec3f out = scatter_in_medium(event.g, p.ray.direction, on_sphere(u), u);
     p.throughput = p.throughput * albedo;
     p.ray = {event.point, out, rules_.time == TimeRule::lost ? 0 : p.ray.time, event.from};
-    p.length = 1, p.at_surface = false;
+    p.length = 1, p.at_surface = false, p.exact = to_double(event.point);
     return true;
   }
 
@@ -176,12 +198,21 @@ class BookPaths {
     if (out.absorbed) return false;
     const bool inside = (exiting != at.inverted) != out.transmitted;
     const bool matt = has_trait<&BsdfTraits::diffuse>(kind);
-    const bool loses_time = rules_.time == TimeRule::lost || (rules_.time == TimeRule::lost_by_matt && matt);
+    const bool loses_time =
+        p.ray.time != 0 && (rules_.time == TimeRule::lost || (rules_.time == TimeRule::lost_by_matt && matt));
+    if (rules_.meets_itself) {
+      const auto distance = [&](Vec3d direction) {
+        return book_distance(s_, at.element, at.point, p.exact, direction, p.ray.time);
+      };
+      const Vec3d direction = static_cast<double>(p.length) * to_double(p.ray.direction);
+      p.exact = p.exact + distance(direction) * direction;
+      const double again = distance(static_cast<double>(out.length) * to_double(out.direction));
+      p.at_surface = again > 0 && again < at_once;
+    }
     p.throughput = p.throughput * colour;
     p.ray = {at.point, out.direction, loses_time ? 0 : p.ray.time, 4 * at.element + (inside ? 1 : 0)};
     if (loses_time && moves(at.element)) p.ray.from = from_nowhere;  // the ball has jumped, and can be met again
     p.length = out.length;
-    p.at_surface = rules_.meets_itself && p.sampler.next_1d(dimension::near_pair) < 0.5f;
     return true;
   }
 

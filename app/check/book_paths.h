@@ -27,9 +27,10 @@ struct BookRules {
   GlassRule glass = GlassRule::right;  ///< enters_only: the refractive index is used as if every ray came from outside
   TimeRule time = TimeRule::kept;      ///< lost: scattered rays are at time 0
   bool schlick = false;                ///< instead of Fresnel's equations
-  bool long_mirror = false;   ///< fuzz is added to a mirror direction that is as long as the ray's direction was
-  bool short_frame = false;   ///< pixels are divided by width - 1 and height - 1, as in editions 2 and 3
-  bool meets_itself = false;  ///< half of the rays that leave a surface meet it at once (no lower bound for t)
+  bool long_mirror = false;  ///< fuzz is added to a mirror direction that is as long as the ray's direction was
+  bool short_frame = false;  ///< pixels are divided by width - 1 and height - 1, as in editions 2 and 3
+  bool meets_itself =
+      false;  ///< rays meet the surface that they leave where rounding has put them beyond it (no lower bound for t)
   bool operator==(const BookRules&) const = default;
 };
 

@@ -15,7 +15,6 @@ constexpr std::size_t max_lattice_pixels = 100'000;
 constexpr int min_samples = 4, max_samples_of_pixel = 24;
 constexpr double part_for_samples = 1 / 60.0;     // of the time, for the samples of one program
 constexpr int large_edge = 4;                     // of a large block, in small ones
-constexpr std::size_t min_ratios = 8;             // blocks that tell how many samples a picture has
 constexpr double rare_light = 0.5, dark = 0.003;  // of the light of a region, and light, that samples may be off
 constexpr double min_cut = 0.02;                  // of the light of single samples, that white cuts off
 
@@ -65,44 +64,6 @@ Regions without_noise(Regions regions, const SeenObjects& seen) {
   return regions;
 }
 
-/// The value below which a fraction of the values lies.
-double quantile_of(std::vector<double> values, double fraction) {
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
-
-/// Means over the pixels of each region and channel.
-std::vector<double> means_of(const std::vector<float>& numbers, const Regions& regions) {
-  std::vector<double> sums(3 * static_cast<std::size_t>(regions.count)), counts(sums.size());
-  for (std::size_t at = 0; at < numbers.size(); ++at) {
-    const int region = regions.of_pixel[at / 3];
-    if (region < 0) continue;
-    sums[3 * static_cast<std::size_t>(region) + at % 3] += static_cast<double>(numbers[at]);
-    ++counts[3 * static_cast<std::size_t>(region) + at % 3];
-  }
-  for (std::size_t k = 0; k < sums.size(); ++k) sums[k] /= std::max(counts[k], 1.0);
-  return sums;
-}
-
-/// The variance of the noise of the pixels in each region and channel, from neighbours in a row, so that what changes
-/// slowly from pixel to pixel counts little. 0 where there are few pixels.
-std::vector<double> noise_of(const std::vector<float>& light, const std::vector<float>& expected,
-                             const Regions& regions) {
-  constexpr double min_pairs = 20;
-  std::vector<double> sums(3 * static_cast<std::size_t>(regions.count)), counts(sums.size());
-  for (std::size_t at = 3; at < light.size(); ++at) {
-    const int region = regions.of_pixel[at / 3];
-    if (region < 0 || regions.of_pixel[at / 3 - 1] != region) continue;
-    const double step =
-        static_cast<double>(light[at] - expected[at]) - static_cast<double>(light[at - 3] - expected[at - 3]);
-    sums[3 * static_cast<std::size_t>(region) + at % 3] += step * step / 2;
-    ++counts[3 * static_cast<std::size_t>(region) + at % 3];
-  }
-  for (std::size_t k = 0; k < sums.size(); ++k) sums[k] = counts[k] < min_pairs ? 0 : sums[k] / counts[k];
-  return sums;
-}
-
 }  // namespace
 
 Expectation::Expectation(const PictureNumbers& picture, const Scene& scene, const Reference& reference,
@@ -130,12 +91,15 @@ Expectation::Expectation(const PictureNumbers& picture, const Scene& scene, cons
   const double pixels = static_cast<double>(small_.of_pixel.size()) - left_out(small_);
   comparable_ = pixels > 0 ? 1 - (left_out(small) - left_out(small_)) / pixels : 1;
   small_ = small, large_ = without_rare_light(large_), objects_ = without_rare_light(objects_);
+  variance_ = means_of(statistics_of(samples_, count_, {}).variance, large_);
+  whole_ = {small_.of_pixel, 1};
+  for (int& region : whole_.of_pixel) region = std::min(region, 0);
 }
 
 /// The regions without those in which the samples show quite another amount of light than there is: it comes on few
 /// paths, so that nobody knows how often white cuts it off.
 Regions Expectation::without_rare_light(Regions regions) const {
-  const std::vector<double> sampled = means_of(base_.mean, regions), right = means_of(reference_, regions);
+  const std::vector<double> sampled = means_of(mean_, regions), right = means_of(reference_, regions);
   for (int& region : regions.of_pixel) {
     if (region < 0) continue;
     const auto first = 3 * static_cast<std::size_t>(region);
@@ -160,84 +124,48 @@ void Expectation::take_samples(const CheckOptions& options) {
     count_ = static_cast<int>(std::clamp(fit, 1.0 * min_samples, 1.0 * max_samples_of_pixel));
   }
   samples_ = take(count_);
-  group_ = count_;
-  base_ = statistics_of(samples_, count_, group_);
-  variance_.assign(base_.variance.size(), 0);
+  mean_ = statistics_of(samples_, count_, {}).mean;
 }
 
-void Expectation::find_samples(const Reading& reading) {
-  const ReadPixels pixels = read_pixels(picture_, lattice_, reading);
-  const std::vector<double> noise = noise_of(pixels.light, reference_, small_), excess = means_of(base_.excess, small_),
-                            of_sample = means_of(base_.variance, small_), steps = means_of(pixels.tolerance, small_),
-                            of_reference = means_of(reference_variance_, small_);
-  const double median = quantile_of(of_sample, 0.5);
-  std::vector<double> ratios;
-  for (std::size_t k = 0; k < noise.size(); ++k) {
-    if (noise[k] <= 0 || of_sample[k] < median || excess[k] > 1e-3) continue;
-    const double rounding = steps[k] * steps[k] / 12, of_picture = noise[k] - of_reference[k] - rounding;
-    if (of_picture > rounding) ratios.push_back(of_sample[k] / of_picture);
-  }
-  // Edges that lie elsewhere in the picture make blocks look noisier than they are: so more than the median.
-  if (ratios.size() >= min_ratios) set_samples(std::max(1.0, quantile_of(ratios, 0.6)));
-}
-
-std::vector<double> Expectation::light_by_depth() const {
-  std::vector<double> light;
-  for (const BookSample& sample : samples_) {
-    if (light.size() <= static_cast<std::size_t>(sample.depth))
-      light.resize(static_cast<std::size_t>(sample.depth) + 1);
-    light[static_cast<std::size_t>(sample.depth)] +=
-        static_cast<double>(sample.light.x + sample.light.y + sample.light.z);
-  }
-  for (std::size_t k = 1; k < light.size(); ++k) light[k] += light[k - 1];
-  for (double& value : light) value /= std::max(light.back(), 1e-30);
-  return light;
-}
-
-void Expectation::set_samples(double samples) {
-  samples_of_picture_ = samples;
-  known_.clear();
-  group_ = std::clamp(static_cast<int>(std::lround(samples)), 1, count_);
-  base_ = statistics_of(samples_, count_, group_);
-  for (std::size_t at = 0; at < variance_.size(); ++at)
-    variance_[at] = base_.variance[at] / static_cast<float>(samples);
+std::vector<double> Expectation::likely_samples(const std::vector<BookSample>& of_program,
+                                                const Reading& reading) const {
+  const PictureNoise noise =
+      noise_of(read_pixels(picture_, lattice_, reading), reference_, reference_variance_, small_, white());
+  return likely_counts(noise, of_program, count_, small_, white());
 }
 
 bool Expectation::white_matters() const {
-  const SampleStatistics single = statistics_of(samples_, count_, 1);
+  const SampleStatistics single = statistics_of(samples_, count_, {});
   double cut = 0, all = 0;
   for (std::size_t at = 0; at < single.mean.size(); ++at)
     cut += static_cast<double>(single.excess[at]), all += static_cast<double>(single.mean[at]);
   return picture_.coded && cut > min_cut * all;
 }
 
-BookModel Expectation::start_model(int max_depth) const { return model_of(samples_, max_depth); }
-
-const BookModel* Expectation::model_of(const BookProgram& program, bool in_time) {
-  const bool by_rules = program.scene == start_.scene && !program.columns;
-  for (const auto& [rules, model] : known_)
-    if (by_rules && rules == program.rules) return model.get();
-  const auto samples = book_samples(
+std::vector<BookSample> Expectation::samples_of(const BookProgram& program, bool in_time) {
+  return book_samples(
       Compiled(program).view, kernels_, program.rules, lattice_, count_, threads_,
       in_time ? go_on_ : [] { return true; });
-  if (samples.empty()) return nullptr;
-  auto model = std::make_unique<BookModel>(model_of(samples, -1));
-  if (!by_rules) return (newest_ = std::move(model)).get();
-  known_.emplace_back(program.rules, std::move(model));
-  return known_.back().second.get();
 }
 
-BookModel Expectation::model_of(const std::vector<BookSample>& samples, int max_depth) const {
-  SampleStatistics statistics = statistics_of(samples, count_, group_, max_depth);
-  BookModel model{std::move(statistics.mean), std::move(statistics.excess)};
-  if (!picture_.coded || samples_of_picture_ <= count_ * 1.2) return model;
-  const std::vector<double> ratios = excess_ratios(samples, count_, samples_of_picture_, large_);
+BookModel Expectation::model_of(const std::vector<BookSample>& samples, double count) const {
+  const int group = count > 0 ? std::clamp(static_cast<int>(std::lround(count)), 1, count_) : count_;
+  SampleStatistics statistics = statistics_of(samples, count_, {group, white()}, &samples_);
+  BookModel model{std::move(statistics.mean), std::move(statistics.excess), std::move(statistics.noise),
+                  means_of(statistics.common, large_)};
+  for (std::size_t k = 0; k < model.passes.size(); ++k)
+    model.passes[k] = variance_[k] > 0 ? std::clamp(model.passes[k] * group / variance_[k], 0.0, 1.0) : 1;
+  for (float& noise : model.noise)  // a picture of unknown samples shows by itself alone how noisy it is
+    noise *= count > 0 ? static_cast<float>(group / count) : 0;
+  if (!picture_.coded || count <= count_ * 1.2) return model;
+  const std::vector<double> ratios = excess_ratios(samples, count_, count, large_);
   for (std::size_t at = 0; at < model.mean.size(); ++at) {
     const int region = large_.of_pixel[at / 3];
     if (region < 0) continue;
     const auto ratio = static_cast<float>(std::min(1.0, ratios[3 * static_cast<std::size_t>(region) + at % 3]));
-    const float light = reference_[at] + model.mean[at] - base_.mean[at];  // means of a few samples are too noisy
-    model.excess[at] = std::max(model.excess[at] * ratio, light - 1);      // no pixel is brighter than white
+    const auto passes = static_cast<float>(model.passes[3 * static_cast<std::size_t>(region) + at % 3]);
+    const float light = model.mean[at] + passes * (reference_[at] - mean_[at]);  // means of few samples are too noisy
+    model.excess[at] = std::max(model.excess[at] * ratio, light - 1);            // no pixel is brighter than white
   }
   return model;
 }
@@ -245,8 +173,9 @@ BookModel Expectation::model_of(const std::vector<BookSample>& samples, int max_
 std::vector<float> Expectation::expected_of(const BookModel& model) const {
   std::vector<float> expected(reference_.size());
   for (std::size_t at = 0; at < expected.size(); ++at) {
-    const float cut = picture_.coded ? model.excess[at] : 0;
-    expected[at] = reference_[at] + (model.mean[at] - base_.mean[at]) - cut;
+    const int region = large_.of_pixel[at / 3];
+    const double passes = region < 0 ? 1 : model.passes[3 * static_cast<std::size_t>(region) + at % 3];
+    expected[at] = model.mean[at] - model.excess[at] + static_cast<float>(passes) * (reference_[at] - mean_[at]);
   }
   return expected;
 }
@@ -264,8 +193,8 @@ const ReadPixels& Expectation::read(const Reading& reading) {
 RegionDifferences Expectation::differences(const BookModel& model, const Reading& reading) {
   const ReadPixels& pixels = read(reading);
   const std::vector<float> expected = expected_of(model);
-  const ComparedPixels compared{pixels.light, expected, pixels.tolerance, variance_};
-  RegionDifferences result{block_differences(compared, small_), 0, 0};
+  const ComparedPixels compared{pixels.light, expected, pixels.tolerance, model.noise};
+  RegionDifferences result{block_differences(compared, small_), block_differences(compared, whole_), 0, 0};
   result.small = result.all.size();
   const auto large = block_differences(compared, large_), objects = block_differences(compared, objects_);
   result.large = large.size();
@@ -282,7 +211,7 @@ Misfit rough_misfit(const PictureNumbers& picture, const Scene& scene, int threa
   ThreadPool pool(threads);
   const auto samples =
       book_samples(compiled.view, *choose_kernels(""), program.rules, lattice, count, pool, [] { return true; });
-  const SampleStatistics statistics = statistics_of(samples, count, count);
+  const SampleStatistics statistics = statistics_of(samples, count, {count});
   std::vector<float> expected = statistics.mean;
   const std::vector<float> none(expected.size());
   for (std::size_t at = 0; at < expected.size() && picture.coded; ++at) expected[at] -= statistics.excess[at];

@@ -1,13 +1,16 @@
 #pragma once
+#include "app/check/differences.h"
 #include "app/check/objects.h"
 #include "app/check/reading.h"
 #include "app/check/reference.h"
 #include "app/check/rules.h"
+#include "app/check/sample_count.h"
 #include "app/check/statistics.h"
 #include "core/base/thread_pool.h"
 #include "core/targets/kernels.h"
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -25,25 +28,17 @@ struct CheckOptions {
 /// What samples of a program tell of its picture: 3 floats a pixel of the lattice.
 struct BookModel {
   std::vector<float> mean, excess;  ///< see SampleStatistics
-};
-
-/// How the means of a picture differ from what is expected, in small blocks, in large ones, and by object: three of
-/// each region.
-struct RegionDifferences {
-  std::vector<BlockDifference> all;
-  std::size_t small = 0, large = 0;  ///< how many of them are of small and of large blocks, which come first
-  std::span<const BlockDifference> of_small() const { return {all.data(), small}; }
-  std::span<const BlockDifference> of_large() const { return {all.data() + small, large}; }
-  std::span<const BlockDifference> of_objects() const { return std::span(all).subspan(small + large); }
-  double amount() const { return amount_of(all, all); }
+  std::vector<float> noise;         ///< variance of a pixel of a picture with the number of samples of the user's
+  std::vector<double> passes;  ///< what it has of the luck of the scene's own samples; of each large region and channel
 };
 
 /// The pictures that are expected of programs, and how the user's picture differs from them.
 ///
 /// The mean of a picture is not that of its light: white cuts off what is brighter, which lowers the mean of noisy
-/// pixels. So what is expected of a program is: the scene, rendered well, plus the difference that the program's rules
-/// make, from samples with common random numbers, minus what white cuts off of means of as many samples as the picture
-/// has.
+/// pixels. So what is expected of a program is what its samples show of means of as many as the picture has, cut at
+/// white; and what those of the scene itself, of the same random numbers, happened to miss of the scene, rendered well,
+/// as far as it gets through the cut. How far that is, their covariance tells (J. M. Hammersley, D. C. Handscomb, Monte
+/// Carlo Methods, 5.5: control variates).
 class Expectation {
  public:
   Expectation(const PictureNumbers& picture, const Scene& scene, const Reference& reference,
@@ -53,29 +48,27 @@ class Expectation {
   const BookProgram& start() const { return start_; }
   const SeenObjects& seen() const { return seen_; }
   int block_edge() const { return grid_.edge * lattice_.step; }  ///< of a small block, in pixels
-  /// Samples a pixel of the picture, as its noise tells; 0: not known.
-  double samples() const { return samples_of_picture_; }
-  /// Finds that out, or sets it. Models that were made before are of no use after that.
-  void find_samples(const Reading& reading);
-  void set_samples(double samples);
+  /// The numbers that the picture's noise may stand for if a program's samples are those of the picture's program, the
+  /// likeliest first; 0: not known. White makes few samples show as little noise as many.
+  std::vector<double> likely_samples(const std::vector<BookSample>& of_program, const Reading& reading) const;
   /// Fraction of the small blocks in which the samples show about as much light as there is. The others are left out.
   double comparable() const { return comparable_; }
   /// Whether so much of the samples is brighter than white that their number decides what the picture looks like.
   bool white_matters() const;
 
-  /// Fraction of the scene's light that is found after at most so many scattering events, from 0 on.
-  std::vector<double> light_by_depth() const;
-  /// Of the scene as it is; max_depth: light found after more scattering events is left out; negative: none is.
-  BookModel start_model(int max_depth = -1) const;
-  /// Renders a program; null: there is no time left; in_time: whether that matters. Valid until the next call.
-  const BookModel* model_of(const BookProgram& program, bool in_time);
+  /// Of the scene as it is.
+  const std::vector<BookSample>& start_samples() const { return samples_; }
+  /// Renders a program; empty: there is no time left; in_time: whether that matters.
+  std::vector<BookSample> samples_of(const BookProgram& program, bool in_time);
+  /// What is expected of a program with these samples if the picture has `count` samples a pixel; 0: not known.
+  BookModel model_of(const std::vector<BookSample>& samples, double count) const;
   RegionDifferences differences(const BookModel& model, const Reading& reading);
 
  private:
   void take_samples(const CheckOptions& options);
   const ReadPixels& read(const Reading& reading);
   Regions without_rare_light(Regions regions) const;
-  BookModel model_of(const std::vector<BookSample>& samples, int max_depth) const;
+  double white() const { return picture_.coded ? 1 : std::numeric_limits<double>::infinity(); }
   std::vector<float> expected_of(const BookModel& model) const;
 
   const PictureNumbers& picture_;
@@ -87,15 +80,12 @@ class Expectation {
   ThreadPool threads_;
   const std::function<bool()>& go_on_;
   SeenObjects seen_;
-  Regions small_, large_, objects_;
+  Regions small_, large_, objects_, whole_;
   int count_ = 0;  ///< samples that were taken of each pixel
-  int group_ = 0;  ///< samples of a pixel of the picture, as far as so many were taken
-  double samples_of_picture_ = 0, comparable_ = 1;
+  double comparable_ = 1;
   std::vector<BookSample> samples_;
-  SampleStatistics base_;                                                ///< of the scene as it is
-  std::vector<float> variance_;                                          ///< of a pixel of the picture
-  std::vector<std::pair<BookRules, std::unique_ptr<BookModel>>> known_;  ///< of programs that only differ by rules
-  std::unique_ptr<BookModel> newest_;                                    ///< of another one
+  std::vector<float> mean_;       ///< of these
+  std::vector<double> variance_;  ///< of one of them, of each large region and channel
   std::vector<std::pair<Reading, std::unique_ptr<ReadPixels>>> read_;
   std::unique_ptr<ReadPixels> newest_read_;
 };

@@ -19,8 +19,12 @@ struct Findings {
   bool agrees = false;  ///< the picture differs from the scene by noise and by `choices` alone
   /// It cannot be told whether they agree: programs of the books find the scene's light too seldom.
   bool unknown = false;
+  bool too_few = false;              ///< they differ by noise alone, which is so much that nothing else would show
+  double unseen = 0;                 ///< fraction of the light by which the whole may be off without that it is seen
+  double enough = 0;                 ///< samples a pixel that would do where there are too few; 0: not known
   std::vector<Explanation> choices;  ///< by which the program does things otherwise, none of which is a mistake
-  /// The mistake that explains the difference; nothing: none does, not all were tried, or the picture agrees.
+  /// The mistake with which the scene's picture agrees with this one; nothing: there is none, not all were tried, or
+  /// no difference has to be explained.
   std::optional<Explanation> mistake;
   std::vector<Explanation> tried;  ///< all mistakes that were tried, the best first
   int untried = 0;                 ///< mistakes for which there was no time
@@ -36,8 +40,5 @@ struct Findings {
 /// after it has said false no more is tried.
 Findings explain(const PictureNumbers& picture, const Scene& scene, const Reference& reference,
                  const CheckOptions& options, const std::function<bool()>& go_on);
-
-/// Whether a mistake that explains so much of a difference may be named.
-inline constexpr double min_explained = 0.8;
 
 }  // namespace tyndall

@@ -63,7 +63,8 @@ std::string mistake_text(const Findings& v) {
       v.untried > 0 ? "mistake  none is named, as the time was up" : "mistake  none of the usual ones explains it";
   text += fmt::format("; {} were tried", v.tried.size());
   if (!v.tried.empty() && v.tried.front().explained > 0.3)
-    text += fmt::format(", the closest explains {} %: {}", percent(v.tried.front().explained), v.tried.front().words);
+    text += fmt::format(", the closest explains {} %, and something else is there: {}",
+                        percent(v.tried.front().explained), v.tried.front().words);
   if (v.untried > 0)
     text += fmt::format("\nmistake  {} more are tried with more time: --time {:g}", v.untried, 2 * v.seconds);
   return text + "\n";
@@ -83,6 +84,11 @@ std::string verdict_text(const Findings& v) {
     return "check    it cannot be told whether they agree: programs of the books find the light of this scene so "
            "seldom\n"
            "         that few samples show little of it\n";
+  if (v.too_few)
+    return fmt::format("check    too few samples to tell: a change of all light by {} % would not show{}\n",
+                       std::lround(100 * v.unseen),
+                       v.enough > 0 ? fmt::format("; about {:.0f} a pixel would do", v.enough) : "") +
+           how_made(v) + left_out_text(v);
   if (v.agrees)
     return fmt::format("check    the pictures agree within the noise, in {} {}\n", v.blocks - v.different, blocks) +
            how_made(v) + left_out_text(v);
@@ -100,7 +106,8 @@ nlohmann::ordered_json verdict_json(const Findings& v) {
   const auto channels = [](Vec3d c) { return nlohmann::ordered_json{c.x, c.y, c.z}; };
   nlohmann::ordered_json json;
   json["agrees"] = nullptr;
-  if (!v.unknown) json["agrees"] = v.agrees;
+  if (!v.unknown && !v.too_few) json["agrees"] = v.agrees;
+  json["too_few_samples"] = v.too_few;
   json["explanation"] = nullptr;
   if (v.mistake)
     json["explanation"] = {{"name", v.mistake->name}, {"text", v.mistake->words}, {"explained", v.mistake->explained}};

@@ -176,6 +176,13 @@ std::function<bool(BookProgram&)> mistyped_camera(int component) {
 
 bool always(Scene&) { return true; }
 
+std::string joined(const std::vector<std::pair<bool, const char*>>& parts, const std::string& between) {
+  std::string text;
+  for (const auto& [wanted, part] : parts)
+    if (wanted) text += (text.empty() ? "" : between) + part;
+  return text;
+}
+
 }  // namespace
 
 std::vector<Difference> usual_choices() {
@@ -188,6 +195,37 @@ std::vector<Difference> usual_choices() {
       {"diffuse-ball", "matt surfaces by a point in the ball, as in edition 1",
        rule(&BookRules::diffuse, DiffuseRule::filled_sphere, has_material<Lambertian<>>)},
   };
+}
+
+Difference mistake_of(const Reading& r) {
+  const std::string name = joined({{r.upside_down, "upside-down"},
+                                   {r.mirrored, "mirrored"},
+                                   {r.swapped, "red-blue"},
+                                   {r.curve == TransferCurve::none, "no-gamma"},
+                                   {r.curve == TransferCurve::gamma2_twice, "gamma-twice"}},
+                                  "+");
+  const std::string words = joined({{r.upside_down && r.mirrored, "the picture is turned by 180 degrees"},
+                                    {r.upside_down && !r.mirrored, "the picture is upside down"},
+                                    {!r.upside_down && r.mirrored, "the picture is mirrored, left and right"},
+                                    {r.swapped, "red and blue have changed places"},
+                                    {r.curve == TransferCurve::none, "light is written without gamma"},
+                                    {r.curve == TransferCurve::gamma2_twice, "gamma is applied twice"}},
+                                   ", and ");
+  return {name, words, [](BookProgram&) { return true; }};
+}
+
+Difference shorter_paths(int depth) {
+  Difference mistake{
+      "depth-" + std::to_string(depth),
+      "paths end too early, after " + std::to_string(depth) + (depth == 1 ? " scattering" : " scatterings"),
+      [depth](BookProgram& program) {
+        program.scene.render.max_depth = depth;
+        return true;
+      }};
+  if (depth == 0)
+    mistake.name = "attenuation-lost",
+    mistake.words = "what is hit sends on no light: attenuation is passed by value, or paths end at the first hit";
+  return mistake;
 }
 
 std::vector<Difference> usual_mistakes() {

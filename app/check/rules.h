@@ -1,5 +1,6 @@
 #pragma once
 #include "app/check/book_paths.h"
+#include "app/check/reading.h"
 #include "core/compile/render_scene.h"
 #include "core/scene/scene.h"
 
@@ -31,6 +32,10 @@ struct Difference {
 /// is the more usual one.
 std::vector<Difference> usual_choices();
 
+/// A wrong way to write the picture; it changes nothing in the program.
+Difference mistake_of(const Reading& reading);
+/// Paths that end after so many scattering events.
+Difference shorter_paths(int max_depth);
 /// Mistakes that are found by rendering the scene with each of them.
 std::vector<Difference> usual_mistakes();
 

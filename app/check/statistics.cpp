@@ -17,34 +17,50 @@ double excess_of(const BlockDifference& b, double error, double errors) {
   return std::max(0.0, std::abs(b.difference) - b.tolerance - errors * error);
 }
 
-/// One channel of a pixel: its mean, its variance, its excess.
-void add_channel(const BookSample* samples, int count, int group, int max_depth, float Vec3f::*channel,
-                 SampleStatistics& to) {
-  double sum = 0, squares = 0, of_group = 0, excess = 0;
-  int in_group = 0, groups = 0;
+/// Pairs of numbers: their covariance.
+struct Pairs {
+  double a = 0, b = 0, products = 0, count = 0;
+  void add(double x, double y) { a += x, b += y, products += x * y, ++count; }
+  double covariance() const { return count > 1 ? (products - a * b / count) / (count - 1) : 0; }
+};
+
+/// One channel of a pixel.
+void add_channel(const BookSample* samples, const BookSample* other, int count, const Exposure& exposure,
+                 float Vec3f::*channel, SampleStatistics& to) {
+  double of_group = 0, of_other = 0, excess = 0, black = 0;
+  int in_group = 0;
+  Pairs single, both, cut, cut_and_other;
   for (int k = 0; k < count; ++k) {
-    const bool found = max_depth < 0 || samples[k].depth <= max_depth;
-    const double value = found ? static_cast<double>(samples[k].light.*channel) : 0;
-    sum += value, squares += value * value, of_group += value;
-    if (++in_group < group) continue;
-    excess += std::max(0.0, of_group / group - 1), ++groups;
-    of_group = 0, in_group = 0;
+    const auto value = static_cast<double>(samples[k].light.*channel);
+    const auto other_value = static_cast<double>(other[k].light.*channel);
+    single.add(value, value), both.add(value, other_value), of_group += value, of_other += other_value;
+    if (++in_group < exposure.group) continue;
+    const double mean = of_group / exposure.group, shown = std::min(mean, exposure.white);
+    cut.add(shown, shown), cut_and_other.add(shown, of_other / exposure.group), excess += mean - shown;
+    black += mean < static_cast<double>(max_black) ? 1 : 0;
+    of_group = 0, of_other = 0, in_group = 0;
   }
-  const double mean = sum / count;
-  to.mean.push_back(static_cast<float>(mean));
-  to.variance.push_back(static_cast<float>(count > 1 ? std::max(0.0, squares - sum * mean) / (count - 1) : 0));
-  to.excess.push_back(static_cast<float>(groups > 0 ? excess / groups : 0));
+  const double variance = std::max(0.0, single.covariance()), uncut = variance / exposure.group;
+  const bool several = cut.count > 1;
+  to.mean.push_back(static_cast<float>(single.a / count));
+  to.variance.push_back(static_cast<float>(variance));
+  to.excess.push_back(static_cast<float>(excess / cut.count));
+  to.noise.push_back(static_cast<float>(several ? std::max(0.0, cut.covariance()) : uncut));
+  to.black.push_back(static_cast<float>(black / cut.count));
+  to.common.push_back(static_cast<float>(several ? cut_and_other.covariance() : both.covariance() / exposure.group));
 }
 
 }  // namespace
 
-SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count, int group, int max_depth) {
+SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count, const Exposure& exposure,
+                               const std::vector<BookSample>* other) {
   SampleStatistics result;
-  const std::size_t numbers = 3 * samples.size() / static_cast<std::size_t>(count);
-  result.mean.reserve(numbers), result.variance.reserve(numbers), result.excess.reserve(numbers);
+  for (std::vector<float>* list :
+       {&result.mean, &result.variance, &result.excess, &result.noise, &result.common, &result.black})
+    list->reserve(3 * samples.size() / static_cast<std::size_t>(count));
   for (std::size_t first = 0; first < samples.size(); first += static_cast<std::size_t>(count))
     for (float Vec3f::*channel : {&Vec3f::x, &Vec3f::y, &Vec3f::z})
-      add_channel(samples.data() + first, count, group, max_depth, channel, result);
+      add_channel(samples.data() + first, (other ? *other : samples).data() + first, count, exposure, channel, result);
   return result;
 }
 
@@ -75,6 +91,18 @@ std::vector<double> excess_ratios(const std::vector<BookSample>& samples, int co
   return of_many;
 }
 
+std::vector<double> light_by_depth(const std::vector<BookSample>& samples) {
+  std::vector<double> light;
+  for (const BookSample& sample : samples) {
+    const auto depth = static_cast<std::size_t>(sample.depth);
+    if (light.size() <= depth) light.resize(depth + 1);
+    light[depth] += static_cast<double>(sample.light.x + sample.light.y + sample.light.z);
+  }
+  for (std::size_t k = 1; k < light.size(); ++k) light[k] += light[k - 1];
+  for (double& value : light) value /= std::max(light.back(), 1e-30);
+  return light;
+}
+
 BlockGrid grid_of(const Lattice& lattice) {
   const double edge = std::sqrt(static_cast<double>(lattice.pixels()) / 400);
   return {lattice.columns(), lattice.rows(), std::clamp(static_cast<int>(std::lround(edge)), 8, 32)};
@@ -86,6 +114,18 @@ Regions regions_of(const BlockGrid& grid) {
   for (std::size_t pixel = 0; pixel < pixels; ++pixel)
     regions.of_pixel.push_back(static_cast<int>(grid.block_of(pixel)));
   return regions;
+}
+
+std::vector<double> means_of(const std::vector<float>& numbers, const Regions& regions) {
+  std::vector<double> sums(3 * static_cast<std::size_t>(regions.count)), counts(sums.size());
+  for (std::size_t at = 0; at < numbers.size(); ++at) {
+    const int region = regions.of_pixel[at / 3];
+    if (region < 0) continue;
+    sums[3 * static_cast<std::size_t>(region) + at % 3] += static_cast<double>(numbers[at]);
+    ++counts[3 * static_cast<std::size_t>(region) + at % 3];
+  }
+  for (std::size_t k = 0; k < sums.size(); ++k) sums[k] /= std::max(counts[k], 1.0);
+  return sums;
 }
 
 std::vector<BlockDifference> block_differences(const ComparedPixels& p, const Regions& regions) {

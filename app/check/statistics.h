@@ -12,19 +12,33 @@ namespace tyndall {
 struct SampleStatistics {
   std::vector<float> mean;
   std::vector<float> variance;  ///< of one sample
-  /// By how much white cuts the mean of a picture: the part of a mean of `group` samples that is above 1, averaged.
+  /// By how much white cuts the mean of a picture: the part of a mean of `group` samples that is above it, averaged.
   std::vector<float> excess;
+  std::vector<float> noise;   ///< variance of a mean of `group` samples, cut at white
+  std::vector<float> common;  ///< covariance of such a mean with that of other samples, which is not cut
+  std::vector<float> black;   ///< fraction of such means that are below max_black
+};
+inline constexpr float max_black = 1e-3f;
+
+/// What a picture holds of a pixel's samples: the mean of `group` of them, at most `white`.
+struct Exposure {
+  int group = 1;
+  double white = 1;  ///< infinity for pictures that are not cut
 };
 
-/// count: samples a pixel; group: samples of one pixel of the picture whose excess is wanted, at most `count`.
-/// max_depth: light found after more scattering events is left out; negative: none is.
-SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count, int group, int max_depth = -1);
+/// count: samples a pixel, from Exposure::group on. Where there are not two groups, noise and common are those of means
+/// that are not cut. other: of the same random numbers; null: the samples themselves.
+SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count, const Exposure& exposure,
+                               const std::vector<BookSample>* other = nullptr);
 
 /// What white cuts off of means of many samples, over what it cuts off of means of `count`, of each region and channel.
 /// many: more samples than there are of a pixel, so that those of neighbours are taken together; in the same way for
 /// both. 1 where nothing is cut off.
 std::vector<double> excess_ratios(const std::vector<BookSample>& samples, int count, double many,
                                   const struct Regions& regions);
+
+/// Fraction of the light of samples that is found after at most so many scattering events, from 0 on.
+std::vector<double> light_by_depth(const std::vector<BookSample>& samples);
 
 /// Sets of pixels whose mean differences are looked at.
 struct Regions {
@@ -45,6 +59,8 @@ struct BlockGrid {
   }
 };
 Regions regions_of(const BlockGrid& grid);
+/// Means over the pixels of each region and channel, of three numbers a pixel.
+std::vector<double> means_of(const std::vector<float>& numbers, const Regions& regions);
 /// Some 400 blocks, with as many pixels each as statistics need.
 BlockGrid grid_of(const Lattice& lattice);
 

@@ -56,6 +56,7 @@ nlohmann::ordered_json noise_json(const NoiseScores& s) {
           {"block_z", s.block_z},
           {"outlier_z", s.outlier_z},
           {"blocks", s.blocks},
+          {"lit_blocks", s.lit_blocks},
           {"cannot_tell", s.unclear_blocks},
           {"outliers", s.outliers},
           {"explained_outliers", s.explained_outliers}};

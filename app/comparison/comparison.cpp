@@ -46,8 +46,10 @@ void find_more_than_noise(const NoiseScores& s, double limit, std::vector<std::s
         fmt::format("{} pixels differ by more than 5 times the noise around them, which explains {:g}: {:.3g} "
                     "standard errors, expected at most {:g}",
                     s.outliers, s.explained_outliers, s.outlier_z, limit));
-  if (!s.tells())
-    lines.emplace_back("nothing can be told: all blocks, and the whole, have 60 effective samples or fewer");
+  if (s.tells()) return;
+  lines.push_back(fmt::format("too few samples to tell: no block with light, of {}, has more than 60 effective samples",
+                              s.lit_blocks));
+  if (s.enough_spp > 0) lines.back() += fmt::format("; about {:.0f} a pixel would do", std::ceil(s.enough_spp));
 }
 
 }  // namespace
@@ -69,6 +71,7 @@ std::string noise_text(const NoiseScores& s) {
   text += fmt::format(" standard errors, corrected for {} blocks", s.blocks);
   if (s.unclear_blocks > 0)
     text += fmt::format("; cannot tell in {} of them, which have 60 effective samples or fewer", s.unclear_blocks);
+  if (s.lit_blocks == 0) text += "; nothing is lit in either";
   return text;
 }
 

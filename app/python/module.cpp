@@ -188,6 +188,7 @@ void add_compare(py::module_& module) {
       .def_readonly("only_noise", &Comparison::only_noise)
       .def_readonly("z", &Comparison::z)
       .def_readonly("unclear_blocks", &Comparison::unclear_blocks)
+      .def_readonly("enough_spp", &Comparison::enough_spp)
       .def_property_readonly("mean_image", [tuple](const Comparison& c) { return tuple(c.mean_image); })
       .def_property_readonly("mean_reference", [tuple](const Comparison& c) { return tuple(c.mean_reference); });
   module.def(

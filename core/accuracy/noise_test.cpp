@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace tyndall {
@@ -80,7 +81,9 @@ struct GroupSums {
 /// The result of one test.
 struct Score {
   double log_p = 0;
-  bool clear = true;  ///< there were more than too_few_effective_samples
+  bool lit = false;  ///< the mean of either picture is above its own noise
+  double effective_samples = 0;
+  bool clear() const { return effective_samples > too_few_effective_samples; }
 };
 
 /// How the samples of two pictures are to each other.
@@ -109,11 +112,18 @@ double effective_samples(const GroupSums& s, const Counts& counts) {
 
 /// The score of a block, or of the picture.
 Score score_of(GroupSums sums, const Counts& counts) {
+  Score score;
+  const auto above_noise = [](double level, double variance) {
+    return level > 0 && squared(level) >= variance * (1 - rounding);  // a single sample is as bright as its noise
+  };
+  score.lit = above_noise(sums.level_a, sums.variance_a) || above_noise(sums.level_b, sums.variance_b);
   raise_variances(sums, counts);
-  if (sums.robust_variance() == 0) return {};
-  if (!(effective_samples(sums, counts) > too_few_effective_samples)) {
-    if (!counts.exchangeable) return {0, false};
-    return {log_bound(sums.difference / std::sqrt(sums.robust_variance())), false};
+  const bool noisy = sums.robust_variance() > 0;
+  score.effective_samples = noisy ? effective_samples(sums, counts) : std::numeric_limits<double>::infinity();
+  if (!noisy) return score;
+  if (!score.clear()) {
+    if (counts.exchangeable) score.log_p = log_bound(sums.difference / std::sqrt(sums.robust_variance()));
+    return score;
   }
   const double meetings = (sums.largest[0] + sums.largest[1] + sums.largest[2]) / 3;
   const double t = std::abs(sums.difference) / std::sqrt(sums.variance() + meetings);
@@ -121,7 +131,8 @@ Score score_of(GroupSums sums, const Counts& counts) {
   const double max_freedom = 2 * sums.groups;
   const double freedom =
       sums.fourths > 0 ? 3 * squared(sums.variance_a + sums.variance_b) / sums.fourths - 2 : max_freedom;
-  return {log_probability(normal_score(t, std::clamp(freedom, 1.0, max_freedom)))};
+  score.log_p = log_probability(normal_score(t, std::clamp(freedom, 1.0, max_freedom)));
+  return score;
 }
 
 /// The groups of a block: spacing² in each half of 8 rows.
@@ -243,7 +254,7 @@ void set_means(const std::array<GroupSums, 3>& picture, const Counts& counts, do
                NoiseScores& scores) {
   for (std::size_t c = 0; c < 3; ++c) {
     const Score score = score_of(picture[c], counts);
-    scores.mean_z[c] = corrected(score.log_p, 3, kinds), scores.mean_is_clear[c] = score.clear;
+    scores.mean_z[c] = corrected(score.log_p, 3, kinds);
     scores.difference[c] = (picture[c].level_a - picture[c].level_b) / pixels;
     scores.error[c] = std::sqrt(picture[c].variance()) / pixels;
     scores.z = std::max(scores.z, scores.mean_z[c]);
@@ -285,13 +296,14 @@ NoiseScores noise_scores(const NoisyImage& a, const NoisyImage& b) {
     for (int x0 = r.x0 - within(r.x0, edge); x0 < r.x1; x0 += edge) {
       Tested& tested = blocks.emplace_back();
       tested.block = common_part({x0, y0, x0 + edge, y0 + edge}, r);
-      bool clear = false;
+      bool lit = false, tells = false;
       for (const GroupSums& sums : sums_of(a, b, tested.block, picture)) {
         const Score score = score_of(sums, counts);
-        clear = clear || score.clear;
+        lit = lit || score.lit, tells = tells || (score.lit && score.clear());
+        if (score.lit) scores.effective_samples = std::max(scores.effective_samples, score.effective_samples);
         tested.log_p = std::min(tested.log_p, score.log_p);
       }
-      scores.unclear_blocks += clear ? 0 : 1;
+      scores.lit_blocks += lit ? 1 : 0, scores.unclear_blocks += lit && !tells ? 1 : 0;
     }
   scores.blocks = static_cast<int>(blocks.size());
   scores.compares_outliers = a.halves && b.halves && counts.exchangeable;
@@ -305,6 +317,8 @@ NoiseScores noise_scores(const NoisyImage& a, const NoisyImage& b) {
   }
   if (scores.compares_outliers) scores.outlier_z = corrected(count_outliers(a, b, r, scores), 1, kinds);
   scores.z = std::max({scores.z, scores.block_z, scores.outlier_z});
+  if (!scores.tells())
+    scores.enough_spp = 1.1 * std::min(a.spp, b.spp) * too_few_effective_samples / std::max(scores.effective_samples, 1.0);
   return scores;
 }
 

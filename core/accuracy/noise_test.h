@@ -55,10 +55,12 @@ struct NoiseScores {
 
   std::array<double, 3> mean_z{};               ///< of the mean of each channel
   std::array<double, 3> difference{}, error{};  ///< of the means: image minus reference, and its standard error
-  std::array<bool, 3> mean_is_clear{};          ///< false: too few effective samples
 
   int blocks = 0;                 ///< of 16 x 16 pixels; those at the edges may be smaller
-  int unclear_blocks = 0;         ///< of them, with too few effective samples: only a large difference would show
+  int lit_blocks = 0;             ///< of them, with a mean above its own noise in some channel of either picture
+  int unclear_blocks = 0;         ///< of those, with too few effective samples: only a large difference would show
+  double effective_samples = 0;   ///< the most that a lit channel of a block has
+  double enough_spp = 0;          ///< samples a pixel that would do where no block can tell; 0: one can, or it is not known
   double block_z = 0;             ///< the largest of all blocks and channels
   Region worst_block;             ///< its pixels
   std::vector<float> z_of_block;  ///< the largest of the channels, row by row
@@ -70,8 +72,9 @@ struct NoiseScores {
   double explained_outliers = 0;
   double outlier_z = 0;
 
-  /// Whether there is anything that would have shown a difference.
-  bool tells() const { return unclear_blocks < blocks || mean_is_clear[0] || mean_is_clear[1] || mean_is_clear[2]; }
+  /// Whether there is a block that would have shown a difference, or none that could differ: what is black in both
+  /// pictures is no evidence.
+  bool tells() const { return unclear_blocks < lit_blocks || lit_blocks == 0; }
   int blocks_above(double z) const;
 };
 

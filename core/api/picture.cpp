@@ -291,7 +291,7 @@ Comparison compare(const Picture& image, const Picture& reference) {
     if (blocks.blocks == 0) return out;
     const auto a = noisy_image(*Access::of(image.film())->film), b = noisy_image(*Access::of(reference.film())->film);
     const NoiseScores noise = noise_scores(*a, *b);
-    out.z = noise.z, out.unclear_blocks = noise.unclear_blocks;
+    out.z = noise.z, out.unclear_blocks = noise.unclear_blocks, out.enough_spp = noise.enough_spp;
     return out;
   });
 }

@@ -69,11 +69,41 @@ TEST_CASE("noise: rare bright samples, alone or over an even light, are no chang
     }
 }
 
+TEST_CASE("noise: what is black in both pictures is no evidence") {
+  // A dark picture with a few samples of a light in one block, three times as bright in the other picture.
+  const auto lit = [](float light) {
+    return [light](Random& random, int x, int y) {
+      const bool met = x < 16 && y < 16 && std::uniform_real_distribution<double>()(random) < 0.01;
+      return met ? light : 0.0f;
+    };
+  };
+  const NoiseScores few = noise_scores(picture(1, lit(1)), picture(2, lit(3)));
+  CHECK(few.z < 4);
+  CHECK(few.lit_blocks == 1);
+  CHECK(few.unclear_blocks == 1);
+  CHECK_FALSE(few.tells());
+  CHECK(few.enough_spp > 64);
+  CHECK(few.enough_spp < 6400);
+  const NoiseScores dark = noise_scores(picture(1, lit(0)), picture(2, lit(0)));
+  CHECK(dark.lit_blocks == 0);
+  CHECK(dark.tells());
+  // Light in one channel alone: the other two, which are black, tell nothing.
+  NoisyImage red = picture(1, lit(1)), other = picture(2, lit(3));
+  for (NoisyImage* image : {&red, &other})
+    for (std::size_t at = 0; at < image->mean.size(); ++at)
+      if (at % 3 != 0) image->mean[at] = image->deviation[at] = 0;
+  CHECK_FALSE(noise_scores(red, other).tells());
+  // As much light as noise: a mean that only noise has lifted above zero is none.
+  const auto noise = [](Random& random, int, int) { return std::normal_distribution<float>(0, 0.1f)(random); };
+  CHECK(noise_scores(picture(1, noise), picture(2, noise)).lit_blocks < 24);
+}
+
 TEST_CASE("noise: of blocks with few effective samples nothing is told") {
   const NoiseScores few = noise_scores(picture(1, rare(100, 0)), picture(2, rare(100, 0)));
   CHECK(few.blocks == 24);
   CHECK(few.unclear_blocks == 24);  // some 10 samples in each
-  CHECK(few.tells());               // some 250 in the whole
+  CHECK_FALSE(few.tells());         // some 250 in the whole are no evidence of any place
+  CHECK(few.enough_spp > 64);
   const Region small{0, 0, 16, 16};
   CHECK_FALSE(noise_scores(picture(1, rare(100, 0), 64, small), picture(2, rare(100, 0), 64, small)).tells());
   CHECK(noise_scores(picture(1, rare(10, 0)), picture(2, rare(10, 0))).unclear_blocks == 0);  // some 100 in each block

@@ -56,6 +56,16 @@ for file in better bare part; do
   grep -q '^tyndall: check failed: .* standard errors' err || fail "$file: $(cat err)"
 done
 
+# A lamp three times as bright that few paths meet, and one that is off.
+lamp() { "$tyndall" render cornell-box --integrator path --size 32x32 --spp 2 -q --set /camera/vfov=20 "$@" || fail "lamp $*"; }
+lamp --seed 1 -o lamp.exr
+lamp --seed 2 --set /materials/lamp/radiance=[45,45,45] -o brighter.exr
+expect 1 "$tyndall" compare lamp.exr brighter.exr --max-z 4
+grep -q 'too few samples to tell: no block with light, of 4, has .*; about [0-9]* a pixel would do' err || fail "$(cat err)"
+lamp --set /materials/lamp/radiance=[0,0,0] -o off.exr
+expect 0 "$tyndall" compare off.exr off.exr --max-z 4
+grep -q 'nothing is lit in either' out || fail "off: $(cat out)"
+
 # Baselines: what FLIP calls a failure is noise.
 rm new/cover.png
 expect 0 "$tyndall" compare new --baseline kept --update --max-z 4

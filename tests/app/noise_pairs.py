@@ -3,8 +3,8 @@
 
 Usage: noise_pairs.py TYNDALL [--pairs N] [--trials N] [--jobs N] [--scratch FOLDER] [--broken PROGRAM]
 
-It needs Python's standard library and the program alone. Pairs: N pairs of other seeds, over 12 built-in scenes and 8 and 64
-samples a pixel. Trials: of each scene and planted change N pairs at 256 samples. --broken: a program that weighs one of
+It needs Python's standard library and the program alone. Pairs: N pairs of other seeds, over 12 built-in scenes, ten dark ones
+(built-in scenes before a black sky), and 8 and 64 samples a pixel. Trials: of each scene and planted change N pairs at 256 samples. --broken: a program that weighs one of
 the two ways to a light wrongly, as one more change. Prints a table; exit code 1 if there is a false alarm, or if fewer
 than 95 % of the changes above the floor are found.
 
@@ -26,6 +26,8 @@ import tempfile
 
 SCENES = ["showroom", "metal-spheres", "glass-spheres", "cover", "bouncing-spheres", "checkered-spheres", "quads",
           "simple-light", "cornell-box", "cornell-smoke", "next-week", "stress-caustic-glass"]
+DARK = ["stress-bulb", "stress-small-light", "stress-light-in-fog", "stress-light-and-fuzz", "stress-caustic-mirror",
+        "stress-caustic-shell", "stress-two-balls", "stress-mirror-wall", "simple-light", "metal-spheres"]
 SIZE = {"cornell-box": "144x144", "cornell-smoke": "144x144", "next-week": "144x144"}
 MEAN_FLOOR, BLOCK_FLOOR = 6.2, 7.7
 
@@ -47,14 +49,16 @@ def compare(program, a, b):
 
 def pair(program, folder, scene, number):
     """Two seeds of a scene. Returns the corrected z and the blocks of which nothing can be told."""
-    spp = (8, 64)[number // len(SCENES) % 2]
+    spp = (8, 64)[number // len(SCENES + DARK) % 2]
+    sky = ["--set", "/background=[0,0,0]"] if number % len(SCENES + DARK) >= len(SCENES) else []
     files = [folder / f"pair-{number}-{k}.exr" for k in (0, 1)]
     for k, file in enumerate(files):
-        render(program, scene, file, SIZE.get(scene, "192x108"), "--spp", str(spp), "--seed", str(2 * number + k + 1))
+        render(program, scene, file, SIZE.get(scene, "192x108"), "--spp", str(spp), "--seed", str(2 * number + k + 1),
+               *sky)
     found = compare(program, *files)
     for file in files:
         file.unlink()
-    return scene, spp, found
+    return "dark " + scene if sky else scene, spp, found
 
 
 def colours(materials, key):
@@ -141,7 +145,7 @@ def main():
     alarms, worst, good = [], 0.0, True
     unclear = {}
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        pairs = [pool.submit(pair, program, folder, SCENES[n % len(SCENES)], n) for n in range(options.pairs)]
+        pairs = [pool.submit(pair, program, folder, (SCENES + DARK)[n % len(SCENES + DARK)], n) for n in range(options.pairs)]
         changes = {name: program for name in CHANGES}
         if options.broken:
             changes["light sampling without a weight"] = os.path.abspath(options.broken)
@@ -150,14 +154,14 @@ def main():
         for future in pairs:
             scene, spp, found = future.result()
             worst = max(worst, found["z"])
-            unclear.setdefault((scene, spp), []).append(found["cannot_tell"] / found["blocks"])
+            unclear.setdefault((scene, spp), []).append(found["cannot_tell"] / max(found["lit_blocks"], 1))
             if found["z"] > 4:
                 alarms.append((scene, spp, found))
         print(f"{len(alarms)} false alarms in {options.pairs} pairs at Z = 4; the largest z is {worst:.2f}")
         for alarm in alarms:
             print("  ", *alarm)
-        print("blocks of which nothing can be told, at 8 and 64 samples:")
-        for scene in SCENES:
+        print("blocks with light of which nothing can be told, at 8 and 64 samples:")
+        for scene in SCENES + ["dark " + scene for scene in DARK]:
             print(f"  {scene:22}", *(f"{100 * sum(v) / len(v):5.1f} %" for k, v in sorted(unclear.items()) if k[0] == scene))
         print(f"\n{'planted change':32} {'scene':22} found  errors of the mean, of a block  floor")
         above = missed = 0

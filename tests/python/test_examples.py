@@ -48,6 +48,22 @@ def test_kept_pictures(tmp_path):
     assert isinstance(tyndall.Film.load(folder / "baselines/glass-ball.exr").spp, int)
 
 
+def test_too_few_samples(tmp_path):
+    folder = tmp_path / "mine"
+    shutil.copytree(assets / "examples/pytest", folder)
+    (folder / "test_pictures.py").write_text('''
+import tyndall
+def test_dim(tyndall_picture):
+    scene = tyndall.scene("cornell-box")
+    scene["/image/width"] = scene["/image/height"] = 32
+    scene["/camera/vfov"], scene["/render/integrator"] = 20, "path"
+    tyndall_picture("dim", scene.render(spp=2))
+''')
+    assert run_pytest(folder).returncode == 0  # it is kept
+    few = run_pytest(folder)
+    assert few.returncode == 1 and "too few samples to tell" in few.stdout and "would do" in few.stdout
+
+
 @slow
 def test_switches(tmp_path):
     """A switch that says no keeps nothing, CI wants pictures that are there, and names may have folders."""

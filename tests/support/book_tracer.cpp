@@ -6,22 +6,63 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <variant>
 
 namespace tyndall::test {
 namespace {
 
 using V = Vec3d;
 
-struct Random {
+struct SplitMix {
+  using result_type = std::uint64_t;
   std::uint64_t state;
-  double next() {
+  static constexpr result_type min() { return 0; }
+  static constexpr result_type max() { return ~result_type{0}; }
+  result_type operator()() {
     std::uint64_t z = state += 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+    return z ^ (z >> 31);
+  }
+};
+
+/// rand() of the GNU library: a sum of the numbers 3 and 31 before it, whose last bit is left out.
+struct StdRand {
+  using result_type = std::uint32_t;
+  std::uint32_t state[31] = {};
+  std::size_t at = 0;
+  explicit StdRand(std::uint64_t seed) {
+    std::minstd_rand0 first(static_cast<std::uint32_t>(seed));
+    for (std::size_t k = 0; k < 31; ++k) state[k] = static_cast<std::uint32_t>(first());
+    for (int k = 0; k < 310; ++k) (*this)();
+  }
+  static constexpr result_type min() { return 0; }
+  static constexpr result_type max() { return 0x7fffffff; }
+  result_type operator()() {
+    at = (at + 1) % 31;
+    return (state[at] += state[(at + 28) % 31]) >> 1;
+  }
+};
+
+struct Random {
+  std::variant<SplitMix, std::mt19937_64, std::minstd_rand, StdRand> engine;
+  Random(Generator generator, std::uint64_t seed) : engine(SplitMix{seed}) {
+    const auto small_seed = static_cast<std::uint32_t>(SplitMix{seed}() >> 33);
+    if (generator == Generator::mersenne_twister) engine = std::mt19937_64(seed);
+    if (generator == Generator::minimal_standard) engine = std::minstd_rand(small_seed);
+    if (generator == Generator::std_rand) engine = StdRand(small_seed);
+  }
+  double next() {
+    return std::visit(
+        [](auto& draw) {
+          const auto range = static_cast<double>(draw.max() - draw.min()) + 1;
+          return static_cast<double>(draw() - draw.min()) / range * (1 - 0x1p-53);
+        },
+        engine);
   }
   V in_ball() {
     while (true) {
@@ -112,10 +153,15 @@ class Program {
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(3 * w * h));
     const auto rows = [&](int first) {
       for (int y = first; y < h; y += 2) {
-        Random random{plan_.seed * 1000003 + static_cast<std::uint64_t>(y)};
+        Random random(plan_.generator, plan_.seed * 1000003 + static_cast<std::uint64_t>(y));
         for (int x = 0; x < w; ++x) {
           V sum{};
-          for (int k = 0; k < plan_.spp; ++k) sum = sum + colour(camera_ray(x, y, random), random);
+          for (int k = 0; k < plan_.spp; ++k) {
+            const V light = colour(camera_ray(x, y, random), random);
+            sum = sum + (plan_.plant == Plant::cut_samples
+                             ? V{std::min(light.x, 1.0), std::min(light.y, 1.0), std::min(light.z, 1.0)}
+                             : light);
+          }
           write(bytes.data() + 3 * place(x, y), (1.0 / plan_.spp) * sum);
         }
       }
@@ -293,7 +339,8 @@ class Program {
   }
 
   V colour(R r, Random& random) const {
-    V carried{1, 1, 1};
+    const double bright = plan_.plant == Plant::bright_lights ? 1.1 : 1;
+    V carried{bright, bright, bright};
     const int rays = plan_.plant == Plant::short_paths ? 3 : scene_.render.max_depth + 1;
     for (int k = 0; k < rays; ++k) {
       const Meeting m = closest(r, random);
@@ -311,6 +358,7 @@ class Program {
       const auto out = scatter(*m.material, r, front ? m.normal : -m.normal, front, random);
       if (!out) return {};
       carried = carried * albedo;
+      if (plan_.plant == Plant::twice) carried = carried * albedo;
       r = {point, *out, plan_.plant == Plant::lost_time ? 0 : r.time};
     }
     return {};

@@ -28,8 +28,14 @@ enum class Plant {
   inverted_index,  ///< the index and its inverse have changed places
   by_value,        ///< attenuation by value: matt surfaces are black
   wrong_cross,     ///< a plus in the third component of the cross product
-  own_sky          ///< a pink sky, which nobody could guess
+  own_sky,         ///< a pink sky, which nobody could guess
+  twice,           ///< attenuation * attenuation * ray_color(…)
+  cut_samples,     ///< each sample is cut off at 1, before the mean
+  bright_lights    ///< lights and sky are a tenth brighter
 };
+
+/// What a program draws its numbers from.
+enum class Generator { splitmix, mersenne_twister, minimal_standard, std_rand };
 
 struct BookProgramPlan {
   int spp = 50;
@@ -37,6 +43,7 @@ struct BookProgramPlan {
   bool srgb = false;
   Plant plant = Plant::none;
   std::uint64_t seed = 1;
+  Generator generator = Generator::splitmix;
 };
 
 /// The bytes of the program's picture, 3 a pixel, top row first. The scene may have spheres, quads, boxes, media,

@@ -509,7 +509,8 @@ class Comparison(NamedTuple):
     worst_z: float
     only_noise: bool
     z: float  # largest difference of a mean, a block or the number of outliers, in standard errors, corrected
-    unclear_blocks: int  # too noisy for a difference to show: of 60 effective samples or fewer
+    unclear_blocks: int  # with light, but too noisy for a difference to show: of 60 effective samples or fewer
+    enough_spp: float  # above 0: no block with light can tell, and about so many samples a pixel would do
 
 
 def compare(image: Any, reference: Any) -> Comparison:

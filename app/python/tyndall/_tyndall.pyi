@@ -94,6 +94,7 @@ class Comparison:
     only_noise: bool
     z: float
     unclear_blocks: int
+    enough_spp: float
     mean_image: tuple
     mean_reference: tuple
 

@@ -54,6 +54,9 @@ def tyndall_picture(request):
         found = tyndall.compare(picture, kept)
         if not found.blocks:
             raise tyndall.Error(f"{name}: found fewer than 2 samples a pixel, expected as many as noise needs to be known")
+        if found.enough_spp > 0:
+            pytest.fail(f"{name}: too few samples to tell: no block with light has enough; about {found.enough_spp:.0f} a "
+                        "pixel would do", pytrace=False)
         if not found.z <= sigmas:
             seen = file.with_suffix(".seen.exr")
             picture.film.save(seen)

@@ -248,7 +248,8 @@ struct Comparison {
   /// for the number of tests: noise makes it larger than 4 at most once in 16,000 comparisons ("tyndall compare
   /// --max-z").
   double z = 0;
-  int unclear_blocks = 0;  ///< too noisy for a difference to show: of 60 effective samples or fewer
+  int unclear_blocks = 0;  ///< with light, but too noisy for a difference to show: of 60 effective samples or fewer
+  double enough_spp = 0;   ///< above 0: no block with light can tell, and about so many samples a pixel would do
 };
 TYNDALL_API Comparison compare(const Picture& image, const Picture& reference);
 /// The same of linear pixels, height x width x 3 of both.

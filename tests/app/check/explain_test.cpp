@@ -55,6 +55,7 @@ TEST_CASE("check: planted mistakes are named") {
   CHECK(name_of(verdict_of(metal, planted(Plant::no_gamma), spp)) == "no-gamma");
   CHECK(name_of(verdict_of(metal, planted(Plant::upside_down), spp)) == "upside-down");
   CHECK(name_of(verdict_of(metal, planted(Plant::hemisphere), spp)) == "hemisphere");
+  CHECK(name_of(verdict_of(metal, planted(Plant::acne), spp)) == "shadow-acne");
   CHECK(name_of(verdict_of(glass, planted(Plant::schlick_is_one), spp)) == "schlick-always-1");
   CHECK(name_of(verdict_of(glass, planted(Plant::sky_brackets), spp)) == "sky-brackets");
 }
@@ -64,6 +65,28 @@ TEST_CASE("check: attenuation passed by value is not taken for paths that are to
   const Findings verdict = verdict_of(box, planted(Plant::by_value), spp);
   CHECK(name_of(verdict) == "attenuation-lost");
   CHECK(verdict_text(verdict).find("attenuation is passed by value") != std::string::npos);
+}
+
+TEST_CASE("check: pictures of one sample or two are not accused, and of few it is said that they cannot tell") {
+  const Scene box = scene_for_book("cornell-box", 48, 48), balls = scene_for_book("metal-spheres", 64, 36);
+  for (const int samples : {1, 2}) {
+    CAPTURE(samples);
+    BookProgramPlan plan = planted(Plant::none, samples);
+    plan.generator = Generator::std_rand;
+    CHECK(name_of(verdict_of(balls, plan, 64)) == "agrees");
+    const Findings verdict = verdict_of(box, plan, 64);
+    CHECK((verdict.agrees || verdict.too_few));
+    CHECK(verdict_json(verdict)["too_few_samples"] == verdict.too_few);
+    if (samples > 1) continue;
+    CHECK(verdict.too_few);
+    CHECK(verdict_json(verdict)["agrees"].is_null());
+    CHECK(verdict_text(verdict).find("too few samples to tell") != std::string::npos);
+  }
+}
+
+TEST_CASE("check: a mistake is not named because it darkens the picture as another one does") {
+  const Scene box = scene_for_book("cornell-box", 96, 96);
+  CHECK(name_of(verdict_of(box, planted(Plant::twice, 60), 256)) == "unexplained");
 }
 
 TEST_CASE("check: no mistake is named where there was no time to try them all, and what helps is told") {

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
 #include <random>
 
 namespace tyndall::test::statistics_test {
@@ -9,9 +10,9 @@ namespace tyndall::test::statistics_test {
 namespace {
 
 /// Samples of one pixel, grey.
-std::vector<BookSample> grey(const std::vector<float>& values, int depth = 0) {
+std::vector<BookSample> grey(const std::vector<float>& values) {
   std::vector<BookSample> samples;
-  for (const float v : values) samples.push_back({{v, v, v}, depth});
+  for (const float v : values) samples.push_back({{v, v, v}, 0});
   return samples;
 }
 
@@ -36,19 +37,17 @@ struct NoisyPicture {
 
 TEST_CASE("check: statistics of samples are their mean, their variance, and what white cuts off of groups") {
   const auto samples = grey({0, 2, 0, 4});
-  const SampleStatistics single = statistics_of(samples, 4, 1), pairs = statistics_of(samples, 4, 2);
+  const SampleStatistics single = statistics_of(samples, 4, {1}), pairs = statistics_of(samples, 4, {2});
   CHECK(single.mean[0] == doctest::Approx(1.5));
   CHECK(single.variance[1] == doctest::Approx(11.0 / 3));
   CHECK(single.excess[2] == doctest::Approx((1.0 + 3.0) / 4));
   CHECK(pairs.excess[0] == doctest::Approx((0.0 + 1.0) / 2));  // of the means 1 and 2
-}
-
-TEST_CASE("check: light that was found later than max_depth is left out") {
-  auto samples = grey({1, 1}, 2);
-  samples[1].depth = 5;
-  CHECK(statistics_of(samples, 2, 1).mean[0] == doctest::Approx(1));
-  CHECK(statistics_of(samples, 2, 1, 4).mean[0] == doctest::Approx(0.5));
-  CHECK(statistics_of(samples, 2, 1, 1).mean[0] == 0.0f);
+  CHECK(single.noise[0] == doctest::Approx(1.0 / 3));          // of 0, 1, 0, 1
+  CHECK(single.common[0] == doctest::Approx(1.0));             // of these with 0, 2, 0, 4
+  CHECK(pairs.noise[0] == 0.0f);                               // both are white
+  const SampleStatistics light = statistics_of(samples, 4, {2, std::numeric_limits<double>::infinity()});
+  CHECK(light.excess[0] == 0.0f);
+  CHECK(light.noise[0] == doctest::Approx(0.5));  // of 1 and 2
 }
 
 TEST_CASE("check: what white cuts off of many samples is found from the samples of neighbours") {

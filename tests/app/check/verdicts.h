@@ -36,9 +36,10 @@ inline Findings verdict_of(const Scene& scene, const BookProgramPlan& plan, std:
   return verdict_of(scene, numbers_of_bytes(scene.width, scene.height, book_picture(scene, plan)), spp);
 }
 
-/// "agrees", "unknown", "schlick-always-1", or "unexplained".
+/// "agrees", "too few", "unknown", "schlick-always-1", or "unexplained".
 inline std::string name_of(const Findings& verdict) {
   return verdict.unknown   ? "unknown"
+         : verdict.too_few ? "too few"
          : verdict.agrees  ? "agrees"
          : verdict.mistake ? verdict.mistake->name
                            : "unexplained";
