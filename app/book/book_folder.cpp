@@ -17,8 +17,9 @@ fs::path book_folder() {
   const fs::path chosen = assets && *assets ? fs::path(assets) / "book" : fs::path();
   for (const fs::path& folder : {chosen, program.parent_path() / "share" / "tyndall" / "book", program / "book"})
     if (!folder.empty() && fs::is_regular_file(folder / "take.h", error)) return folder;
-  throw IoError("the folder of headers for readers' programs was not found: neither share/tyndall/book of the installation nor " +
-                (program / "book").string() + " has take.h");
+  throw IoError(
+      "the folder of headers for readers' programs was not found: neither share/tyndall/book of the installation nor " +
+      (program / "book").string() + " has take.h");
 }
 
 }  // namespace tyndall

@@ -115,7 +115,8 @@ class Compilation {
   Compilation(const ProgramTask& task, const ProgramSources& sources)
       : task_(task), main_(sources.files.front()), headers_(fs::canonical(book_folder())) {
     for (const fs::path& file : sources.files) units_.push_back(fs::absolute(file).lexically_normal());
-    for (const fs::path& folder : sources.include_folders) options_.insert(options_.end(), {"-I", fs::absolute(folder).string()});
+    for (const fs::path& folder : sources.include_folders)
+      options_.insert(options_.end(), {"-I", fs::absolute(folder).string()});
   }
 
   CompiledProgram run() {
@@ -131,7 +132,8 @@ class Compilation {
         if (!calls.problem.empty()) throw UsageError(task_.name + ": " + calls.problem);
         const std::string error = compile(calls.text);
         if (error.empty())
-          return {task_.folder / "program", outline_.files, reads_world ? "" : "its classes are not those of the books"};
+          return {task_.folder / "program", outline_.files,
+                  reads_world ? "" : "its classes are not those of the books"};
         if (!reads_world || !is_in_ours_) errors.push_back(error);
         if (!is_in_ours_) break;
       }
@@ -170,7 +172,7 @@ class Compilation {
     write_text(task_.folder / "program.ii", text);
     const ChildEnd end = call({"-O1", "-fno-access-control", "-fpermissive", "program.ii", "-o", "program", "-ldl"});
     std::error_code ignored;  // what is no program cannot be started
-    if (end.succeeded())  // a guard may refuse linkers that
+    if (end.succeeded())      // a guard may refuse linkers that
       fs::permissions(task_.folder / "program", fs::perms::owner_exec, fs::perm_options::add, ignored);
     const std::string error = end.succeeded() ? "" : first_error(end.errors, main_);
     is_in_ours_ = error.find("tyndall/book/") != std::string::npos || error.rfind(headers_.string(), 0) == 0;

@@ -16,7 +16,7 @@ struct ProgramSources {
 struct CompiledProgram {
   std::filesystem::path file;
   std::vector<std::filesystem::path> sources;  ///< the reader's files that were read
-  std::string problem;  ///< why its world cannot be read, though it was compiled; "": it can
+  std::string problem;                         ///< why its world cannot be read, though it was compiled; "": it can
 };
 
 /// Compiles the program, with its own headers, and our calls in its functions, as C++17, else as C++20. It is

@@ -9,11 +9,13 @@ namespace {
 bool begins_with(const std::string& text, const char* with) { return text.rfind(with, 0) == 0; }
 bool is_number(const Parameter& parameter) {
   return parameter.identifiers.size() == 1 && !parameter.pointer &&
-         std::find_if(parameter.type.begin(), parameter.type.end(), [](char c) { return c == '<' || c == '*'; }) == parameter.type.end();
+         std::find_if(parameter.type.begin(), parameter.type.end(), [](char c) { return c == '<' || c == '*'; }) ==
+             parameter.type.end();
 }
 bool is_integer(const Parameter& parameter) {
   const std::string& last = parameter.identifiers.empty() ? parameter.type : parameter.identifiers.back();
-  return last == "int" || last == "long" || last == "unsigned" || last == "short" || last == "size_t" || last.find("int") != std::string::npos;
+  return last == "int" || last == "long" || last == "unsigned" || last == "short" || last == "size_t" ||
+         last.find("int") != std::string::npos;
 }
 bool is_real(const Parameter& parameter) {
   const std::string& last = parameter.identifiers.empty() ? parameter.type : parameter.identifiers.back();
@@ -24,7 +26,7 @@ bool is_real(const Parameter& parameter) {
 struct Roles {
   std::string shape, ray, record, material, texture;  ///< names of classes; "": there is none
   const Function *hit = nullptr, *scatter = nullptr, *emitted = nullptr, *value = nullptr;
-  std::string colour;      ///< the type of scatter()'s colour
+  std::string colour;  ///< the type of scatter()'s colour
 };
 
 class Inserter {
@@ -42,7 +44,10 @@ class Inserter {
     if (!has_colour_) return {"", "has no function that computes the colour of a ray in a world"};
     if (!has_camera_) return {"", "has no get_ray(): no function of its camera makes a ray for a place in the picture"};
     for (const PictureHead& head : outline_.heads) hook_head(head);
-    return {with_insertions() + (reads_world ? tail() : "\nnamespace tyndall_book {\nvoid take_over(session& s) { take_samples(s); }\n}\n"), ""};
+    return {
+        with_insertions() +
+            (reads_world ? tail() : "\nnamespace tyndall_book {\nvoid take_over(session& s) { take_samples(s); }\n}\n"),
+        ""};
   }
 
  private:
@@ -70,21 +75,27 @@ class Inserter {
     return function.owner < 0 ? "" : outline_.classes[static_cast<std::size_t>(function.owner)].name;
   }
   bool is_root(const Function& function) const {
-    return function.owner >= 0 && function.is_virtual && outline_.classes[static_cast<std::size_t>(function.owner)].bases.empty();
+    return function.owner >= 0 && function.is_virtual &&
+           outline_.classes[static_cast<std::size_t>(function.owner)].bases.empty();
   }
 
   void find_roles() {
     for (const Function& function : outline_.functions) {
       const std::string key = key_of(function.name);
       if (!is_root(function)) continue;
-      if ((begins_with(key, "hit") || begins_with(key, "intersect")) && function.result == "bool" && roles_.shape.empty()) take_hit(function);
-      if (begins_with(key, "scatter") && function.result == "bool" && roles_.material.empty()) roles_.material = owner_of(function), roles_.scatter = &function;
+      if ((begins_with(key, "hit") || begins_with(key, "intersect")) && function.result == "bool" &&
+          roles_.shape.empty())
+        take_hit(function);
+      if (begins_with(key, "scatter") && function.result == "bool" && roles_.material.empty())
+        roles_.material = owner_of(function), roles_.scatter = &function;
     }
     for (const Function& function : outline_.functions) {
       if (!is_root(function)) continue;
       const std::string key = key_of(function.name);
-      if (owner_of(function) == roles_.material && begins_with(key, "emit") && !roles_.emitted) roles_.emitted = &function;
-      if (key_of(owner_of(function)).find("texture") != std::string::npos && function.parameters.size() >= 2 && !roles_.value)
+      if (owner_of(function) == roles_.material && begins_with(key, "emit") && !roles_.emitted)
+        roles_.emitted = &function;
+      if (key_of(owner_of(function)).find("texture") != std::string::npos && function.parameters.size() >= 2 &&
+          !roles_.value)
         roles_.texture = owner_of(function), roles_.value = &function;
     }
   }
@@ -107,7 +118,8 @@ class Inserter {
     const std::string owner = owner_of(function);
     if (function.result.empty() && outline_.is_derived(owner, roles_.texture) && !function.parameters.empty())
       insert(function.body.data() + 1, " ::tyndall_book::texture_made(this);");
-    const bool of_things = outline_.is_derived(owner, roles_.shape) || outline_.is_derived(owner, roles_.material) || owner == roles_.ray;
+    const bool of_things =
+        outline_.is_derived(owner, roles_.shape) || outline_.is_derived(owner, roles_.material) || owner == roles_.ray;
     if (of_things || function.result.empty()) return;
     if (is_camera(function)) return hook_camera(function);
     const Parameter* world = world_of(function);
@@ -119,7 +131,8 @@ class Inserter {
     if (result != roles_.ray && !result.ends_with(":" + roles_.ray)) return false;
     for (const Parameter& parameter : function.parameters)
       if (parameter.name.empty()) return false;
-    return is_number(function.parameters[0]) && is_number(function.parameters[1]) && !class_named(function.parameters[0].identifiers.back());
+    return is_number(function.parameters[0]) && is_number(function.parameters[1]) &&
+           !class_named(function.parameters[0].identifiers.back());
   }
   void hook_camera(const Function& function) {
     has_camera_ = true;
@@ -127,8 +140,9 @@ class Inserter {
     std::string call = function.name + "(tyndall_a, tyndall_b";
     for (std::size_t k = 2; k < parameters.size(); ++k) call += ", " + parameters[k].name;
     const bool member = function.owner >= 0 && !function.is_static;
-    insert(function.body.data() + 1, std::string(" if (::tyndall_book::is_watching()) ::tyndall_book::ray_wanted(") + (member ? "*this" : "0") +
-                                         ", [=](auto tyndall_a, auto tyndall_b) { return " + call + "); }, " + parameters[0].name + ", " + parameters[1].name + ");");
+    insert(function.body.data() + 1, std::string(" if (::tyndall_book::is_watching()) ::tyndall_book::ray_wanted(") +
+                                         (member ? "*this" : "0") + ", [=](auto tyndall_a, auto tyndall_b) { return " +
+                                         call + "); }, " + parameters[0].name + ", " + parameters[1].name + ");");
   }
   const Parameter* world_of(const Function& function) const {
     const Parameter* world = nullptr;
@@ -161,13 +175,16 @@ class Inserter {
         depth = argument;
       call += (call.back() == '(' ? "" : ", ") + argument;
     }
-    insert(function.body.data() + 1, " if (::tyndall_book::is_watching()) return ::tyndall_book::colour_wanted<" + qualified(roles_.shape) + ", " +
-                                         (is_given ? "true" : "false") + ">([&](const auto& tyndall_ray, auto& tyndall_world, int) -> " + function.result +
-                                         " { (void)tyndall_world; return " + call + "); }, " + ray + ", " + world + ", static_cast<int>(" + depth + "));");
+    insert(function.body.data() + 1, " if (::tyndall_book::is_watching()) return ::tyndall_book::colour_wanted<" +
+                                         qualified(roles_.shape) + ", " + (is_given ? "true" : "false") +
+                                         ">([&](const auto& tyndall_ray, auto& tyndall_world, int) -> " +
+                                         function.result + " { (void)tyndall_world; return " + call + "); }, " + ray +
+                                         ", " + world + ", static_cast<int>(" + depth + "));");
   }
   /// A function of a ray alone, whose world is a member or a global object that it asks for hits.
   void hook_without_world(const Function& function) {
-    const bool of_things = outline_.is_derived(owner_of(function), roles_.shape) || outline_.is_derived(owner_of(function), roles_.material);
+    const bool of_things = outline_.is_derived(owner_of(function), roles_.shape) ||
+                           outline_.is_derived(owner_of(function), roles_.material);
     bool has_ray = false;
     for (const Parameter& parameter : function.parameters) {
       if (parameter.name.empty() || parameter.names(roles_.record)) return;
@@ -179,7 +196,9 @@ class Inserter {
       const std::size_t at = function.body.find(call + "(");
       if (at == std::string_view::npos) continue;
       std::size_t from = at;
-      while (from > 0 && (std::isalnum(static_cast<unsigned char>(function.body[from - 1])) || std::string("_.>-").find(function.body[from - 1]) != std::string::npos)) --from;
+      while (from > 0 && (std::isalnum(static_cast<unsigned char>(function.body[from - 1])) ||
+                          std::string("_.>-").find(function.body[from - 1]) != std::string::npos))
+        --from;
       if (from < at) return hook_colour(function, std::string(function.body.substr(from, at - from)), "", false);
     }
   }
@@ -200,22 +219,31 @@ class Inserter {
   /// A world of the reader's base class, whose hit() is ours.
   std::string probe() const {
     const OutlinedClass& shape = *class_named(roles_.shape);
-    std::string text = (shape.space.empty() ? "" : "namespace " + shape.space + " {\n") + "struct tyndall_probe final : " + shape.name + " {\n";
+    std::string text = (shape.space.empty() ? "" : "namespace " + shape.space + " {\n") +
+                       "struct tyndall_probe final : " + shape.name + " {\n";
     for (const Function& function : outline_.functions) {
-      if (owner_of(function) != roles_.shape || !function.is_virtual || (!function.is_pure && &function != roles_.hit) || function.name == roles_.shape) continue;
+      if (owner_of(function) != roles_.shape || !function.is_virtual ||
+          (!function.is_pure && &function != roles_.hit) || function.name == roles_.shape)
+        continue;
       std::string parameters, low = "0", high = "0", ray, record;
       int reals = 0, count = 0;
       for (const Parameter& parameter : function.parameters) {
         const std::string name = "tyndall_" + std::to_string(count++);
         parameters += (parameters.empty() ? "" : ", ") + parameter.type + " " + name;
-        if (parameter.names(roles_.ray)) ray = name;
-        else if (parameter.names(roles_.record)) record = name;
-        else if (is_real(parameter)) (reals++ == 0 ? low : high) = name;
-        else low = name + ".min", high = name + ".max";
+        if (parameter.names(roles_.ray))
+          ray = name;
+        else if (parameter.names(roles_.record))
+          record = name;
+        else if (is_real(parameter))
+          (reals++ == 0 ? low : high) = name;
+        else
+          low = name + ".min", high = name + ".max";
       }
-      const std::string body = &function == roles_.hit ? "return ::tyndall_book::probe_answer()(&" + ray + ", " + low + ", " + high + ", &" + record + ");" : "throw 0;";
-      text += "  " + function.result + " " + function.name + "(" + parameters + ")" + function.suffix + (function.suffix.find("override") == std::string::npos ? " override" : "") +
-              " { " + body + " }\n";
+      const std::string body = &function == roles_.hit ? "return ::tyndall_book::probe_answer()(&" + ray + ", " + low +
+                                                             ", " + high + ", &" + record + ");"
+                                                       : "throw 0;";
+      text += "  " + function.result + " " + function.name + "(" + parameters + ")" + function.suffix +
+              (function.suffix.find("override") == std::string::npos ? " override" : "") + " { " + body + " }\n";
     }
     return text + "};\n" + (shape.space.empty() ? "" : "}\n");
   }
@@ -228,7 +256,7 @@ class Inserter {
       const std::string argument = parameter.names(roles_.ray)      ? "r"
                                    : parameter.names(roles_.record) ? "record"
                                    : real                           ? (reals++ == 0 ? "low" : "high")
-                                                                    : qualified(parameter.identifiers.back()) + "(low, high)";
+                                          : qualified(parameter.identifiers.back()) + "(low, high)";
       arguments += (arguments.empty() ? "" : ", ") + argument;
     }
     return "return o." + roles_.hit->name + "(" + arguments + ");";
@@ -237,52 +265,76 @@ class Inserter {
     if (!roles_.scatter) return "return {};";
     std::string arguments, others, type = roles_.colour;
     bool has_out = false;
-    for (const Parameter& parameter : roles_.scatter->parameters) has_out = has_out || (parameter.names(roles_.ray) && !parameter.constant && parameter.reference);
+    for (const Parameter& parameter : roles_.scatter->parameters)
+      has_out = has_out || (parameter.names(roles_.ray) && !parameter.constant && parameter.reference);
     for (const Parameter& parameter : roles_.scatter->parameters) {
       std::string argument = "part";
       const std::string& last = parameter.identifiers.empty() ? parameter.type : parameter.identifiers.back();
-      if (parameter.names(roles_.record)) argument = "record";
-      else if (parameter.names(roles_.ray)) argument = parameter.constant || !parameter.reference ? "in" : "out";
-      else if (is_real(parameter)) argument = "density", others = last + " density{}; ", has_densities = true;
-      else if (has_out) type = class_named(last) ? qualified(last) : last;
-      else argument = "all", others = qualified(last) + " all{}; ", has_densities = true;
+      if (parameter.names(roles_.record))
+        argument = "record";
+      else if (parameter.names(roles_.ray))
+        argument = parameter.constant || !parameter.reference ? "in" : "out";
+      else if (is_real(parameter))
+        argument = "density", others = last + " density{}; ", has_densities = true;
+      else if (has_out)
+        type = class_named(last) ? qualified(last) : last;
+      else
+        argument = "all", others = qualified(last) + " all{}; ", has_densities = true;
       arguments += (arguments.empty() ? "" : ", ") + argument;
     }
     const bool has_all = others.find(" all{}") != std::string::npos;
-    return type + " part{}; ray out = in; " + others + "scattered one; one.does = m." + roles_.scatter->name + "(" + arguments + "); " +
-           (has_all ? "read_record<names>(all, one); " : "one.part = to_vector(part), one.to = ray_traits<ray>::direction(out), one.time = ray_traits<ray>::time(out); ") + "return one;";
+    return type + " part{}; ray out = in; " + others + "scattered one; one.does = m." + roles_.scatter->name + "(" +
+           arguments + "); " +
+           (has_all ? "read_record<names>(all, one); "
+                    : "one.part = to_vector(part), one.to = ray_traits<ray>::direction(out), one.time = "
+                      "ray_traits<ray>::time(out); ") +
+           "return one;";
   }
   std::string value_call(const Function& function, const std::string& object) const {
     std::string arguments;
     int reals = 0;
     for (const Parameter& parameter : function.parameters) {
-      const std::string argument = parameter.names(roles_.ray) ? "in" : parameter.names(roles_.record) ? "record" : is_real(parameter) ? (reals++ == 0 ? "u" : "v") : "p";
+      const std::string argument = parameter.names(roles_.ray)      ? "in"
+                                   : parameter.names(roles_.record) ? "record"
+                                   : is_real(parameter)             ? (reals++ == 0 ? "u" : "v")
+                                                                    : "p";
       arguments += (arguments.empty() ? "" : ", ") + argument;
     }
     return "return to_vector(" + object + "." + function.name + "(" + arguments + "));";
   }
   std::string with_class(const std::string& root, const char* type) const {
-    std::string text = std::string("  template <class F> static void with_class(const ") + type + "& o, F&& f) {\n    (void)f;\n";
+    std::string text =
+        std::string("  template <class F> static void with_class(const ") + type + "& o, F&& f) {\n    (void)f;\n";
     for (const OutlinedClass& one : outline_.classes)
       if (one.name != root && !one.is_template && !one.name.empty() && outline_.is_derived(one.name, root))
-        text += "    if (typeid(o) == typeid(" + one.qualified() + ")) return f(dynamic_cast<const " + one.qualified() + "&>(o));\n";
+        text += "    if (typeid(o) == typeid(" + one.qualified() + ")) return f(dynamic_cast<const " + one.qualified() +
+                "&>(o));\n";
     return text + "    refuse(o, \"no such class in Tyndall\");\n  }\n";
   }
   std::string tail() const {
-    const std::string none = "::tyndall_book::absent_class";
-    const std::string material = roles_.material.empty() ? none : qualified(roles_.material), texture = roles_.texture.empty() ? none : qualified(roles_.texture);
+    const std::string material = roles_.material.empty() ? "::tyndall_book::absent_material" : qualified(roles_.material),
+                      texture = roles_.texture.empty() ? "::tyndall_book::absent_texture" : qualified(roles_.texture);
     bool has_densities = false;
     const std::string scatter = scatter_call(has_densities);
-    return "\n# 1 \"tyndall/book/names\"\n" + probe() + "namespace tyndall_book {\nstruct names {\n  using shape = " + qualified(roles_.shape) + "; using ray = " + qualified(roles_.ray) +
-           "; using record = " + qualified(roles_.record) + "; using material = " + material + "; using texture = " + texture + ";\n  using probe = " +
-           (class_named(roles_.shape)->space.empty() ? "::" : "::" + class_named(roles_.shape)->space + "::") + "tyndall_probe;\n  static constexpr bool has_densities = " +
-           (has_densities ? "true" : "false") + ";\n  static bool hit(const shape& o, const ray& r, double low, double high, record& record) { " + hit_call() +
-           " }\n  static scattered scatter(const material& m, const ray& in, record& record) { (void)m, (void)in, (void)record; " + scatter +
-           " }\n  template <class P> static vector emitted(const material& m, const ray& in, record& record, double u, double v, const P& p) { (void)m, (void)in, (void)record, (void)u, (void)v, (void)p; " +
+    return "\n# 1 \"tyndall/book/names\"\n" + probe() +
+           "namespace tyndall_book {\nstruct names {\n  using shape = " + qualified(roles_.shape) +
+           "; using ray = " + qualified(roles_.ray) + "; using record = " + qualified(roles_.record) +
+           "; using material = " + material + "; using texture = " + texture + ";\n  using probe = " +
+           (class_named(roles_.shape)->space.empty() ? "::" : "::" + class_named(roles_.shape)->space + "::") +
+           "tyndall_probe;\n  static constexpr bool has_densities = " + (has_densities ? "true" : "false") +
+           ";\n  static bool hit(const shape& o, const ray& r, double low, double high, record& record) { " +
+           hit_call() +
+           " }\n  static scattered scatter(const material& m, const ray& in, record& record) { (void)m, (void)in, "
+           "(void)record; " +
+           scatter +
+           " }\n  template <class P> static vector emitted(const material& m, const ray& in, record& record, double u, "
+           "double v, const P& p) { (void)m, (void)in, (void)record, (void)u, (void)v, (void)p; " +
            (roles_.emitted ? value_call(*roles_.emitted, "m") : "return {};") +
-           " }\n  template <class P> static vector value(const texture& t, double u, double v, const P& p) { (void)t, (void)u, (void)v, (void)p; " +
-           (roles_.value ? value_call(*roles_.value, "t") : "return {};") + " }\n" + with_class(roles_.shape, "shape") + with_class(roles_.material, "material") +
-           with_class(roles_.texture, "texture") + "};\nvoid take_over(session& s) { take_over_world<names>(s); }\n}\n";
+           " }\n  template <class P> static vector value(const texture& t, double u, double v, const P& p) { (void)t, "
+           "(void)u, (void)v, (void)p; " +
+           (roles_.value ? value_call(*roles_.value, "t") : "return {};") + " }\n" + with_class(roles_.shape, "shape") +
+           with_class(roles_.material, "material") + with_class(roles_.texture, "texture") +
+           "};\nvoid take_over(session& s) { take_over_world<names>(s); }\n}\n";
   }
 
   const std::string& text_;

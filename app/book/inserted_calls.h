@@ -12,8 +12,8 @@ struct InsertedCalls {
   std::string problem;  ///< why there is nothing to be asked; "": there is
 };
 
-/// text: preprocessed, its outline; see there. reads_world: whether the reader's world is looked at, which needs to know
-/// more of his classes than samples do.
+/// text: preprocessed, its outline; see there. reads_world: whether the reader's world is looked at, which needs to
+/// know more of his classes than samples do.
 InsertedCalls insert_calls(const std::string& text, const ProgramOutline& outline, bool reads_world);
 
 }  // namespace tyndall

@@ -58,7 +58,8 @@ std::string folders_of(const fs::path& program) {
   return text + (program / "images").string() + "\n";
 }
 
-ChildPlan plan_of(const ProgramTask& task, const CompiledProgram& program, const fs::path& main, const char* only_samples) {
+ChildPlan plan_of(const ProgramTask& task, const CompiledProgram& program, const fs::path& main,
+                  const char* only_samples) {
   ChildPlan plan;
   plan.command = {program.file.string()};
   plan.folder = fs::absolute(main).parent_path();
@@ -86,6 +87,7 @@ bool read_messages(OwnProgram& own, const ProgramTask& task, ProgramScene& scene
       scene.short_frame = text.find("frame") != std::string::npos;
       scene.has_noise = text.find("noise") != std::string::npos;
     }
+    if (message->kind == 'E') throw UsageError(task.name + ": " + text);
     if (message->kind == 'O') scene.reason = text;
     if (message->kind == 'S') scene.json = message->text;
     if (message->kind == 'O' || message->kind == 'S') return true;
@@ -103,7 +105,7 @@ bool is_program(const std::string& name) {
 ProgramScene load_program(const ProgramRequest& request) {
   const fs::path& main = request.sources.files.front();
   const auto scratch = std::make_shared<ScratchFolder>();
-  const ProgramTask task{printable(main.string()), scratch->path(),  request.go_on,
+  const ProgramTask task{printable(main.string()), scratch->path(), request.go_on,
                          request.watch_signals,    request.trusted, request.compiler};
   const CompiledProgram program = compile_program(task, request.sources);
   const EndWatch signals(request.watch_signals);

@@ -36,10 +36,10 @@ struct ProgramScene {
   bool has_noise = false;                    ///< it has textures of noise, whose lattice is its own
 };
 
-/// Compiles the program and runs it in its folder until it asks for the colour of its first ray; then its world is read.
-/// It can change nothing outside a temporary folder, unless there is no guard and it is trusted. This runs the reader's
-/// code: only for files that the user has named. Throws UsageError where there is nothing to show, IoError where the
-/// system fails, ProgramInterrupted; all in one line.
+/// Compiles the program and runs it in its folder until it asks for the colour of its first ray; then its world is
+/// read. It can change nothing outside a temporary folder, unless there is no guard and it is trusted. This runs the
+/// reader's code: only for files that the user has named. Throws UsageError where there is nothing to show, IoError
+/// where the system fails, ProgramInterrupted; all in one line.
 ProgramScene load_program(const ProgramRequest& request);
 
 }  // namespace tyndall

@@ -20,7 +20,8 @@ bool is_one_of(std::string_view token, std::initializer_list<std::string_view> a
   return std::find(all.begin(), all.end(), token) != all.end();
 }
 bool is_built_in(std::string_view token) {
-  return is_one_of(token, {"int", "double", "float", "bool", "char", "unsigned", "signed", "long", "short", "void", "auto"});
+  return is_one_of(token,
+                   {"int", "double", "float", "bool", "char", "unsigned", "signed", "long", "short", "void", "auto"});
 }
 
 /// The end of a string or character that begins at `at`.
@@ -72,7 +73,9 @@ TokenList tokens_of(const std::string& text, const std::vector<fs::path>& ours, 
       if (text[at] == '"' || text[at] == '\'')
         end = end_of_literal(text, at);
       else if (is_letter(text[at]))
-        while (end < text.size() && (is_letter(text[end]) || (text[end] == '\'' && std::isdigit(static_cast<unsigned char>(text[at]))))) ++end;
+        while (end < text.size() &&
+               (is_letter(text[end]) || (text[end] == '\'' && std::isdigit(static_cast<unsigned char>(text[at])))))
+          ++end;
       else if (two)
         end = at + 2;
       tokens.push_back(std::string_view(text).substr(at, end - at));
@@ -134,18 +137,22 @@ class Outliner {
   std::size_t parameters_at(std::size_t begin, std::size_t end) const {
     if (begin < end && tokens_[begin] == "template") begin = behind_angles(begin + 1, end);
     for (std::size_t i = begin; i < end; ++i) {
-      if (i > begin && is_identifier(tokens_[i - 1]) && tokens_[i - 1] != "operator") i = std::max(i, behind_angles(i, end));
-      if (i >= end || tokens_[i] == "=" || tokens_[i] == "using" || tokens_[i] == "typedef" || tokens_[i] == "friend") return end;
+      if (i > begin && is_identifier(tokens_[i - 1]) && tokens_[i - 1] != "operator")
+        i = std::max(i, behind_angles(i, end));
+      if (i >= end || tokens_[i] == "=" || tokens_[i] == "using" || tokens_[i] == "typedef" || tokens_[i] == "friend")
+        return end;
       if (tokens_[i] == "(") return i > begin && is_identifier(tokens_[i - 1]) ? i : end;
     }
     return end;
   }
   std::size_t open_brace(std::size_t at) {
     const auto has = [&](std::string_view word) {
-      return std::find(tokens_.begin() + static_cast<std::ptrdiff_t>(start_), tokens_.begin() + static_cast<std::ptrdiff_t>(at), word) !=
-             tokens_.begin() + static_cast<std::ptrdiff_t>(at);
+      return std::find(tokens_.begin() + static_cast<std::ptrdiff_t>(start_),
+                       tokens_.begin() + static_cast<std::ptrdiff_t>(at),
+                       word) != tokens_.begin() + static_cast<std::ptrdiff_t>(at);
     };
-    if (at > start_ && (tokens_[start_] == "namespace" || (tokens_[start_] == "inline" && tokens_[start_ + 1] == "namespace"))) {
+    if (at > start_ &&
+        (tokens_[start_] == "namespace" || (tokens_[start_] == "inline" && tokens_[start_ + 1] == "namespace"))) {
       std::string name;
       for (std::size_t i = start_; i < at; ++i)
         if (!is_one_of(tokens_[i], {"namespace", "inline"})) name += tokens_[i];
@@ -160,9 +167,11 @@ class Outliner {
     }
     const std::size_t open = parameters_at(start_, at), end = closing(at);
     if (open < at) {
-      const bool initialises = std::find(tokens_.begin() + static_cast<std::ptrdiff_t>(closing(open)), tokens_.begin() + static_cast<std::ptrdiff_t>(at), ":") !=
-                               tokens_.begin() + static_cast<std::ptrdiff_t>(at);
-      if (initialises && (is_identifier(tokens_[at - 1]) || tokens_[at - 1] == ">")) return end;  // a member of a constructor's list
+      const bool initialises = std::find(tokens_.begin() + static_cast<std::ptrdiff_t>(closing(open)),
+                                         tokens_.begin() + static_cast<std::ptrdiff_t>(at),
+                                         ":") != tokens_.begin() + static_cast<std::ptrdiff_t>(at);
+      if (initialises && (is_identifier(tokens_[at - 1]) || tokens_[at - 1] == ">"))
+        return end;  // a member of a constructor's list
       const char* from = tokens_[at].data();
       add_function(start_, open, at, std::string_view(from, static_cast<std::size_t>(tokens_[end].data() + 1 - from)));
       start_ = end + 1;
@@ -194,7 +203,8 @@ class Outliner {
     for (++i; i <= end; ++i) {
       const bool ends = i == end || tokens_[i] == ",";
       if (ends && !base.empty()) one.bases.push_back(base);
-      if (!ends && is_identifier(tokens_[i]) && !is_one_of(tokens_[i], {"public", "private", "protected", "virtual"})) base = tokens_[i];
+      if (!ends && is_identifier(tokens_[i]) && !is_one_of(tokens_[i], {"public", "private", "protected", "virtual"}))
+        base = tokens_[i];
       i = ends ? i : std::max(i + 1, behind_angles(i + 1, end)) - 1;
     }
     scopes_.push_back({one.name, static_cast<int>(outline_.classes.size())});
@@ -206,8 +216,10 @@ class Outliner {
       if (tokens_[i] == "=") end = i;
     if (begin >= end) return one;
     const std::string_view last = tokens_[end - 1];
-    const bool has_type_before = end - begin > 1 && (tokens_[end - 2] == "&" || tokens_[end - 2] == "*" || tokens_[end - 2] == ">" || tokens_[end - 2] == "&&" ||
-                                                     (is_identifier(tokens_[end - 2]) && !is_one_of(tokens_[end - 2], {"const", "struct", "class"})));
+    const bool has_type_before =
+        end - begin > 1 &&
+        (tokens_[end - 2] == "&" || tokens_[end - 2] == "*" || tokens_[end - 2] == ">" || tokens_[end - 2] == "&&" ||
+         (is_identifier(tokens_[end - 2]) && !is_one_of(tokens_[end - 2], {"const", "struct", "class"})));
     if (is_identifier(last) && has_type_before && !is_built_in(last) && last != "const") one.name = last, --end;
     for (std::size_t i = begin; i < end; ++i) {
       one.type += (one.type.empty() ? "" : " ") + std::string(tokens_[i]);
@@ -300,7 +312,8 @@ bool ProgramOutline::is_derived(const std::string& name, const std::string& root
 std::string key_of(const std::string& name) {
   std::string key;
   for (const char c : name)
-    if (std::isalnum(static_cast<unsigned char>(c))) key += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (std::isalnum(static_cast<unsigned char>(c)))
+      key += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return key;
 }
 

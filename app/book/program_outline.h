@@ -15,12 +15,12 @@ struct Parameter {
 };
 
 struct Function {
-  std::string name, result;             ///< result: the type that it returns; "": a constructor
+  std::string name, result;  ///< result: the type that it returns; "": a constructor
   std::vector<Parameter> parameters;
-  std::string suffix;                   ///< what stands behind its parameters: "const override"
-  int owner = -1;                       ///< the class, by its place in the outline
+  std::string suffix;  ///< what stands behind its parameters: "const override"
+  int owner = -1;      ///< the class, by its place in the outline
   bool is_virtual = false, is_pure = false, is_static = false;
-  std::string_view body;                ///< with its braces; empty: it is only declared
+  std::string_view body;  ///< with its braces; empty: it is only declared
 };
 
 struct OutlinedClass {

@@ -55,7 +55,8 @@ RunFigures figures(const RenderJob& job, const RenderOutcome& outcome) {
 /// What an image or film at that place carries beside the picture.
 Embedded embedded_in(const RenderJob& job, const Film& film, const std::filesystem::path& file, std::string stats,
                      bool unfinished) {
-  if (job.loaded.is_picture) return {"", "{\"own_samples\": " + nlohmann::json(job.own.reason()).dump() + "}", {}, false};
+  if (job.loaded.is_picture)
+    return {"", "{\"own_samples\": " + nlohmann::json(job.own.reason()).dump() + "}", {}, false};
   return {embedded_scene(job.loaded.scene, job.loaded.folder, film, file), std::move(stats),
           label_for(job.loaded.scene, job.kernels.isa, unfinished)};
 }

@@ -172,7 +172,8 @@ namespace {
 /// Own samples are no function of seed and index, so that nothing can be gone on with or put together.
 void check_own_samples(const RenderCommand& command, const std::string& name) {
   const auto refuse = [&](const char* option) {
-    throw UsageError(name + ": " + option + ": found samples of the program's own, expected a scene; they are taken anew each time");
+    throw UsageError(name + ": " + option +
+                     ": found samples of the program's own, expected a scene; they are taken anew each time");
   };
   if (command.samples) refuse("--samples");
   if (command.resume) refuse("--resume");

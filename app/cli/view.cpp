@@ -164,10 +164,17 @@ int view_scene(const ViewCommand& command) {
     tell_alpha(loaded);
     const auto& arguments = command.arguments;
     const bool named = std::find(arguments.begin(), arguments.end(), command.scene.what) != arguments.end();
-    return WindowOptions{loaded,          open,        read_edits,
-                         command.threads, command.isa, command.reference,
-                         command.ui_log,  named,       {command.time_limit, command.target_error},
-                         nullptr,         is_program(command.scene.what) ? own->function() : nullptr};
+    return WindowOptions{loaded,
+                         open,
+                         read_edits,
+                         command.threads,
+                         command.isa,
+                         command.reference,
+                         command.ui_log,
+                         named,
+                         {command.time_limit, command.target_error},
+                         nullptr,
+                         is_program(command.scene.what) ? own->function() : nullptr};
   });
 }
 

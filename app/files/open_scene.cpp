@@ -92,7 +92,8 @@ LoadedScene open_scene(const SceneRequest& request) {
   OwnSamples own;
   LoadedScene loaded = open_scene_or_samples(request, own);
   if (loaded.is_picture)
-    throw UsageError(request.what + " is no scene, but a program whose own samples can be shown, by tyndall render and tyndall view");
+    throw UsageError(request.what +
+                     " is no scene, but a program whose own samples can be shown, by tyndall render and tyndall view");
   return loaded;
 }
 

@@ -49,7 +49,7 @@ struct ProgramParts {
   std::vector<std::filesystem::path> more_files, include_folders;  ///< beside the file with main()
   /// Whether a C++ source file may be compiled and run at all: only one that the user has named for that.
   bool allowed = false;
-  bool trusted = false;  ///< it is also run where the system has no guard
+  bool trusted = false;         ///< it is also run where the system has no guard
   std::string compiler{};       ///< see ProgramTask
   bool told = false;            ///< what is to be told of it was told before
   std::function<bool()> go_on;  ///< false gives up; empty: signals do, which a window watches itself
@@ -70,8 +70,8 @@ struct SceneRequest {
 LoadedScene open_scene_or_samples(const SceneRequest& request, OwnSamples& own);
 
 /// Loads a scene and applies the options to it: overrides before it is checked, the others after that, and checks
-/// again. Tells on standard error how pictures of textures were read, where that should be known. Throws SceneError, and
-/// UsageError for a program that has only samples of its own.
+/// again. Tells on standard error how pictures of textures were read, where that should be known. Throws SceneError,
+/// and UsageError for a program that has only samples of its own.
 LoadedScene open_scene(const SceneRequest& request);
 
 /// The scene that a request has opened, with further overrides after the request's own. name: what messages call it.

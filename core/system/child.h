@@ -28,12 +28,12 @@ struct ChildPlan {
 /// How it ended.
 struct ChildEnd {
   int exit_code = 0;
-  int signal = 0;                ///< that ended it; 0: none
-  int start_error = 0;           ///< why it could not be started, an error number; 0: it was
-  bool timed_out = false;        ///< it took too long, and was ended
-  bool awaited_input = false;    ///< it read standard input, where nothing ever comes, and was ended
-  bool given_up = false;         ///< go_on said so, and it was ended
-  std::string errors;            ///< what it wrote on standard error
+  int signal = 0;              ///< that ended it; 0: none
+  int start_error = 0;         ///< why it could not be started, an error number; 0: it was
+  bool timed_out = false;      ///< it took too long, and was ended
+  bool awaited_input = false;  ///< it read standard input, where nothing ever comes, and was ended
+  bool given_up = false;       ///< go_on said so, and it was ended
+  std::string errors;          ///< what it wrote on standard error
 
   bool succeeded() const { return exit_code == 0 && signal == 0 && start_error == 0 && !ended(); }
   bool ended() const { return timed_out || awaited_input || given_up; }

@@ -13,9 +13,9 @@
 namespace tyndall_book {
 
 struct opened_files {
-  std::vector<std::string> read;                ///< those that were opened to be read, last ones last
-  std::map<std::string, std::string> missing;   ///< names that were not found, by their last part
-  std::map<std::string, std::string> written;   ///< where a file lies that was written, by its name
+  std::vector<std::string> read;                 ///< those that were opened to be read, last ones last
+  std::map<std::string, std::string> missing;    ///< names that were not found, by their last part
+  std::map<std::string, std::string> written;    ///< where a file lies that was written, by its name
   std::map<const void*, std::string> of_object;  ///< the last file that was read before a texture was made
   static opened_files& get() {
     static opened_files files;

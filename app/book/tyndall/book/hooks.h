@@ -46,7 +46,8 @@ camera_values read_camera(const C& camera);
 struct ray_source {
   const void* (*make)(double, double) = nullptr;  ///< his ray for the arguments
   camera_values (*read)() = nullptr;
-  bool by_pixels = false;    ///< the arguments are a column and a row, not parts of the picture's sides
+  double (*aspect)() = nullptr;  ///< width over height of what it sees, of one whose arguments are parts
+  bool by_pixels = false;        ///< the arguments are a column and a row, not parts of the picture's sides
   double first = 0, second = 0;  ///< the last arguments
 };
 
@@ -67,13 +68,13 @@ inline bool is_watching() { return !is_asked_by_us; }
 /// Where rays lie in the picture, and all that is needed to ask for them.
 struct session {
   int width = 0, height = 0, samples = 0;
-  int less = 0;         ///< 1: the loop divides by width - 1 and height - 1, as editions 2 and 3 do
+  int less = 0;           ///< 1: the loop divides by width - 1 and height - 1, as editions 2 and 3 do
   bool from_top = false;  ///< get_ray()'s second argument is 0 at the picture's top
   ray_source rays;
   camera_values camera;
-  const void* world = nullptr;                         ///< the reader's, of class N::shape
-  int depth = 0;                                       ///< that his loop begins with
-  bool has_other_worlds = false;                       ///< colour() takes others than his
+  const void* world = nullptr;                               ///< the reader's, of class N::shape
+  int depth = 0;                                             ///< that his loop begins with
+  bool has_other_worlds = false;                             ///< colour() takes others than his
   vector (*colour)(const void* ray, void* other) = nullptr;  ///< what he computes; other: see above, else null
 
   /// A ray through the point, in pixels from the upper left corner.
@@ -126,7 +127,9 @@ class watcher {
   /// Whether the first row is low in the world: such a picture is turned when it is written.
   bool is_upside_down() const { return camera_.known; }
   bool count_samples(session& s) {
-    const auto column = [&](const place& at) { return rays.by_pixels ? at.first : std::floor(at.first * (s.width - s.less)); };
+    const auto column = [&](const place& at) {
+      return rays.by_pixels ? at.first : std::floor(at.first * (s.width - s.less));
+    };
     const bool same = column(seen_.back()) == column(seen_.front());
     s.samples = static_cast<int>(seen_.size()) - (same ? 0 : 1);
     return !same || seen_.size() >= 20000 || seconds() > 2;
@@ -149,16 +152,12 @@ class watcher {
                static_cast<double>(k / samples);
       if (!fits) continue;
       s.width = static_cast<int>(columns), s.samples = static_cast<int>(samples);
-      s.height = camera_.height > 0 ? camera_.height : static_cast<int>(columns / aspect_ + 1e-6);
+      s.height = camera_.height > 0 ? camera_.height : static_cast<int>(columns / rays.aspect() + 1e-6);
       return s.height > 0;
     }
     throw not_taken{"the size of the picture is not known"};
   }
 
- public:
-  double aspect_ = 0;  ///< width over height of what get_ray() sees, if that is known
-
- private:
   pthread_t thread_{};
   double begin_ = 0;
   camera_values camera_;
@@ -187,6 +186,14 @@ void ray_wanted(const C& camera, F call, A first, B second) {
   rays.make = [](double a, double b) -> const void* {
     alignas(ray) static unsigned char memory[sizeof(ray)];
     return new (memory) ray((*reinterpret_cast<F*>(kept))(static_cast<A>(a), static_cast<B>(b)));
+  };
+  rays.aspect = [] {
+    vector sums[3];  // a lens moves single rays
+    for (int k = 0; k < 600; ++k) {
+      const ray one = (*reinterpret_cast<F*>(kept))(static_cast<A>(k % 3 == 1), static_cast<B>(k % 3 == 2));
+      sums[k % 3] = sums[k % 3] + ray_traits<ray>::origin(one) + ray_traits<ray>::direction(one);
+    }
+    return length(sums[1] - sums[0]) / length(sums[2] - sums[0]);
   };
 }
 
@@ -232,7 +239,12 @@ auto colour_wanted(F ask, R& ray, W& world, int depth) -> decltype(ask(ray, worl
     is_asked_by_us = false;
     return made;
   }
-  if (!w.knows(s)) return colour{};
+  try {
+    if (!w.knows(s)) return colour{};
+  } catch (const not_taken& why) {
+    tell('E', why.reason);
+    std::_Exit(0);
+  }
   is_asked_by_us = true;
   static F* asked;
   static W* his;

@@ -19,8 +19,9 @@ struct scattered {
 
 template <class R>
 bool is_front(const R& record, vector to, vector normal) {
-  decltype(auto) front = pick(record, TYNDALL_GET(bool(o.front_face)), TYNDALL_GET(bool(o.frontFace)), TYNDALL_GET(bool(o.is_front)),
-                              TYNDALL_GET(bool(o.isFrontFace)), TYNDALL_GET(bool(o.front)), TYNDALL_GET(bool(o.m_front_face)));
+  decltype(auto) front =
+      pick(record, TYNDALL_GET(bool(o.front_face)), TYNDALL_GET(bool(o.frontFace)), TYNDALL_GET(bool(o.is_front)),
+           TYNDALL_GET(bool(o.isFrontFace)), TYNDALL_GET(bool(o.front)), TYNDALL_GET(bool(o.m_front_face)));
   if constexpr (is_absent<decltype(front)>)
     return dot(to, normal) < 0;
   else
@@ -30,7 +31,8 @@ template <class R>
 decltype(auto) material_member(R& record) {
   return pick(record, TYNDALL_GET(o.mat), TYNDALL_GET(o.mat_ptr), TYNDALL_GET(o.material), TYNDALL_GET(o.material_ptr),
               TYNDALL_GET(o.matPtr), TYNDALL_GET(o.materialPtr), TYNDALL_GET(o.mp), TYNDALL_GET(o.mat_pointer),
-              TYNDALL_GET(o.m_material), TYNDALL_GET(o.pMat), TYNDALL_GET(o.m_mat), TYNDALL_GET(o.Mat), TYNDALL_GET(o.m));
+              TYNDALL_GET(o.m_material), TYNDALL_GET(o.pMat), TYNDALL_GET(o.m_mat), TYNDALL_GET(o.Mat),
+              TYNDALL_GET(o.m));
 }
 template <class N>
 const typename N::material* material_in(typename N::record& record) {
@@ -70,8 +72,8 @@ typename N::record make_record(const surface_point& at) {
     if constexpr (!is_absent<decltype(member)>) member = value;
   };
   set(pick(record, TYNDALL_GET(o.u)), at.u), set(pick(record, TYNDALL_GET(o.v)), at.v);
-  set(pick(record, TYNDALL_GET(o.front_face), TYNDALL_GET(o.frontFace), TYNDALL_GET(o.is_front), TYNDALL_GET(o.isFrontFace),
-           TYNDALL_GET(o.front), TYNDALL_GET(o.m_front_face)),
+  set(pick(record, TYNDALL_GET(o.front_face), TYNDALL_GET(o.frontFace), TYNDALL_GET(o.is_front),
+           TYNDALL_GET(o.isFrontFace), TYNDALL_GET(o.front), TYNDALL_GET(o.m_front_face)),
       at.front);
   return record;
 }
@@ -110,21 +112,21 @@ class material_text {
   }
 
  private:
-  static constexpr vector slanted{0.8, -0.6, 0};  ///< a ray's direction that meets the surface from above
+  static constexpr vector slanted{0.8, -0.6, 0}, steep{0.28, -0.96, 0};  ///< of rays that meet the surface from above
   /// The material by how it scatters; "": by none of the books' rules.
   std::string scattering(const std::vector<scattered>& all) {
     const scattered& first = all.front();
     std::size_t absorbed = 0;
-    bool same = true, known = true;
+    bool same = true;
     for (const scattered& one : all) {
       absorbed += one.does ? 0 : 1;
       if (!one.does) continue;
       same = same && near(unit(one.to), unit(first.to), 1e-4);
-      known = known && (near(unit(one.to), mirror(slanted), 1e-3) || one.to.y < 0);
     }
+    const bool refracts = unit(ask({}, steep).to).y < 0 || unit(ask({}, steep).to).y < 0 || unit(ask({}, steep).to).y < 0;
+    if (refracts && absorbed == 0) return glass();
     if (absorbed == all.size()) return "{\"type\":\"lambertian\",\"albedo\":[0,0,0]}";
     if (same && near(unit(first.to), mirror(slanted), 1e-3)) return metal(0);
-    if (known && !same && absorbed == 0) return glass();
     if (!is_matt(all)) return fuzzy(all, absorbed);
     const std::string part = albedo();
     if (part[0] == '[' && largest(first.part) > 0) out_.matt = &m_, out_.albedo = first.part;
@@ -149,12 +151,15 @@ class material_text {
     random_numbers random;
     bool same = true;
     for (int k = 0; k < 40; ++k)
-      same = same && near(of({random.between(0, 30) * random.on_sphere(), true, random.next(), random.next()}), first, 1e-9);
+      same = same &&
+             near(of({random.between(0, 30) * random.on_sphere(), true, random.next(), random.next()}), first, 1e-9);
     if (same) return triple(first);
     std::string name;
     N::with_class(m_, [&](const auto& o) {
-      decltype(auto) member = pick(o, TYNDALL_GET(o.tex), TYNDALL_GET(o.albedo), TYNDALL_GET(o.emit), TYNDALL_GET(o.texture), TYNDALL_GET(o.m_albedo),
-                                   TYNDALL_GET(o.m_texture), TYNDALL_GET(o.albedo_), TYNDALL_GET(o.m_tex), TYNDALL_GET(o.color), TYNDALL_GET(o.m_emit));
+      decltype(auto) member =
+          pick(o, TYNDALL_GET(o.tex), TYNDALL_GET(o.albedo), TYNDALL_GET(o.emit), TYNDALL_GET(o.texture),
+               TYNDALL_GET(o.m_albedo), TYNDALL_GET(o.m_texture), TYNDALL_GET(o.albedo_), TYNDALL_GET(o.m_tex),
+               TYNDALL_GET(o.color), TYNDALL_GET(o.m_emit));
       if constexpr (leads_to<typename N::texture, decltype((member))>()) name = texture_name<N>(out_, *pointer(member));
     });
     if (name.empty()) refuse(m_, "its colour is neither one colour nor one of its textures");
@@ -170,7 +175,8 @@ class material_text {
     });
   }
   std::string metal(double fuzz) {
-    if (!near(unit(ask({}, {0, -2, 0}).to), {0, 1, 0}, fuzz > 0 ? 2 : 1e-3)) refuse(m_, "it is no mirror from everywhere");
+    if (!near(unit(ask({}, {0, -2, 0}).to), {0, 1, 0}, fuzz > 0 ? 2 : 1e-3))
+      refuse(m_, "it is no mirror from everywhere");
     const std::string part = albedo();
     if (part[0] != '[') refuse(m_, "its colour is a texture: Tyndall's metals have one colour");
     return "{\"type\":\"metal\",\"albedo\":" + part + ",\"fuzz\":" + number(fuzz) + "}";
@@ -185,7 +191,8 @@ class material_text {
     }
     const vector mean = (1.0 / static_cast<double>(all.size())) * sum;
     const bool in_ball = std::fabs(mean.y - 0.8) < 0.02;
-    if ((!in_ball && std::fabs(mean.y - 2.0 / 3) > 0.02) || std::fabs(mean.x) > 0.06 || std::fabs(mean.z) > 0.06) return false;
+    if ((!in_ball && std::fabs(mean.y - 2.0 / 3) > 0.02) || std::fabs(mean.x) > 0.06 || std::fabs(mean.z) > 0.06)
+      return false;
     out_.matt_in_ball = out_.matt_in_ball || in_ball;
     return true;
   }
@@ -193,7 +200,8 @@ class material_text {
   static double fresnel(double cosine, double ratio) {
     const double sin2 = (1 - cosine * cosine) * ratio * ratio, out = std::sqrt(std::fmax(0, 1 - sin2));
     if (sin2 >= 1) return 1;
-    const double s = (ratio * cosine - out) / (ratio * cosine + out), p = (ratio * out - cosine) / (ratio * out + cosine);
+    const double s = (ratio * cosine - out) / (ratio * cosine + out),
+                 p = (ratio * out - cosine) / (ratio * out + cosine);
     return 0.5 * (s * s + p * p);
   }
   static double schlick(double cosine, double ratio) {
@@ -203,12 +211,14 @@ class material_text {
   std::string glass() {
     double index = 0;
     for (int k = 0; k < 2000 && index == 0; ++k) {
-      const vector to = unit(ask({}, slanted).to);
-      if (to.y < 0) index = slanted.x / std::sqrt(to.x * to.x + to.z * to.z);
+      const vector to = unit(ask({}, steep).to);
+      if (to.y < 0) index = steep.x / std::sqrt(to.x * to.x + to.z * to.z);
     }
     N::with_class(m_, [&](const auto& o) {
-      decltype(auto) member = pick(o, TYNDALL_GET(double(o.refraction_index)), TYNDALL_GET(double(o.ir)), TYNDALL_GET(double(o.ref_idx)), TYNDALL_GET(double(o.ior)),
-                                   TYNDALL_GET(double(o.refractive_index)), TYNDALL_GET(double(o.m_ior)), TYNDALL_GET(double(o.m_ref_idx)), TYNDALL_GET(double(o.refractionIndex)));
+      decltype(auto) member =
+          pick(o, TYNDALL_GET(double(o.refraction_index)), TYNDALL_GET(double(o.ir)), TYNDALL_GET(double(o.ref_idx)),
+               TYNDALL_GET(double(o.ior)), TYNDALL_GET(double(o.refractive_index)), TYNDALL_GET(double(o.m_ior)),
+               TYNDALL_GET(double(o.m_ref_idx)), TYNDALL_GET(double(o.refractionIndex)));
       if constexpr (!is_absent<decltype(member)>)
         if (near(member, index, 1e-4)) index = member;
     });
@@ -221,15 +231,18 @@ class material_text {
         for (int k = 0; k < rounds; ++k) {
           const scattered one = ask({{}, front}, {sine, side * cosine, 0});
           const vector to = unit(one.to);
-          if (!one.does || largest(one.part - vector{1, 1, 1}) > 1e-3) refuse(m_, "its glass takes light away: Tyndall's is clear");
+          if (!one.does || largest(one.part - vector{1, 1, 1}) > 1e-3)
+            refuse(m_, "its glass takes light away: Tyndall's is clear");
           const bool back = to.y * side < 0;
           reflected += back ? 1 : 0;
-          if (std::fabs(to.x - (back ? 1 : ratio) * sine) > 0.01) refuse(m_, "it refracts otherwise than the books' glass");
+          if (std::fabs(to.x - (back ? 1 : ratio) * sine) > 0.01)
+            refuse(m_, "it refracts otherwise than the books' glass");
         }
         const double share = double(reflected) / rounds;
         const auto fits = [&](double r) { return std::fabs(share - r) < 5 * std::sqrt(r * (1 - r) / rounds) + 0.004; };
         if (!fits(schlick(cosine, ratio)) && !fits(fresnel(cosine, ratio)) && !fits(schlick(cosine, 1 / ratio)))
-          refuse(m_, "it reflects " + words({share, schlick(cosine, ratio), cosine}) + " (its share, the books', the cosine): not as the books' glass");
+          refuse(m_, "it reflects " + words({share, schlick(cosine, ratio), cosine}) +
+                         " (its share, the books', the cosine): not as the books' glass");
       }
     return "{\"type\":\"dielectric\",\"refractive_index\":" + number(index) + "}";
   }
@@ -237,8 +250,10 @@ class material_text {
   std::string fuzzy(const std::vector<scattered>& all, std::size_t absorbed) {
     double fuzz = -1;
     N::with_class(m_, [&](const auto& o) {
-      decltype(auto) member = pick(o, TYNDALL_GET(double(o.fuzz)), TYNDALL_GET(double(o.fuzziness)), TYNDALL_GET(double(o.m_fuzz)), TYNDALL_GET(double(o.roughness)),
-                                   TYNDALL_GET(double(o.fuzz_)), TYNDALL_GET(double(o.fuzzy)), TYNDALL_GET(double(o.m_fuzziness)), TYNDALL_GET(double(o._fuzz)));
+      decltype(auto) member =
+          pick(o, TYNDALL_GET(double(o.fuzz)), TYNDALL_GET(double(o.fuzziness)), TYNDALL_GET(double(o.m_fuzz)),
+               TYNDALL_GET(double(o.roughness)), TYNDALL_GET(double(o.fuzz_)), TYNDALL_GET(double(o.fuzzy)),
+               TYNDALL_GET(double(o.m_fuzziness)), TYNDALL_GET(double(o._fuzz)));
       if constexpr (!is_absent<decltype(member)>) fuzz = member;
     });
     const auto spread = [&](const std::vector<vector>& to, double lost) {

@@ -87,9 +87,10 @@ class world_text {
       if (o.is_moving) m.end = m.begin + to_vector(o.center_vec);
       return true;
     } else {
-      decltype(auto) c = pick(o, TYNDALL_GET(o.center), TYNDALL_GET(o.cen), TYNDALL_GET(o.m_center), TYNDALL_GET(o.centre),
-                              TYNDALL_GET(o.center_), TYNDALL_GET(o._center), TYNDALL_GET(o.mCenter), TYNDALL_GET(o.Center),
-                              TYNDALL_GET(o.position), TYNDALL_GET(o.pos), TYNDALL_GET(o.origin), TYNDALL_GET(o.c));
+      decltype(auto) c =
+          pick(o, TYNDALL_GET(o.center), TYNDALL_GET(o.cen), TYNDALL_GET(o.m_center), TYNDALL_GET(o.centre),
+               TYNDALL_GET(o.center_), TYNDALL_GET(o._center), TYNDALL_GET(o.mCenter), TYNDALL_GET(o.Center),
+               TYNDALL_GET(o.position), TYNDALL_GET(o.pos), TYNDALL_GET(o.origin), TYNDALL_GET(o.c));
       using C = std::decay_t<decltype(c)>;
       if constexpr (std::is_same<C, typename N::ray>::value)
         return m.begin = rays::origin(c), m.end = m.begin + rays::direction(c), true;
@@ -101,9 +102,10 @@ class world_text {
   }
   template <class T>
   bool sphere(const T& o, const placing& at) {
-    decltype(auto) member = pick(o, TYNDALL_GET(double(o.radius)), TYNDALL_GET(double(o.m_radius)), TYNDALL_GET(double(o.r)),
-                                 TYNDALL_GET(double(o.rad)), TYNDALL_GET(double(o.radius_)), TYNDALL_GET(double(o._radius)),
-                                 TYNDALL_GET(double(o.mRadius)), TYNDALL_GET(double(o.Radius)));
+    decltype(auto) member =
+        pick(o, TYNDALL_GET(double(o.radius)), TYNDALL_GET(double(o.m_radius)), TYNDALL_GET(double(o.r)),
+             TYNDALL_GET(double(o.rad)), TYNDALL_GET(double(o.radius_)), TYNDALL_GET(double(o._radius)),
+             TYNDALL_GET(double(o.mRadius)), TYNDALL_GET(double(o.Radius)));
     if constexpr (is_absent<decltype(member)>) {
       return false;
     } else {
@@ -112,15 +114,15 @@ class world_text {
     }
   }
   bool take_sphere(const shape& o, const motion& centre, double radius, const placing& at) {
-      if (radius == 0) return true;
-      const typename N::material* material = nullptr;
-      if (!is_sphere(o, centre, radius, material)) return reason_ = "its hit() is not that of the books' sphere", false;
-      const bool moves = length(centre.end - centre.begin) > 0;
-      if (moves && at.boundary) refuse(o, "fog in a moving sphere");
-      push("{\"type\":\"sphere\",\"center\":" + triple(centre.begin) +
-               (moves ? ",\"center_end\":" + triple(centre.end) : "") + ",\"radius\":" + number(radius),
-           o, material, at, {centre.at(0.5), std::fabs(radius), "", "", false, true, {}, {}, {}});
-      return true;
+    if (radius == 0) return true;
+    const typename N::material* material = nullptr;
+    if (!is_sphere(o, centre, radius, material)) return reason_ = "its hit() is not that of the books' sphere", false;
+    const bool moves = length(centre.end - centre.begin) > 0;
+    if (moves && at.boundary) refuse(o, "fog in a moving sphere");
+    push("{\"type\":\"sphere\",\"center\":" + triple(centre.begin) +
+             (moves ? ",\"center_end\":" + triple(centre.end) : "") + ",\"radius\":" + number(radius),
+         o, material, at, {centre.at(0.5), std::fabs(radius), "", "", false, true, {}, {}, {}});
+    return true;
   }
   /// Whether 200 rays from all sides, and from within, meet the sphere where they should, at both ends of an interval.
   bool is_sphere(const shape& o, const motion& centre, double radius, const typename N::material*& material) {
@@ -208,19 +210,22 @@ class world_text {
       if (is_flat(o, {o.x0, o.k, o.z0}, {o.x1 - o.x0, 0, 0}, {0, 0, o.z1 - o.z0}, at)) return true;
     if constexpr (TYNDALL_HAS(const T, double(o.y0), double(o.y1), double(o.z0), double(o.k)))
       if (is_flat(o, {o.k, o.y0, o.z0}, {0, o.y1 - o.y0, 0}, {0, 0, o.z1 - o.z0}, at)) return true;
-    decltype(auto) q = pick(o, TYNDALL_GET(o.Q), TYNDALL_GET(o.q), TYNDALL_GET(o.corner), TYNDALL_GET(o.m_Q),
-                            TYNDALL_GET(o.m_q), TYNDALL_GET(o._Q), TYNDALL_GET(o.Q_), TYNDALL_GET(o.origin), TYNDALL_GET(o.center));
-    decltype(auto) u = pick(o, TYNDALL_GET(o.u), TYNDALL_GET(o.U), TYNDALL_GET(o.m_u), TYNDALL_GET(o._u), TYNDALL_GET(o.u_));
-    decltype(auto) v = pick(o, TYNDALL_GET(o.v), TYNDALL_GET(o.V), TYNDALL_GET(o.m_v), TYNDALL_GET(o._v), TYNDALL_GET(o.v_));
+    decltype(auto) q =
+        pick(o, TYNDALL_GET(o.Q), TYNDALL_GET(o.q), TYNDALL_GET(o.corner), TYNDALL_GET(o.m_Q), TYNDALL_GET(o.m_q),
+             TYNDALL_GET(o._Q), TYNDALL_GET(o.Q_), TYNDALL_GET(o.origin), TYNDALL_GET(o.center));
+    decltype(auto) u =
+        pick(o, TYNDALL_GET(o.u), TYNDALL_GET(o.U), TYNDALL_GET(o.m_u), TYNDALL_GET(o._u), TYNDALL_GET(o.u_));
+    decltype(auto) v =
+        pick(o, TYNDALL_GET(o.v), TYNDALL_GET(o.V), TYNDALL_GET(o.m_v), TYNDALL_GET(o._v), TYNDALL_GET(o.v_));
     if constexpr (is_vector<decltype(q)> && is_vector<decltype(u)> && is_vector<decltype(v)>)
       if (is_flat(o, to_vector(q), to_vector(u), to_vector(v), at)) return true;
     const auto three = [&](const auto& a, const auto& b, const auto& c) {
       const vector first = to_vector(a);
       return is_flat(o, first, to_vector(b) - first, to_vector(c) - first, at);
     };
-#define TYNDALL_CORNERS(A, B, C)                                                         \
-  if constexpr (TYNDALL_HAS(const T, to_vector(o.A), to_vector(o.B), to_vector(o.C)))    \
-    if constexpr (is_vector<decltype(o.A)> && is_vector<decltype(o.B)>)                  \
+#define TYNDALL_CORNERS(A, B, C)                                                      \
+  if constexpr (TYNDALL_HAS(const T, to_vector(o.A), to_vector(o.B), to_vector(o.C))) \
+    if constexpr (is_vector<decltype(o.A)> && is_vector<decltype(o.B)>)               \
       if (three(o.A, o.B, o.C)) return true;
     TYNDALL_CORNERS(v0, v1, v2)
     TYNDALL_CORNERS(a, b, c)
@@ -247,15 +252,20 @@ class world_text {
     const double middle = disk ? 0.5 * (found.inner + found.outer) : 0.3;
     const vector inside = q + middle * u + (disk ? 0 : 0.3) * v;
     const answer<N> front = shoot<N>(o, inside + away, -1 * away), back = shoot<N>(o, inside - away, away);
-    const answer<N> behind = shoot<N>(o, inside + away, -1 * away, 0, 1.1), before = shoot<N>(o, inside + away, -1 * away, 0, 0.001, 0.9);
-    if (behind.found || before.found || !back.found) return reason_ = "its hit() does not keep the interval of t", false;
-    if (std::fabs(std::fabs(dot(front.normal, unit(n))) - 1) > 0.02) return reason_ = "its normals are not those of the books", false;
+    const answer<N> behind = shoot<N>(o, inside + away, -1 * away, 0, 1.1),
+                    before = shoot<N>(o, inside + away, -1 * away, 0, 0.001, 0.9);
+    if (behind.found || before.found || !back.found)
+      return reason_ = "its hit() does not keep the interval of t", false;
+    if (std::fabs(std::fabs(dot(front.normal, unit(n))) - 1) > 0.02)
+      return reason_ = "its normals are not those of the books", false;
     const double side = front.front ? 1 : -1;
-    push(std::string("{\"type\":\"") + found.type + (disk ? "\",\"center\":" : "\",\"corner\":") + triple(q) + ",\"u\":" +
-             triple(found.outer * u) + ",\"v\":" + triple(found.outer * v) +
+    push(std::string("{\"type\":\"") + found.type + (disk ? "\",\"center\":" : "\",\"corner\":") + triple(q) +
+             ",\"u\":" + triple(found.outer * u) + ",\"v\":" + triple(found.outer * v) +
              (disk ? ",\"inner\":" + number(found.inner / found.outer) : ""),
-         o, front.material, at, {inside, found.outer * std::fmin(length(u), length(v)), "", "", found.type[0] == 'q', false, q, u, v});
-    if (!at.boundary && shines_on_one_side<N>(front.material)) add_back(found, q, u, v, (at.flipped ? -side : side) * n, at);
+         o, front.material, at,
+         {inside, found.outer * std::fmin(length(u), length(v)), "", "", found.type[0] == 'q', false, q, u, v});
+    if (!at.boundary && shines_on_one_side<N>(front.material))
+      add_back(found, q, u, v, (at.flipped ? -side : side) * n, at);
     return true;
   }
   /// Black, close behind a light: Tyndall's lights shine on both sides, those of the third book on one.
@@ -276,10 +286,11 @@ class world_text {
 
   template <class T>
   bool list(const T& o, const placing& at) {
-    decltype(auto) member = pick(o, TYNDALL_GET(o.objects), TYNDALL_GET(o.sides), TYNDALL_GET(o.m_objects), TYNDALL_GET(o.hittables),
-                                 TYNDALL_GET(o.list), TYNDALL_GET(o._objects), TYNDALL_GET(o.objects_), TYNDALL_GET(o.triangles),
-                                 TYNDALL_GET(o.shapes), TYNDALL_GET(o.children), TYNDALL_GET(o.faces), TYNDALL_GET(o.primitives),
-                                 TYNDALL_GET(o.objs), TYNDALL_GET(o.m_list), TYNDALL_GET(o.m_hittables));
+    decltype(auto) member =
+        pick(o, TYNDALL_GET(o.objects), TYNDALL_GET(o.sides), TYNDALL_GET(o.m_objects), TYNDALL_GET(o.hittables),
+             TYNDALL_GET(o.list), TYNDALL_GET(o._objects), TYNDALL_GET(o.objects_), TYNDALL_GET(o.triangles),
+             TYNDALL_GET(o.shapes), TYNDALL_GET(o.children), TYNDALL_GET(o.faces), TYNDALL_GET(o.primitives),
+             TYNDALL_GET(o.objs), TYNDALL_GET(o.m_list), TYNDALL_GET(o.m_hittables));
     using M = std::decay_t<decltype(member)>;
     std::vector<const shape*> parts;
     if constexpr (TYNDALL_HAS(const T, o.list[0], int(o.list_size))) {
@@ -302,7 +313,8 @@ class world_text {
     if constexpr (TYNDALL_HAS(const T, pointer(o.left), pointer(o.right))) {
       if constexpr (leads_to<shape, decltype((o.left))>()) {
         std::vector<const shape*> parts;
-        for (const shape* one : {static_cast<const shape*>(pointer(o.left)), static_cast<const shape*>(pointer(o.right))})
+        for (const shape* one :
+             {static_cast<const shape*>(pointer(o.left)), static_cast<const shape*>(pointer(o.right))})
           if (one && (parts.empty() || parts[0] != one)) parts.push_back(one);
         return nearest_of(o, parts, at);
       }
@@ -332,14 +344,18 @@ class world_text {
   }
   template <class T>
   bool moved(const T& o, const placing& at) {
-    decltype(auto) member = pick(o, TYNDALL_GET(o.object), TYNDALL_GET(o.ptr), TYNDALL_GET(o.m_object), TYNDALL_GET(o.obj),
-                                 TYNDALL_GET(o.p), TYNDALL_GET(o.list_ptr), TYNDALL_GET(o.hittable), TYNDALL_GET(o.object_),
-                                 TYNDALL_GET(o.root), TYNDALL_GET(o.shape), TYNDALL_GET(o.child), TYNDALL_GET(o.inner));
+    decltype(auto) member =
+        pick(o, TYNDALL_GET(o.object), TYNDALL_GET(o.ptr), TYNDALL_GET(o.m_object), TYNDALL_GET(o.obj),
+             TYNDALL_GET(o.p), TYNDALL_GET(o.list_ptr), TYNDALL_GET(o.hittable), TYNDALL_GET(o.object_),
+             TYNDALL_GET(o.root), TYNDALL_GET(o.shape), TYNDALL_GET(o.child), TYNDALL_GET(o.inner));
     if constexpr (leads_to<shape, decltype((member))>()) {
       const shape* inner = pointer(member);
-      decltype(auto) offset = pick(o, TYNDALL_GET(o.offset), TYNDALL_GET(o.displacement), TYNDALL_GET(o.m_offset), TYNDALL_GET(o.offset_));
-      decltype(auto) sine = pick(o, TYNDALL_GET(double(o.sin_theta)), TYNDALL_GET(double(o.sinTheta)), TYNDALL_GET(double(o.m_sin_theta)));
-      decltype(auto) cosine = pick(o, TYNDALL_GET(double(o.cos_theta)), TYNDALL_GET(double(o.cosTheta)), TYNDALL_GET(double(o.m_cos_theta)));
+      decltype(auto) offset =
+          pick(o, TYNDALL_GET(o.offset), TYNDALL_GET(o.displacement), TYNDALL_GET(o.m_offset), TYNDALL_GET(o.offset_));
+      decltype(auto) sine = pick(o, TYNDALL_GET(double(o.sin_theta)), TYNDALL_GET(double(o.sinTheta)),
+                                 TYNDALL_GET(double(o.m_sin_theta)));
+      decltype(auto) cosine = pick(o, TYNDALL_GET(double(o.cos_theta)), TYNDALL_GET(double(o.cosTheta)),
+                                   TYNDALL_GET(double(o.m_cos_theta)));
       if constexpr (is_vector<decltype(offset)>) {
         return is_moved(o, inner, at, {to_vector(offset)});
       } else if constexpr (!is_absent<decltype(sine)> && !is_absent<decltype(cosine)>) {
@@ -358,7 +374,8 @@ class world_text {
     vector out(vector a) const { return turned(a, -sine) + by; }
     line in(const line& a) const { return {turned(a.from - by, sine), turned(a.to, sine)}; }
     std::string text() const {
-      if (sine != 0 || cosine != 1) return "{\"rotate_y\":" + number(std::atan2(sine, cosine) * 180 / 3.14159265358979323846) + "}";
+      if (sine != 0 || cosine != 1)
+        return "{\"rotate_y\":" + number(std::atan2(sine, cosine) * 180 / 3.14159265358979323846) + "}";
       return length(by) > 0 ? "{\"translate\":" + triple(by) + "}" : "";
     }
   };
@@ -398,9 +415,11 @@ class world_text {
   template <class T>
   bool medium(const T& o, const placing& at) {
     decltype(auto) member = pick(o, TYNDALL_GET(o.boundary), TYNDALL_GET(o.m_boundary), TYNDALL_GET(o.boundary_));
-    decltype(auto) phase = pick(o, TYNDALL_GET(o.phase_function), TYNDALL_GET(o.m_phase_function), TYNDALL_GET(o.phaseFunction), TYNDALL_GET(o.phase));
-    decltype(auto) free = pick(o, TYNDALL_GET(-1 / double(o.neg_inv_density)), TYNDALL_GET(-1 / double(o.negInvDensity)),
-                               TYNDALL_GET(-1 / double(o.m_neg_inv_density)), TYNDALL_GET(double(o.density)));
+    decltype(auto) phase = pick(o, TYNDALL_GET(o.phase_function), TYNDALL_GET(o.m_phase_function),
+                                TYNDALL_GET(o.phaseFunction), TYNDALL_GET(o.phase));
+    decltype(auto) free =
+        pick(o, TYNDALL_GET(-1 / double(o.neg_inv_density)), TYNDALL_GET(-1 / double(o.negInvDensity)),
+             TYNDALL_GET(-1 / double(o.m_neg_inv_density)), TYNDALL_GET(double(o.density)));
     if constexpr (leads_to<shape, decltype((member))>() && leads_to<typename N::material, decltype((phase))>() &&
                   !is_absent<decltype(free)>) {
       take_fog(o, *pointer(member), *pointer(phase), free, at);
@@ -408,38 +427,46 @@ class world_text {
     }
     return false;
   }
-  void take_fog(const shape& o, const shape& boundary, const typename N::material& phase, double density, const placing& at) {
+  void take_fog(const shape& o, const shape& boundary, const typename N::material& phase, double density,
+                const placing& at) {
     if (at.boundary) refuse(o, "fog within fog");
     placing inside = at;
     inside.boundary = true;
     const std::size_t begin = out_.objects.size();
     add(&boundary, inside);
-    if (out_.objects.size() != begin + 1 || !pieces_.back().can_be_filled) refuse(o, "Tyndall's fog fills one sphere or one box");
+    if (out_.objects.size() != begin + 1 || !pieces_.back().can_be_filled)
+      refuse(o, "Tyndall's fog fills one sphere or one box");
     const std::string text = out_.objects.back();
     const line seed = aimed(begin);
     const piece filled = pieces_.back();
     drop(begin);
     check_density(o, boundary, density, seed);
-    out_.objects.push_back("{\"type\":\"medium\",\"boundary\":" + text + ",\"density\":" + number(density) + ",\"albedo\":" + fog_colour<N>(out_, phase) + "}");
+    out_.objects.push_back("{\"type\":\"medium\",\"boundary\":" + text + ",\"density\":" + number(density) +
+                           ",\"albedo\":" + fog_colour<N>(out_, phase) + "}");
     pieces_.push_back({filled.centre, filled.size, "", "", false, false, {}, {}, {}});
     has_media_ = true;
   }
   /// Counts how often rays pass the fog.
   void check_density(const shape& o, const shape& boundary, double density, const line& seed) {
     const vector to = unit(seed.to);
-    const answer<N> in = shoot<N>(boundary, seed.from, to, 0, -1e9), out = shoot<N>(boundary, seed.from, to, 0, in.t + 1e-4);
+    const answer<N> in = shoot<N>(boundary, seed.from, to, 0, -1e9),
+                    out = shoot<N>(boundary, seed.from, to, 0, in.t + 1e-4);
     if (!in.found || !out.found) return;
     constexpr int rounds = 4000;
     int passed = 0;
     for (int k = 0; k < rounds; ++k) passed += shoot<N>(o, seed.from, to).found ? 0 : 1;
     const double expected = rounds * std::exp(-density * (out.t - in.t));
-    if (std::fabs(passed - expected) > 5 * std::sqrt(expected + 1) + 3) refuse(o, "it is denser or thinner than the books' fog");
+    if (std::fabs(passed - expected) > 5 * std::sqrt(expected + 1) + 3)
+      refuse(o, "it is denser or thinner than the books' fog");
   }
 
   // Text ------------------------------------------------------------------------------------------------------------
 
-  static std::string moves_of(const std::string& moves) { return moves.empty() ? "" : ",\"transform\":[" + moves + "]"; }
-  void push(const std::string& body, const shape& o, const typename N::material* material, const placing& at, piece its) {
+  static std::string moves_of(const std::string& moves) {
+    return moves.empty() ? "" : ",\"transform\":[" + moves + "]";
+  }
+  void push(const std::string& body, const shape& o, const typename N::material* material, const placing& at,
+            piece its) {
     if (!at.boundary && !material) refuse(o, "it has no material: there is no light to trace in this chapter");
     its.material = at.boundary ? "" : ",\"material\":" + material_name<N>(out_, *material);
     its.moves = at.moves;
@@ -450,7 +477,8 @@ class world_text {
   /// A ray near one of the objects from that one on, if there are any.
   line aimed(std::size_t begin) {
     const std::size_t count = pieces_.size() - begin;
-    const piece one = count > 0 ? pieces_[begin + static_cast<std::size_t>(random_.next() * static_cast<double>(count))] : piece{};
+    const piece one =
+        count > 0 ? pieces_[begin + static_cast<std::size_t>(random_.next() * static_cast<double>(count))] : piece{};
     const vector at = one.centre + (random_.between(0, 0.7) * one.size) * random_.on_sphere();
     const vector from = one.centre + (random_.between(1.5, 6) * one.size) * random_.on_sphere();
     return {from, at - from};
@@ -472,7 +500,8 @@ class world_text {
       const piece& one = pieces_[k];
       if (!one.is_quad || one.material != pieces_[begin].material) return;
       const vector a = one.q, b = one.q + one.u + one.v, size = high - low;
-      const double at[3] = {a.x, a.y, a.z}, to[3] = {b.x, b.y, b.z}, lows[3] = {low.x, low.y, low.z}, sizes[3] = {size.x, size.y, size.z};
+      const double at[3] = {a.x, a.y, a.z}, to[3] = {b.x, b.y, b.z}, lows[3] = {low.x, low.y, low.z},
+                   sizes[3] = {size.x, size.y, size.z};
       int flat = -1, whole = 0;
       for (int axis = 0; axis < 3; ++axis) {
         if (near(at[axis], to[axis], 1e-9)) flat = axis;
@@ -484,8 +513,10 @@ class world_text {
     if (sides != 63) return;
     const piece first = pieces_[begin];
     drop(begin);
-    out_.objects.push_back("{\"type\":\"box\",\"min\":" + triple(low) + ",\"max\":" + triple(high) + first.material + moves_of(first.moves) + "}");
-    pieces_.push_back({0.5 * (low + high), 0.5 * length(high - low), first.material, first.moves, false, true, {}, {}, {}});
+    out_.objects.push_back("{\"type\":\"box\",\"min\":" + triple(low) + ",\"max\":" + triple(high) + first.material +
+                           moves_of(first.moves) + "}");
+    pieces_.push_back(
+        {0.5 * (low + high), 0.5 * length(high - low), first.material, first.moves, false, true, {}, {}, {}});
   }
 
   scene_text& out_;

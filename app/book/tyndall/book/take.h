@@ -29,20 +29,26 @@ class light_text {
       const vector found = sky_at(from, to);
       if (!(largest(found - ((1 - a) * bottom + a * top)) <= rays::precision() * std::fmax(1, largest(top))))
         throw not_taken{"the sky of ray_color() is neither one colour nor a gradient from top to bottom"};
-      if (!(found.x >= 0 && found.y >= 0 && found.z >= 0)) throw not_taken{"the sky of ray_color() is darker than black"};
+      if (!(found.x >= 0 && found.y >= 0 && found.z >= 0))
+        throw not_taken{"the sky of ray_color() is darker than black"};
     };
     const vector eye = rays::origin(*static_cast<const ray*>(s_.ray_at(0.5 * s_.width, 0.5 * s_.height)));
     for (int k = 0; k < 20000; ++k) {  // what the camera sees
-      const ray& seen = *static_cast<const ray*>(s_.ray_at(random_.between(0, s_.width), random_.between(0, s_.height)));
+      const ray& seen =
+          *static_cast<const ray*>(s_.ray_at(random_.between(0, s_.width), random_.between(0, s_.height)));
       check(rays::origin(seen), rays::direction(seen));
     }
     constexpr int rows = 1024, columns = 2048;
     for (int row = 0; row < rows; ++row)
       for (int column = 0; column < columns; ++column) {
-        const double y = 1 - 2 * (row + 0.5) / rows, angle = 2 * half_turn * (column + 0.5) / columns, r = std::sqrt(1 - y * y);
-        check(column % 2 ? eye : vector{30.0 * row, -40, 7.0 * column}, (1 + column % 3) * vector{r * std::cos(angle), y, r * std::sin(angle)});
+        const double y = 1 - 2 * (row + 0.5) / rows, angle = 2 * half_turn * (column + 0.5) / columns,
+                     r = std::sqrt(1 - y * y);
+        check(column % 2 ? eye : vector{30.0 * row, -40, 7.0 * column},
+              (1 + column % 3) * vector{r * std::cos(angle), y, r * std::sin(angle)});
       }
-    return near(top, bottom, 1e-9) ? triple(top) : "{\"type\":\"gradient\",\"bottom\":" + triple(bottom) + ",\"top\":" + triple(top) + "}";
+    return near(top, bottom, 1e-9)
+               ? triple(top)
+               : "{\"type\":\"gradient\",\"bottom\":" + triple(bottom) + ",\"top\":" + triple(top) + "}";
   }
   /// The longest path, in scattering events; checks the arithmetic of one and of two hits.
   int events() {
@@ -54,7 +60,8 @@ class light_text {
       const vector sky = ask({scene_.matt});
       const vector to = second_;
       expect(product(scene_.albedo, sky_at({}, to)), sky, "one hit");
-      if (scene_.shining) expect(product(scene_.albedo, scene_.light), ask({scene_.matt, scene_.shining}), "a hit and a light");
+      if (scene_.shining)
+        expect(product(scene_.albedo, scene_.light), ask({scene_.matt, scene_.shining}), "a hit and a light");
     }
     constexpr std::size_t limit = 3000;
     std::size_t hits = 0;
@@ -66,7 +73,8 @@ class light_text {
   static vector product(vector a, vector b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
   void expect(vector wanted, vector found, const char* of) const {
     if (near(wanted, found, 100 * rays::precision())) return;
-    throw not_taken{"ray_color(): of " + std::string(of) + " it makes " + words(found) + ", the books' would make " + words(wanted)};
+    throw not_taken{"ray_color(): of " + std::string(of) + " it makes " + words(found) + ", the books' would make " +
+                    words(wanted)};
   }
   vector colour(vector from, vector to) {
     const ray asked = rays::make(from, to, 0.5);
@@ -95,8 +103,10 @@ class light_text {
   }
   void check_interval() {
     ask({});
-    if (low_ <= 0) throw not_taken{"ray_color() takes hits at t = 0, so that half of the light meets the surface that it leaves"};
-    if (low_ > 0.05 || high_ < 1e4) throw not_taken{"ray_color() looks for hits at t from " + number(low_) + " to " + number(high_) + " only"};
+    if (low_ <= 0)
+      throw not_taken{"ray_color() takes hits at t = 0, so that half of the light meets the surface that it leaves"};
+    if (low_ > 0.05 || high_ < 1e4)
+      throw not_taken{"ray_color() looks for hits at t from " + number(low_) + " to " + number(high_) + " only"};
   }
   static void fill(typename N::record& record, const void* material_asked) {
     record = make_record<N>({{0, 0, 0}});
@@ -127,10 +137,11 @@ std::string scene_of(const session& s, scene_text& out) {
   light_text<N> light(s, out);
   const std::string sky = light.sky();
   const int events = light.events();
-  std::string text = "{\"tyndall\":1,\"image\":{\"width\":" + std::to_string(s.width) + ",\"height\":" + std::to_string(s.height) + "},\n" + camera +
-                     ",\n\"background\":" + sky + ",\n\"render\":{\"spp\":" + std::to_string(larger(s.samples, 1)) +
-                     ",\"max_depth\":" + std::to_string(events) + "},\n\"textures\":{" + out.textures + "},\n\"materials\":{" + out.materials +
-                     "},\n\"objects\":[";
+  std::string text = "{\"tyndall\":1,\"image\":{\"width\":" + std::to_string(s.width) +
+                     ",\"height\":" + std::to_string(s.height) + "},\n" + camera + ",\n\"background\":" + sky +
+                     ",\n\"render\":{\"spp\":" + std::to_string(larger(s.samples, 1)) +
+                     ",\"max_depth\":" + std::to_string(events) + "},\n\"textures\":{" + out.textures +
+                     "},\n\"materials\":{" + out.materials + "},\n\"objects\":[";
   for (std::size_t k = 0; k < out.objects.size(); ++k) text += (k > 0 ? ",\n" : "\n") + out.objects[k];
   return text + "\n]}\n";
 }
@@ -144,7 +155,8 @@ void tell_scene(const session& s) {
     scene_text out;
     const std::string scene = scene_of<N>(s, out);
     for (const std::string& note : out.notes) tell('N', note);
-    tell('R', std::string(out.fuzz_on_sphere ? "sphere " : "") + (out.matt_in_ball ? "ball " : "") + (s.less ? "frame " : "") + (out.has_noise ? "noise " : ""));
+    tell('R', std::string(out.fuzz_on_sphere ? "sphere " : "") + (out.matt_in_ball ? "ball " : "") +
+                  (s.less ? "frame " : "") + (out.has_noise ? "noise " : ""));
     return tell('S', scene);
   } catch (const not_taken& why) {
     reason = why.reason;

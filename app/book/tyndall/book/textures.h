@@ -69,7 +69,8 @@ class texture_text {
       double sum = 0;
       for (const double a : q) edge = edge || std::fabs(a - std::round(a)) < 1e-3, sum += std::floor(a);
       const std::string its = triple(value(0.5, 0.5, p));
-      if (!edge && its != (std::fmod(std::fabs(sum), 2) < 0.5 ? even : odd)) refuse(t_, "its squares are not those of the books");
+      if (!edge && its != (std::fmod(std::fabs(sum), 2) < 0.5 ? even : odd))
+        refuse(t_, "its squares are not those of the books");
     }
     return "{\"type\":\"checker\",\"scale\":" + number(scale) + ",\"even\":" + even + ",\"odd\":" + odd + "}";
   }
@@ -77,7 +78,8 @@ class texture_text {
   template <class T>
   std::string noise(const T& o) {
     double scale = 1, sum = 0, squares = 0;
-    decltype(auto) member = pick(o, TYNDALL_GET(double(o.scale)), TYNDALL_GET(double(o.m_scale)), TYNDALL_GET(double(o.scale_)));
+    decltype(auto) member =
+        pick(o, TYNDALL_GET(double(o.scale)), TYNDALL_GET(double(o.m_scale)), TYNDALL_GET(double(o.scale_)));
     if constexpr (!is_absent<decltype(member)>) scale = member;
     constexpr int rounds = 6000;
     for (int k = 0; k < rounds; ++k) {
@@ -87,10 +89,11 @@ class texture_text {
       sum += one.x, squares += one.x * one.x;
     }
     const double mean = sum / rounds, spread = std::sqrt(squares / rounds - mean * mean);
-    const bool marble = spread > 0.27 && spread < 0.39, plain = spread > 0.06 && spread < 0.2;
+    const bool marble = spread > 0.27 && spread<0.39, plain = spread> 0.06 && spread < 0.2;
     if (std::fabs(mean - 0.5) > 0.06 || !(marble || plain)) refuse(t_, "no such texture in Tyndall");
     out_.has_noise = true;
-    return std::string("{\"type\":\"noise\",\"style\":\"") + (marble ? "marble" : "perlin") + "\",\"scale\":" + number(scale) + "}";
+    return std::string("{\"type\":\"noise\",\"style\":\"") + (marble ? "marble" : "perlin") +
+           "\",\"scale\":" + number(scale) + "}";
   }
 
   scene_text& out_;

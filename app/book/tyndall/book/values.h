@@ -26,9 +26,12 @@ constexpr bool can(F) {
 #define TYNDALL_GET(...) [](auto& o) -> decltype((__VA_ARGS__)) { return __VA_ARGS__; }
 
 struct absent {};
-/// In the place of a class that the reader's program does not have.
-struct absent_class {
-  virtual ~absent_class() = default;
+/// In the place of classes that the reader's program does not have.
+struct absent_material {
+  virtual ~absent_material() = default;
+};
+struct absent_texture {
+  virtual ~absent_texture() = default;
 };
 
 /// What the first of the readers that can be compiled reads; absent: none can.
@@ -88,14 +91,13 @@ vector to_vector(const T& a) {
     return x(a.r, a.g, a.b);
 }
 template <class T>
-constexpr bool is_vector = !is_absent<T> && !std::is_arithmetic<std::decay_t<T>>::value &&
-                           !std::is_pointer<std::decay_t<T>>::value &&
-                           (TYNDALL_HAS(const std::decay_t<T>, double(o.x()), double(o.z())) ||
-                            TYNDALL_HAS(const std::decay_t<T>, double(o.x), double(o.z)) ||
-                            TYNDALL_HAS(const std::decay_t<T>, double(o[2])) ||
-                            TYNDALL_HAS(const std::decay_t<T>, double(o.e[2])) ||
-                            TYNDALL_HAS(const std::decay_t<T>, double(o.r()), double(o.b())) ||
-                            TYNDALL_HAS(const std::decay_t<T>, double(o.r), double(o.b)));
+constexpr bool is_vector =
+    !is_absent<T> && !std::is_arithmetic<std::decay_t<T>>::value && !std::is_pointer<std::decay_t<T>>::value &&
+    (TYNDALL_HAS(const std::decay_t<T>, double(o.x()), double(o.z())) ||
+     TYNDALL_HAS(const std::decay_t<T>, double(o.x), double(o.z)) || TYNDALL_HAS(const std::decay_t<T>, double(o[2])) ||
+     TYNDALL_HAS(const std::decay_t<T>, double(o.e[2])) ||
+     TYNDALL_HAS(const std::decay_t<T>, double(o.r()), double(o.b())) ||
+     TYNDALL_HAS(const std::decay_t<T>, double(o.r), double(o.b)));
 
 /// What a pointer of any kind points to; an object is taken for itself.
 template <class P>
@@ -122,7 +124,8 @@ struct ray_traits {
   template <class T>
   static decltype(auto) direction_of(T& ray) {
     return pick(ray, TYNDALL_GET(o.direction()), TYNDALL_GET(o.dir), TYNDALL_GET(o.direction), TYNDALL_GET(o.B),
-                TYNDALL_GET(o.getDirection()), TYNDALL_GET(o.Direction()), TYNDALL_GET(o.d), TYNDALL_GET(o.m_direction));
+                TYNDALL_GET(o.getDirection()), TYNDALL_GET(o.Direction()), TYNDALL_GET(o.d),
+                TYNDALL_GET(o.m_direction));
   }
   template <class T>
   static decltype(auto) origin_of(T& ray) {
@@ -136,8 +139,8 @@ struct ray_traits {
   static vector origin(const R& ray) { return to_vector(origin_of(ray)); }
   static vector direction(const R& ray) { return to_vector(direction_of(ray)); }
   static double time(const R& ray) {
-    decltype(auto) time = pick(ray, TYNDALL_GET(double(o.time())), TYNDALL_GET(double(o.tm)), TYNDALL_GET(double(o._time)),
-                               TYNDALL_GET(double(o.time)));
+    decltype(auto) time = pick(ray, TYNDALL_GET(double(o.time())), TYNDALL_GET(double(o.tm)),
+                               TYNDALL_GET(double(o._time)), TYNDALL_GET(double(o.time)));
     if constexpr (is_absent<decltype(time)>)
       return 0;
     else
@@ -150,12 +153,13 @@ struct ray_traits {
       return part{decltype(part().x)(a.x), decltype(part().x)(a.y), decltype(part().x)(a.z)};
   }
   static R make(vector from, vector to, double time) {
-    if constexpr (std::is_constructible<R, part, part, double>::value)
-      return R(make_vector(from), make_vector(to), time);
-    else if constexpr (std::is_constructible<R, part, part>::value)
-      return R(make_vector(from), make_vector(to));
+    part a = make_vector(from), b = make_vector(to);
+    if constexpr (std::is_constructible<R, part&, part&, double>::value)
+      return R(a, b, time);
+    else if constexpr (std::is_constructible<R, part&, part&>::value)
+      return R(a, b);
     else
-      return R{make_vector(from), make_vector(to)};
+      return R{a, b};
   }
   /// What two computations of the same number may differ by.
   static double precision() {
