@@ -175,7 +175,9 @@ class Compilation {
     if (end.succeeded())      // a guard may refuse linkers that
       fs::permissions(task_.folder / "program", fs::perms::owner_exec, fs::perm_options::add, ignored);
     const std::string error = end.succeeded() ? "" : first_error(end.errors, main_);
-    is_in_ours_ = error.find("tyndall/book/") != std::string::npos || error.rfind(headers_.string(), 0) == 0;
+    const std::size_t first = end.errors.rfind('\n', end.errors.find("error: "));
+    const std::string place = end.errors.substr(first == std::string::npos ? 0 : first + 1);
+    is_in_ours_ = place.rfind(headers_.string(), 0) == 0 || place.rfind("tyndall/book/", 0) == 0;
     return all_printable(error);
   }
   ChildEnd call(const std::vector<std::string>& more) const {

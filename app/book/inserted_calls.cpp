@@ -26,7 +26,6 @@ bool is_real(const Parameter& parameter) {
 struct Roles {
   std::string shape, ray, record, material, texture;  ///< names of classes; "": there is none
   const Function *hit = nullptr, *scatter = nullptr, *emitted = nullptr, *value = nullptr;
-  std::string colour;  ///< the type of scatter()'s colour
 };
 
 class Inserter {
@@ -37,12 +36,13 @@ class Inserter {
     find_roles();
     if (roles_.ray.empty()) return {"", "has no function hit() of a class of shapes, which rays could be asked for"};
     for (const Function& function : outline_.functions)
+      if (!function.body.empty() && is_camera(function)) hook_camera(function);
+    for (const Function& function : outline_.functions)
       if (!function.body.empty()) hook(function);
     if (!has_colour_)
       for (const Function& function : outline_.functions)
         if (!function.body.empty()) hook_without_world(function);
     if (!has_colour_) return {"", "has no function that computes the colour of a ray in a world"};
-    if (!has_camera_) return {"", "has no get_ray(): no function of its camera makes a ray for a place in the picture"};
     for (const PictureHead& head : outline_.heads) hook_head(head);
     return {
         with_insertions() +
@@ -118,14 +118,18 @@ class Inserter {
     const std::string owner = owner_of(function);
     if (function.result.empty() && outline_.is_derived(owner, roles_.texture) && !function.parameters.empty())
       insert(function.body.data() + 1, " ::tyndall_book::texture_made(this);");
-    const bool of_things =
-        outline_.is_derived(owner, roles_.shape) || outline_.is_derived(owner, roles_.material) || owner == roles_.ray;
-    if (of_things || function.result.empty()) return;
-    if (is_camera(function)) return hook_camera(function);
+    if (is_of_things(function) || function.result.empty()) return;
+    if (is_camera(function)) return;
     const Parameter* world = world_of(function);
     if (world) hook_colour(function, world->name, world->name, true);
   }
+  bool is_of_things(const Function& function) const {
+    const std::string owner = owner_of(function);
+    return outline_.is_derived(owner, roles_.shape) || outline_.is_derived(owner, roles_.material) ||
+           owner == roles_.ray;
+  }
   bool is_camera(const Function& function) const {
+    if (is_of_things(function)) return false;
     if (key_of(function.name).find("ray") == std::string::npos || function.parameters.size() < 2) return false;
     const std::string result = function.result.substr(function.result.rfind(' ') + 1);
     if (result != roles_.ray && !result.ends_with(":" + roles_.ray)) return false;
@@ -163,7 +167,6 @@ class Inserter {
   /// given: the parameter that is the world, else "".
   void hook_colour(const Function& function, const std::string& world, const std::string& given, bool is_given) {
     has_colour_ = true;
-    if (roles_.colour.empty()) roles_.colour = function.result;
     std::string call = function.name + "(", ray, depth = "0";
     for (const Parameter& parameter : function.parameters) {
       std::string argument = parameter.name;
@@ -176,21 +179,20 @@ class Inserter {
       call += (call.back() == '(' ? "" : ", ") + argument;
     }
     insert(function.body.data() + 1, " if (::tyndall_book::is_watching()) return ::tyndall_book::colour_wanted<" +
-                                         qualified(roles_.shape) + ", " + (is_given ? "true" : "false") +
+                                         qualified(roles_.shape) + ", " + (is_given ? "true, " : "false, ") +
+                                         (has_camera_ ? "true" : "false") +
                                          ">([&](const auto& tyndall_ray, auto& tyndall_world, int) -> " +
                                          function.result + " { (void)tyndall_world; return " + call + "); }, " + ray +
                                          ", " + world + ", static_cast<int>(" + depth + "));");
   }
   /// A function of a ray alone, whose world is a member or a global object that it asks for hits.
   void hook_without_world(const Function& function) {
-    const bool of_things = outline_.is_derived(owner_of(function), roles_.shape) ||
-                           outline_.is_derived(owner_of(function), roles_.material);
     bool has_ray = false;
     for (const Parameter& parameter : function.parameters) {
       if (parameter.name.empty() || parameter.names(roles_.record)) return;
       has_ray = has_ray || parameter.names(roles_.ray);
     }
-    if (!has_ray || !is_colour(function) || of_things) return;
+    if (!has_ray || !is_colour(function) || is_of_things(function)) return;
     for (const std::string dot : {".", "->"}) {
       const std::string call = dot + roles_.hit->name;
       const std::size_t at = function.body.find(call + "(");
@@ -259,36 +261,37 @@ class Inserter {
                                           : qualified(parameter.identifiers.back()) + "(low, high)";
       arguments += (arguments.empty() ? "" : ", ") + argument;
     }
-    return "return o." + roles_.hit->name + "(" + arguments + ");";
+    return "return const_cast<shape&>(o)." + roles_.hit->name + "(" + arguments + ");";
   }
+  /// scatter() answers by a colour and a ray, by a colour and a direction, or by a record of its own.
   std::string scatter_call(bool& has_densities) const {
     if (!roles_.scatter) return "return {};";
-    std::string arguments, others, type = roles_.colour;
-    bool has_out = false;
-    for (const Parameter& parameter : roles_.scatter->parameters)
-      has_out = has_out || (parameter.names(roles_.ray) && !parameter.constant && parameter.reference);
+    std::vector<std::string> others;  // types of what it sets besides a ray
+    std::string arguments, begin, end = "read_record<names>(part, one); ";
     for (const Parameter& parameter : roles_.scatter->parameters) {
-      std::string argument = "part";
-      const std::string& last = parameter.identifiers.empty() ? parameter.type : parameter.identifiers.back();
-      if (parameter.names(roles_.record))
+      const std::string last = parameter.identifiers.empty() ? parameter.type : qualified(parameter.identifiers.back());
+      std::string argument = others.empty() ? "part" : "to";
+      if (parameter.names(roles_.record)) {
         argument = "record";
-      else if (parameter.names(roles_.ray))
-        argument = parameter.constant || !parameter.reference ? "in" : "out";
-      else if (is_real(parameter))
-        argument = "density", others = last + " density{}; ", has_densities = true;
-      else if (has_out)
-        type = class_named(last) ? qualified(last) : last;
-      else
-        argument = "all", others = qualified(last) + " all{}; ", has_densities = true;
+      } else if (parameter.names(roles_.ray) && (parameter.constant || !parameter.reference)) {
+        argument = "in";
+      } else if (parameter.names(roles_.ray)) {
+        argument = "out";
+        end =
+            "one.part = to_vector(part), one.to = ray_traits<ray>::direction(out), one.time = "
+            "ray_traits<ray>::time(out); ";
+      } else if (is_real(parameter)) {
+        argument = "density", begin += last + " density{}; ", has_densities = true;
+      } else {
+        begin += last + " " + argument + "{}; ";
+        others.push_back(last);
+      }
       arguments += (arguments.empty() ? "" : ", ") + argument;
     }
-    const bool has_all = others.find(" all{}") != std::string::npos;
-    return type + " part{}; ray out = in; " + others + "scattered one; one.does = m." + roles_.scatter->name + "(" +
-           arguments + "); " +
-           (has_all ? "read_record<names>(all, one); "
-                    : "one.part = to_vector(part), one.to = ray_traits<ray>::direction(out), one.time = "
-                      "ray_traits<ray>::time(out); ") +
-           "return one;";
+    if (others.size() == 2) end = "one.part = to_vector(part), one.to = to_vector(to); ";
+    if (end[0] == 'r') has_densities = true;
+    return "ray out = in; " + begin + "scattered one; one.does = const_cast<material&>(m)." + roles_.scatter->name +
+           "(" + arguments + "); " + end + "return one;";
   }
   std::string value_call(const Function& function, const std::string& object) const {
     std::string arguments;
@@ -300,7 +303,7 @@ class Inserter {
                                                                     : "p";
       arguments += (arguments.empty() ? "" : ", ") + argument;
     }
-    return "return to_vector(" + object + "." + function.name + "(" + arguments + "));";
+    return "return to_vector(const_cast<" + object + "." + function.name + "(" + arguments + "));";
   }
   std::string with_class(const std::string& root, const char* type) const {
     std::string text =
@@ -312,7 +315,8 @@ class Inserter {
     return text + "    refuse(o, \"no such class in Tyndall\");\n  }\n";
   }
   std::string tail() const {
-    const std::string material = roles_.material.empty() ? "::tyndall_book::absent_material" : qualified(roles_.material),
+    const std::string material =
+                          roles_.material.empty() ? "::tyndall_book::absent_material" : qualified(roles_.material),
                       texture = roles_.texture.empty() ? "::tyndall_book::absent_texture" : qualified(roles_.texture);
     bool has_densities = false;
     const std::string scatter = scatter_call(has_densities);
@@ -329,12 +333,12 @@ class Inserter {
            scatter +
            " }\n  template <class P> static vector emitted(const material& m, const ray& in, record& record, double u, "
            "double v, const P& p) { (void)m, (void)in, (void)record, (void)u, (void)v, (void)p; " +
-           (roles_.emitted ? value_call(*roles_.emitted, "m") : "return {};") +
+           (roles_.emitted ? value_call(*roles_.emitted, "material&>(m)") : "return {};") +
            " }\n  template <class P> static vector value(const texture& t, double u, double v, const P& p) { (void)t, "
            "(void)u, (void)v, (void)p; " +
-           (roles_.value ? value_call(*roles_.value, "t") : "return {};") + " }\n" + with_class(roles_.shape, "shape") +
-           with_class(roles_.material, "material") + with_class(roles_.texture, "texture") +
-           "};\nvoid take_over(session& s) { take_over_world<names>(s); }\n}\n";
+           (roles_.value ? value_call(*roles_.value, "texture&>(t)") : "return {};") + " }\n" +
+           with_class(roles_.shape, "shape") + with_class(roles_.material, "material") +
+           with_class(roles_.texture, "texture") + "};\nvoid take_over(session& s) { take_over_world<names>(s); }\n}\n";
   }
 
   const std::string& text_;

@@ -157,7 +157,11 @@ class hittable_list : public hittable {
 };
 class sphere : public hittable {
  public:
+#if EDITION == 4
+  sphere(const point3& c, double r, pointer<material> m) : sphere(c, c, r, m) {}
+#else
   sphere(const point3& c, double r, pointer<material> m) : center(c), radius(r), mat(m) {}
+#endif
   bool hit(const ray& r, RANGE, hit_record& rec) const override {
     const vec3 from = r.origin() - centre_at(r.time());
     const double a = dot(r.direction(), r.direction()), b = dot(from, r.direction()), d = b * b - a * (dot(from, from) - radius * radius);
@@ -172,7 +176,7 @@ class sphere : public hittable {
 #if EDITION == 4
   sphere(const point3& c, const point3& c2, double r, pointer<material> m) : center(c, c2 - c), radius(r), mat(m) {}
   point3 centre_at(double time) const { return center.at(time); }
-  ray center{point3(), vec3()};
+  ray center;
 #else
   virtual point3 centre_at(double) const { return center; }
   point3 center;

@@ -47,6 +47,7 @@ struct ray_source {
   const void* (*make)(double, double) = nullptr;  ///< his ray for the arguments
   camera_values (*read)() = nullptr;
   double (*aspect)() = nullptr;  ///< width over height of what it sees, of one whose arguments are parts
+  bool by_places = false;        ///< the arguments are those of session::ray_at()
   bool by_pixels = false;        ///< the arguments are a column and a row, not parts of the picture's sides
   double first = 0, second = 0;  ///< the last arguments
 };
@@ -79,6 +80,7 @@ struct session {
 
   /// A ray through the point, in pixels from the upper left corner.
   const void* ray_at(double x, double y) const {
+    if (rays.by_places) return rays.make(x, y);
     if (rays.by_pixels) return rays.make(std::fmin(x, width - 1), std::fmin(y, height - 1));
     return rays.make(x / (width - less), (from_top ? y : height - y) / (height - less));
   }
@@ -197,6 +199,57 @@ void ray_wanted(const C& camera, F call, A first, B second) {
   };
 }
 
+/// Rays that the reader's loop makes itself, without a get_ray(): from those of two rows of its picture it is told how
+/// their directions grow with column and row.
+template <class R>
+class row_watcher {
+ public:
+  /// Whether all is known; called for each ray of the loop.
+  static bool knows(session& s, const R& ray) {
+    using rays = ray_traits<R>;
+    static std::vector<vector> seen;
+    static std::size_t row = 0;
+    const picture_head& head = picture_head::get();
+    if (head.width < 2 || head.height < 2) throw not_taken{"the size of the picture is not known, or a get_ray()"};
+    seen.push_back(rays::direction(ray));
+    const std::size_t count = seen.size(), width = static_cast<std::size_t>(head.width);
+    if (row == 0 && count > width && length(seen[count - 1] - seen[0]) < 0.5 * length(seen[count - 2] - seen[0]))
+      row = count - 1;
+    if (row == 0 || count < 2 * row) return false;
+    if (row % width != 0) throw not_taken{"its loop does not go through the picture row by row"};
+    vector rows[2], ends[2];
+    for (std::size_t k = 0; k < 2 * row; ++k) rows[k / row] = rows[k / row] + (1.0 / double(row)) * seen[k];
+    for (std::size_t k = 0; k < row; ++k) ends[2 * k / row] = ends[2 * k / row] + (2.0 / double(row)) * seen[k];
+    s.width = head.width, s.height = head.height, s.samples = static_cast<int>(row / width);
+    origin() = rays::origin(ray), right() = (2.0 / s.width) * (ends[1] - ends[0]), down() = rows[1] - rows[0];
+    corner() = rows[0] - (0.5 * s.width) * right() - 0.5 * down();
+    s.rays.by_places = true;
+    s.rays.make = [](double x, double y) -> const void* {
+      alignas(R) static unsigned char memory[sizeof(R)];
+      return new (memory) R(rays::make(origin(), corner() + x * right() + y * down(), 0));
+    };
+    return true;
+  }
+
+ private:
+  static vector& origin() {
+    static vector v;
+    return v;
+  }
+  static vector& corner() {
+    static vector v;
+    return v;
+  }
+  static vector& right() {
+    static vector v;
+    return v;
+  }
+  static vector& down() {
+    static vector v;
+    return v;
+  }
+};
+
 /// A world for a reader's function that takes one of class W: his list of one shape, or the shape itself.
 template <class Shape, class W, class F>
 vector with_world(Shape* shape, const F& ask) {
@@ -226,21 +279,21 @@ vector with_world(Shape* shape, const F& ask) {
 }
 
 /// Inserted into the function that computes the colour of a ray in a world, in place of what it does. ask: calls it.
-/// is_given: the world is an argument, so that another one can be asked.
-template <class Shape, bool is_given, class F, class R, class W>
+/// is_given: the world is an argument, so that another one can be asked; has_camera: there is a get_ray().
+template <class Shape, bool is_given, bool has_camera, class F, class R, class W>
 auto colour_wanted(F ask, R& ray, W& world, int depth) -> decltype(ask(ray, world, depth)) {
   using colour = decltype(ask(ray, world, depth));
   const one_thread only;
   watcher& w = watcher::get();
   session s;
-  if (!w.rays.make) {  // no camera yet: a test of the reader's
+  if (has_camera && !w.rays.make) {  // no camera yet: a test of the reader's
     is_asked_by_us = true;
     colour made = ask(ray, world, depth);
     is_asked_by_us = false;
     return made;
   }
   try {
-    if (!w.knows(s)) return colour{};
+    if (has_camera ? !w.knows(s) : !row_watcher<std::remove_const_t<R>>::knows(s, ray)) return colour{};
   } catch (const not_taken& why) {
     tell('E', why.reason);
     std::_Exit(0);

@@ -52,7 +52,8 @@ constexpr bool turns_normals() {
 template <class N, class R>
 void read_record(R& all, scattered& one) {
   using rays = ray_traits<typename N::ray>;
-  one.part = to_vector(pick(all, TYNDALL_GET(o.attenuation), TYNDALL_GET(o.albedo)));
+  decltype(auto) part = pick(all, TYNDALL_GET(o.attenuation), TYNDALL_GET(o.albedo));
+  if constexpr (is_vector<decltype(part)>) one.part = to_vector(part);
   decltype(auto) specular = pick(all, TYNDALL_GET(bool(o.skip_pdf)), TYNDALL_GET(bool(o.is_specular)));
   decltype(auto) ray = pick(all, TYNDALL_GET(o.skip_pdf_ray), TYNDALL_GET(o.specular_ray));
   if constexpr (!is_absent<decltype(specular)> && !is_absent<decltype(ray)>)
@@ -123,7 +124,8 @@ class material_text {
       if (!one.does) continue;
       same = same && near(unit(one.to), unit(first.to), 1e-4);
     }
-    const bool refracts = unit(ask({}, steep).to).y < 0 || unit(ask({}, steep).to).y < 0 || unit(ask({}, steep).to).y < 0;
+    const bool refracts =
+        unit(ask({}, steep).to).y < 0 || unit(ask({}, steep).to).y < 0 || unit(ask({}, steep).to).y < 0;
     if (refracts && absorbed == 0) return glass();
     if (absorbed == all.size()) return "{\"type\":\"lambertian\",\"albedo\":[0,0,0]}";
     if (same && near(unit(first.to), mirror(slanted), 1e-3)) return metal(0);
