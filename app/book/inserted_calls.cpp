@@ -305,6 +305,12 @@ class Inserter {
     }
     return "return to_vector(const_cast<" + object + "." + function.name + "(" + arguments + "));";
   }
+  /// Whether it lets its library decode images.
+  bool reads_linear_images() const {
+    return std::any_of(outline_.functions.begin(), outline_.functions.end(), [](const Function& function) {
+      return !begins_with(function.name, "stbi") && function.body.find("stbi_loadf") != std::string_view::npos;
+    });
+  }
   std::string with_class(const std::string& root, const char* type) const {
     std::string text =
         std::string("  template <class F> static void with_class(const ") + type + "& o, F&& f) {\n    (void)f;\n";
@@ -325,7 +331,9 @@ class Inserter {
            "; using ray = " + qualified(roles_.ray) + "; using record = " + qualified(roles_.record) +
            "; using material = " + material + "; using texture = " + texture + ";\n  using probe = " +
            (class_named(roles_.shape)->space.empty() ? "::" : "::" + class_named(roles_.shape)->space + "::") +
-           "tyndall_probe;\n  static constexpr bool has_densities = " + (has_densities ? "true" : "false") +
+           "tyndall_probe;\n  static constexpr bool reads_linear_images = " +
+           (reads_linear_images() ? "true" : "false") +
+           ";\n  static constexpr bool has_densities = " + (has_densities ? "true" : "false") +
            ";\n  static bool hit(const shape& o, const ray& r, double low, double high, record& record) { " +
            hit_call() +
            " }\n  static scattered scatter(const material& m, const ray& in, record& record) { (void)m, (void)in, "

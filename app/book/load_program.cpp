@@ -85,6 +85,7 @@ bool read_messages(OwnProgram& own, const ProgramTask& task, ProgramScene& scene
       scene.fuzz_on_sphere = text.find("sphere") != std::string::npos;
       scene.matt_in_ball = text.find("ball") != std::string::npos;
       scene.short_frame = text.find("frame") != std::string::npos;
+      scene.has_images = text.find("image") != std::string::npos;
       scene.has_noise = text.find("noise") != std::string::npos;
     }
     if (message->kind == 'E') throw UsageError(task.name + ": " + text);

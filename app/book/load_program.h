@@ -34,6 +34,7 @@ struct ProgramScene {
   bool matt_in_ball = false;                 ///< its matt surfaces are those of the first edition
   bool short_frame = false;                  ///< it divides by width - 1 and height - 1
   bool has_noise = false;                    ///< it has textures of noise, whose lattice is its own
+  bool has_images = false;                   ///< it has textures of images, which it reads by a curve of its own
 };
 
 /// Compiles the program and runs it in its folder until it asks for the colour of its first ray; then its world is

@@ -49,14 +49,18 @@ LoadedScene load_program_scene(const SceneRequest& request, OwnSamples& own) {
     if (!request.program.told) complain(note);
   const std::filesystem::path file = request.what, folder = file.has_parent_path() ? file.parent_path() : ".";
   LoadedScene loaded;
-  if (made.json.empty()) {
-    own.take(made.own, request.what + ": " + made.reason);
+  std::string reason = made.reason;
+  if (!made.json.empty()) {
+    loaded = load_scene_text(made.json, request.what, folder, request.overrides);
+    loaded.scene = name_textures_from(folder, std::move(loaded.scene));
+    if (request.program.differs && request.overrides.empty()) reason = request.program.differs(loaded.scene, made);
+  }
+  if (!reason.empty()) {
+    own.take(made.own, request.what + ": " + reason);
+    loaded = LoadedScene{};
     loaded.name = request.what, loaded.folder = folder, loaded.is_picture = true;
     loaded.scene.width = made.width, loaded.scene.height = made.height, loaded.scene.render.spp = made.samples;
     loaded.scene.render.seed = own.taken();  // another program, another picture
-  } else {
-    loaded = load_scene_text(made.json, request.what, folder, request.overrides);
-    loaded.scene = name_textures_from(folder, std::move(loaded.scene));
   }
   loaded.sources = made.files;
   loaded.files.insert(loaded.files.begin(), made.files.begin(), made.files.end());

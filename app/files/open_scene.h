@@ -53,6 +53,8 @@ struct ProgramParts {
   std::string compiler{};       ///< see ProgramTask
   bool told = false;            ///< what is to be told of it was told before
   std::function<bool()> go_on;  ///< false gives up; empty: signals do, which a window watches itself
+  /// Says why a scene is not what its program computes; "": it is. May be empty.
+  std::function<std::string(const Scene&, const ProgramScene&)> differs;
 };
 
 /// A scene, and what options change in it.

@@ -51,8 +51,10 @@ expect 2 "$tyndall" convert early.cc -o refused.json
 grep -q 'no material' err || fail "early: $(cat err)"
 
 # Light that is added up in another way.
-sed 's/shine + part \* ray_color/shine + 0.5 * part * ray_color/' "$source_root/tests/book/headers/books.h" >books.h
-CPLUS_INCLUDE_PATH=
-not_taken darker 'of one hit it makes' <<<"$(world "${ball_of} grey)")"
+mkdir darker
+program darker/main <<<"$(world "${ball_of} grey)")"
+sed -i 's/shine + part \* ray_color/shine + 0.5 * part * ray_color/' darker/books.h
+expect 2 "$tyndall" convert darker/main.cc -o refused.json
+grep -q 'of one hit it makes' err || fail "darker: $(cat err)"
 
 finish

@@ -6,7 +6,7 @@ program glow <<<"struct glowing : metal {
   using metal::metal;
   color emitted(double, double, const point3&) const override { return color(0.25, 0, 0); } };
 int main() { hittable_list w; w.add(make_shared<sphere>(point3(0, 0, -1), 0.5, make_shared<glowing>(color(0.5, 0.5, 0.5), 0.0)));
-  $render c.background = color(0.125, 0.25, 0.5); c.vfov = 40; c.render(w); }"
+  $render c.background = color(0.125, 0.25, 0.5); c.render(w); }"
 
 expect 0 "$tyndall" render glow.cc --spp 8 -q -o glow.pfm
 complains 'glow.cc: glowing: it shines and scatters' 'these are your own samples'

@@ -11,8 +11,8 @@ agrees() {
 import json, math
 def plain(s):
     def unnamed(o):
-        o = {k: s["materials"][v] if k == "material" else s["textures"][v] if v in s.get("textures", {}) else v for k, v in o.items()} if isinstance(o, dict) else o
-        return {k: unnamed(v) for k, v in o.items()} if isinstance(o, dict) else o
+        if isinstance(o, dict): return {k: unnamed(s["materials"][v] if k == "material" else v) for k, v in o.items()}
+        return unnamed(s["textures"][o]) if isinstance(o, str) and o in s.get("textures", {}) else o
     c = s["camera"]
     eye, at = c["look_from"], c["look_at"]
     to = [b - a for a, b in zip(eye, at)]

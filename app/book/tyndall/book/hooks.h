@@ -286,19 +286,20 @@ auto colour_wanted(F ask, R& ray, W& world, int depth) -> decltype(ask(ray, worl
   const one_thread only;
   watcher& w = watcher::get();
   session s;
+  is_asked_by_us = true;
   if (has_camera && !w.rays.make) {  // no camera yet: a test of the reader's
-    is_asked_by_us = true;
     colour made = ask(ray, world, depth);
     is_asked_by_us = false;
     return made;
   }
   try {
-    if (has_camera ? !w.knows(s) : !row_watcher<std::remove_const_t<R>>::knows(s, ray)) return colour{};
+    const bool known = has_camera ? w.knows(s) : row_watcher<std::remove_const_t<R>>::knows(s, ray);
+    is_asked_by_us = known;
+    if (!known) return colour{};
   } catch (const not_taken& why) {
     tell('E', why.reason);
     std::_Exit(0);
   }
-  is_asked_by_us = true;
   static F* asked;
   static W* his;
   static int begin;

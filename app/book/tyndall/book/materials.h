@@ -17,16 +17,24 @@ struct scattered {
   double time = 0;
 };
 
+/// Whether a hit was from the side that the normal points to.
 template <class R>
-bool is_front(const R& record, vector to, vector normal) {
-  decltype(auto) front =
-      pick(record, TYNDALL_GET(bool(o.front_face)), TYNDALL_GET(bool(o.frontFace)), TYNDALL_GET(bool(o.is_front)),
-           TYNDALL_GET(bool(o.isFrontFace)), TYNDALL_GET(bool(o.front)), TYNDALL_GET(bool(o.m_front_face)));
+decltype(auto) front_member(R& record) {
+  return pick(record, TYNDALL_GET(o.front_face), TYNDALL_GET(o.frontFace), TYNDALL_GET(o.front_facing),
+              TYNDALL_GET(o.frontFacing), TYNDALL_GET(o.is_front), TYNDALL_GET(o.isFrontFace), TYNDALL_GET(o.isFront),
+              TYNDALL_GET(o.outside), TYNDALL_GET(o.m_front_face));
+}
+template <class R>
+bool is_front(R& record, vector to, vector normal) {
+  decltype(auto) front = front_member(record);
   if constexpr (is_absent<decltype(front)>)
     return dot(to, normal) < 0;
   else
     return front;
 }
+/// Whether normals in records are turned to the ray, as editions 2 to 4 have it.
+template <class R>
+constexpr bool turns_normals = !is_absent<decltype(front_member(std::declval<R&>()))>;
 template <class R>
 decltype(auto) material_member(R& record) {
   return pick(record, TYNDALL_GET(o.mat), TYNDALL_GET(o.mat_ptr), TYNDALL_GET(o.material), TYNDALL_GET(o.material_ptr),
@@ -41,12 +49,6 @@ const typename N::material* material_in(typename N::record& record) {
     return pointer(member);
   else
     return nullptr;
-}
-/// Whether normals in records are turned to the ray, as editions 2 to 4 have it.
-template <class R>
-constexpr bool turns_normals() {
-  return TYNDALL_HAS(R, bool(o.front_face)) || TYNDALL_HAS(R, bool(o.frontFace)) || TYNDALL_HAS(R, bool(o.is_front)) ||
-         TYNDALL_HAS(R, bool(o.isFrontFace)) || TYNDALL_HAS(R, bool(o.front)) || TYNDALL_HAS(R, bool(o.m_front_face));
 }
 /// What the third book's materials answer: a mirror's ray, or a density that directions are drawn from.
 template <class N, class R>
@@ -68,14 +70,12 @@ typename N::record make_record(const surface_point& at) {
   using rays = ray_traits<typename N::ray>;
   record.t = 1;
   record.p = rays::make_vector(at.p);
-  record.normal = rays::make_vector({0, at.front || !turns_normals<typename N::record>() ? 1.0 : -1.0, 0});
+  record.normal = rays::make_vector({0, at.front || !turns_normals<typename N::record> ? 1.0 : -1.0, 0});
   const auto set = [](auto&& member, auto value) {
     if constexpr (!is_absent<decltype(member)>) member = value;
   };
   set(pick(record, TYNDALL_GET(o.u)), at.u), set(pick(record, TYNDALL_GET(o.v)), at.v);
-  set(pick(record, TYNDALL_GET(o.front_face), TYNDALL_GET(o.frontFace), TYNDALL_GET(o.is_front),
-           TYNDALL_GET(o.isFrontFace), TYNDALL_GET(o.front), TYNDALL_GET(o.m_front_face)),
-      at.front);
+  set(front_member(record), at.front);
   return record;
 }
 

@@ -156,7 +156,7 @@ void tell_scene(const session& s) {
     const std::string scene = scene_of<N>(s, out);
     for (const std::string& note : out.notes) tell('N', note);
     tell('R', std::string(out.fuzz_on_sphere ? "sphere " : "") + (out.matt_in_ball ? "ball " : "") +
-                  (s.less ? "frame " : "") + (out.has_noise ? "noise " : ""));
+                  (s.less ? "frame " : "") + (out.has_noise ? "noise " : "") + (out.has_images ? "image " : ""));
     return tell('S', scene);
   } catch (const not_taken& why) {
     reason = why.reason;

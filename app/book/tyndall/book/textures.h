@@ -37,6 +37,8 @@ class texture_text {
     const auto file = files.of_object.find(dynamic_cast<const void*>(&t_));
     if (file == files.of_object.end()) refuse(t_, "no such texture in Tyndall");
     out_.has_images = true;
+    if (!N::reads_linear_images)
+      out_.note("its program takes the numbers of images as they are, Tyndall takes them as sRGB");
     return "{\"type\":\"image\",\"file\":" + quoted(file->second) + "}";
   }
   template <class T>
