@@ -192,7 +192,7 @@ void add_scene(CLI::App& app, SceneRequest& scene, const std::string& note) {
                                                     "scene file, built-in scene (see tyndall scenes), PNG or EXR made\n"
                                                     "by Tyndall, - for standard input, or MAIN.cc (.cpp, .cxx): a\n"
                                                     "program of \"Ray Tracing in One Weekend\", which is compiled and\n"
-                                                    "run (see tyndall book); its other source files may follow" +
+                                                    "run; its other source files may follow" +
                                                         note)
       ->option_text(" ")
       ->type_name("")

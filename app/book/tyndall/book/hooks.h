@@ -149,9 +149,11 @@ class watcher {
       if (row % samples != 0) continue;
       const double columns = static_cast<double>(row / samples);
       bool fits = true;
-      for (std::size_t k = 0; fits && k < row; ++k)
-        fits = std::floor(rays.by_pixels ? seen_[k].first : seen_[k].first * (columns - s.less)) ==
-               static_cast<double>(k / samples);
+      for (std::size_t k = 0; fits && k < row; ++k) {
+        const double column = rays.by_pixels ? seen_[k].first : seen_[k].first * (columns - s.less);
+        const double expected = static_cast<double>(k / samples);
+        fits = column > expected - 0.01 && column < expected + 1.01;  // as far as floats can tell
+      }
       if (!fits) continue;
       s.width = static_cast<int>(columns), s.samples = static_cast<int>(samples);
       s.height = camera_.height > 0 ? camera_.height : static_cast<int>(columns / rays.aspect() + 1e-6);

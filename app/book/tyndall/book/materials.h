@@ -20,9 +20,8 @@ struct scattered {
 /// Whether a hit was from the side that the normal points to.
 template <class R>
 decltype(auto) front_member(R& record) {
-  return pick(record, TYNDALL_GET(o.front_face), TYNDALL_GET(o.frontFace), TYNDALL_GET(o.front_facing),
-              TYNDALL_GET(o.frontFacing), TYNDALL_GET(o.is_front), TYNDALL_GET(o.isFrontFace), TYNDALL_GET(o.isFront),
-              TYNDALL_GET(o.outside), TYNDALL_GET(o.m_front_face));
+  return TYNDALL_ANY(record, front_face, frontFace, front_facing, frontFacing, is_front, isFrontFace, isFront, outside,
+                     m_front_face);
 }
 template <class R>
 bool is_front(R& record, vector to, vector normal) {
@@ -37,10 +36,8 @@ template <class R>
 constexpr bool turns_normals = !is_absent<decltype(front_member(std::declval<R&>()))>;
 template <class R>
 decltype(auto) material_member(R& record) {
-  return pick(record, TYNDALL_GET(o.mat), TYNDALL_GET(o.mat_ptr), TYNDALL_GET(o.material), TYNDALL_GET(o.material_ptr),
-              TYNDALL_GET(o.matPtr), TYNDALL_GET(o.materialPtr), TYNDALL_GET(o.mp), TYNDALL_GET(o.mat_pointer),
-              TYNDALL_GET(o.m_material), TYNDALL_GET(o.pMat), TYNDALL_GET(o.m_mat), TYNDALL_GET(o.Mat),
-              TYNDALL_GET(o.m));
+  return TYNDALL_ANY(record, mat, mat_ptr, material, material_ptr, matPtr, materialPtr, mp, mat_pointer, m_material,
+                     pMat, m_mat, Mat, m);
 }
 template <class N>
 const typename N::material* material_in(typename N::record& record) {
@@ -159,9 +156,7 @@ class material_text {
     std::string name;
     N::with_class(m_, [&](const auto& o) {
       decltype(auto) member =
-          pick(o, TYNDALL_GET(o.tex), TYNDALL_GET(o.albedo), TYNDALL_GET(o.emit), TYNDALL_GET(o.texture),
-               TYNDALL_GET(o.m_albedo), TYNDALL_GET(o.m_texture), TYNDALL_GET(o.albedo_), TYNDALL_GET(o.m_tex),
-               TYNDALL_GET(o.color), TYNDALL_GET(o.m_emit));
+          TYNDALL_ANY(o, tex, albedo, emit, texture, m_albedo, m_texture, albedo_, m_tex, color, m_emit);
       if constexpr (leads_to<typename N::texture, decltype((member))>()) name = texture_name<N>(out_, *pointer(member));
     });
     if (name.empty()) refuse(m_, "its colour is neither one colour nor one of its textures");
@@ -217,10 +212,8 @@ class material_text {
       if (to.y < 0) index = steep.x / std::sqrt(to.x * to.x + to.z * to.z);
     }
     N::with_class(m_, [&](const auto& o) {
-      decltype(auto) member =
-          pick(o, TYNDALL_GET(double(o.refraction_index)), TYNDALL_GET(double(o.ir)), TYNDALL_GET(double(o.ref_idx)),
-               TYNDALL_GET(double(o.ior)), TYNDALL_GET(double(o.refractive_index)), TYNDALL_GET(double(o.m_ior)),
-               TYNDALL_GET(double(o.m_ref_idx)), TYNDALL_GET(double(o.refractionIndex)));
+      decltype(auto) member = TYNDALL_ANY_AS(double, o, refraction_index, ir, ref_idx, ior, refractive_index, m_ior,
+                                             m_ref_idx, refractionIndex);
       if constexpr (!is_absent<decltype(member)>)
         if (near(member, index, 1e-4)) index = member;
     });
@@ -253,9 +246,7 @@ class material_text {
     double fuzz = -1;
     N::with_class(m_, [&](const auto& o) {
       decltype(auto) member =
-          pick(o, TYNDALL_GET(double(o.fuzz)), TYNDALL_GET(double(o.fuzziness)), TYNDALL_GET(double(o.m_fuzz)),
-               TYNDALL_GET(double(o.roughness)), TYNDALL_GET(double(o.fuzz_)), TYNDALL_GET(double(o.fuzzy)),
-               TYNDALL_GET(double(o.m_fuzziness)), TYNDALL_GET(double(o._fuzz)));
+          TYNDALL_ANY_AS(double, o, fuzz, fuzziness, m_fuzz, roughness, fuzz_, fuzzy, m_fuzziness, _fuzz);
       if constexpr (!is_absent<decltype(member)>) fuzz = member;
     });
     const auto spread = [&](const std::vector<vector>& to, double lost) {

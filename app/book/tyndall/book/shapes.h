@@ -88,9 +88,7 @@ class world_text {
       return true;
     } else {
       decltype(auto) c =
-          pick(o, TYNDALL_GET(o.center), TYNDALL_GET(o.cen), TYNDALL_GET(o.m_center), TYNDALL_GET(o.centre),
-               TYNDALL_GET(o.center_), TYNDALL_GET(o._center), TYNDALL_GET(o.mCenter), TYNDALL_GET(o.Center),
-               TYNDALL_GET(o.position), TYNDALL_GET(o.pos), TYNDALL_GET(o.origin), TYNDALL_GET(o.c));
+          TYNDALL_ANY(o, center, cen, m_center, centre, center_, _center, mCenter, Center, position, pos, origin, c);
       using C = std::decay_t<decltype(c)>;
       if constexpr (std::is_same<C, typename N::ray>::value)
         return m.begin = rays::origin(c), m.end = m.begin + rays::direction(c), true;
@@ -102,10 +100,7 @@ class world_text {
   }
   template <class T>
   bool sphere(const T& o, const placing& at) {
-    decltype(auto) member =
-        pick(o, TYNDALL_GET(double(o.radius)), TYNDALL_GET(double(o.m_radius)), TYNDALL_GET(double(o.r)),
-             TYNDALL_GET(double(o.rad)), TYNDALL_GET(double(o.radius_)), TYNDALL_GET(double(o._radius)),
-             TYNDALL_GET(double(o.mRadius)), TYNDALL_GET(double(o.Radius)));
+    decltype(auto) member = TYNDALL_ANY_AS(double, o, radius, m_radius, r, rad, radius_, _radius, mRadius, Radius);
     if constexpr (is_absent<decltype(member)>) {
       return false;
     } else {
@@ -210,13 +205,9 @@ class world_text {
       if (is_flat(o, {o.x0, o.k, o.z0}, {o.x1 - o.x0, 0, 0}, {0, 0, o.z1 - o.z0}, at)) return true;
     if constexpr (TYNDALL_HAS(const T, double(o.y0), double(o.y1), double(o.z0), double(o.k)))
       if (is_flat(o, {o.k, o.y0, o.z0}, {0, o.y1 - o.y0, 0}, {0, 0, o.z1 - o.z0}, at)) return true;
-    decltype(auto) q =
-        pick(o, TYNDALL_GET(o.Q), TYNDALL_GET(o.q), TYNDALL_GET(o.corner), TYNDALL_GET(o.m_Q), TYNDALL_GET(o.m_q),
-             TYNDALL_GET(o._Q), TYNDALL_GET(o.Q_), TYNDALL_GET(o.origin), TYNDALL_GET(o.center));
-    decltype(auto) u =
-        pick(o, TYNDALL_GET(o.u), TYNDALL_GET(o.U), TYNDALL_GET(o.m_u), TYNDALL_GET(o._u), TYNDALL_GET(o.u_));
-    decltype(auto) v =
-        pick(o, TYNDALL_GET(o.v), TYNDALL_GET(o.V), TYNDALL_GET(o.m_v), TYNDALL_GET(o._v), TYNDALL_GET(o.v_));
+    decltype(auto) q = TYNDALL_ANY(o, Q, q, corner, m_Q, m_q, _Q, Q_, origin, center);
+    decltype(auto) u = TYNDALL_ANY(o, u, U, m_u, _u, u_);
+    decltype(auto) v = TYNDALL_ANY(o, v, V, m_v, _v, v_);
     if constexpr (is_vector<decltype(q)> && is_vector<decltype(u)> && is_vector<decltype(v)>)
       if (is_flat(o, to_vector(q), to_vector(u), to_vector(v), at)) return true;
     const auto three = [&](const auto& a, const auto& b, const auto& c) {
@@ -290,7 +281,7 @@ class world_text {
         pick(o, TYNDALL_GET(o.objects), TYNDALL_GET(o.sides), TYNDALL_GET(o.m_objects), TYNDALL_GET(o.hittables),
              TYNDALL_GET(o.list), TYNDALL_GET(o._objects), TYNDALL_GET(o.objects_), TYNDALL_GET(o.triangles),
              TYNDALL_GET(o.shapes), TYNDALL_GET(o.children), TYNDALL_GET(o.faces), TYNDALL_GET(o.primitives),
-             TYNDALL_GET(o.objs), TYNDALL_GET(o.m_list), TYNDALL_GET(o.m_hittables));
+             TYNDALL_GET(o.objs), TYNDALL_GET(o.world), TYNDALL_GET(o.m_list), TYNDALL_GET(o.m_hittables));
     using M = std::decay_t<decltype(member)>;
     std::vector<const shape*> parts;
     if constexpr (TYNDALL_HAS(const T, o.list[0], int(o.list_size))) {
@@ -345,17 +336,12 @@ class world_text {
   template <class T>
   bool moved(const T& o, const placing& at) {
     decltype(auto) member =
-        pick(o, TYNDALL_GET(o.object), TYNDALL_GET(o.ptr), TYNDALL_GET(o.m_object), TYNDALL_GET(o.obj),
-             TYNDALL_GET(o.p), TYNDALL_GET(o.list_ptr), TYNDALL_GET(o.hittable), TYNDALL_GET(o.object_),
-             TYNDALL_GET(o.root), TYNDALL_GET(o.shape), TYNDALL_GET(o.child), TYNDALL_GET(o.inner));
+        TYNDALL_ANY(o, object, ptr, m_object, obj, p, list_ptr, hittable, object_, root, shape, child, inner);
     if constexpr (leads_to<shape, decltype((member))>()) {
       const shape* inner = pointer(member);
-      decltype(auto) offset =
-          pick(o, TYNDALL_GET(o.offset), TYNDALL_GET(o.displacement), TYNDALL_GET(o.m_offset), TYNDALL_GET(o.offset_));
-      decltype(auto) sine = pick(o, TYNDALL_GET(double(o.sin_theta)), TYNDALL_GET(double(o.sinTheta)),
-                                 TYNDALL_GET(double(o.m_sin_theta)));
-      decltype(auto) cosine = pick(o, TYNDALL_GET(double(o.cos_theta)), TYNDALL_GET(double(o.cosTheta)),
-                                   TYNDALL_GET(double(o.m_cos_theta)));
+      decltype(auto) offset = TYNDALL_ANY(o, offset, displacement, m_offset, offset_);
+      decltype(auto) sine = TYNDALL_ANY_AS(double, o, sin_theta, sinTheta, m_sin_theta);
+      decltype(auto) cosine = TYNDALL_ANY_AS(double, o, cos_theta, cosTheta, m_cos_theta);
       if constexpr (is_vector<decltype(offset)>) {
         return is_moved(o, inner, at, {to_vector(offset)});
       } else if constexpr (!is_absent<decltype(sine)> && !is_absent<decltype(cosine)>) {
@@ -414,9 +400,8 @@ class world_text {
 
   template <class T>
   bool medium(const T& o, const placing& at) {
-    decltype(auto) member = pick(o, TYNDALL_GET(o.boundary), TYNDALL_GET(o.m_boundary), TYNDALL_GET(o.boundary_));
-    decltype(auto) phase = pick(o, TYNDALL_GET(o.phase_function), TYNDALL_GET(o.m_phase_function),
-                                TYNDALL_GET(o.phaseFunction), TYNDALL_GET(o.phase));
+    decltype(auto) member = TYNDALL_ANY(o, boundary, m_boundary, boundary_);
+    decltype(auto) phase = TYNDALL_ANY(o, phase_function, m_phase_function, phaseFunction, phase);
     decltype(auto) free =
         pick(o, TYNDALL_GET(-1 / double(o.neg_inv_density)), TYNDALL_GET(-1 / double(o.negInvDensity)),
              TYNDALL_GET(-1 / double(o.m_neg_inv_density)), TYNDALL_GET(double(o.density)));

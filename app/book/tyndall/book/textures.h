@@ -43,8 +43,8 @@ class texture_text {
   }
   template <class T>
   std::string pattern(const T& o) {
-    decltype(auto) even = pick(o, TYNDALL_GET(o.even), TYNDALL_GET(o.m_even), TYNDALL_GET(o.even_));
-    decltype(auto) odd = pick(o, TYNDALL_GET(o.odd), TYNDALL_GET(o.m_odd), TYNDALL_GET(o.odd_));
+    decltype(auto) even = TYNDALL_ANY(o, even, m_even, even_);
+    decltype(auto) odd = TYNDALL_ANY(o, odd, m_odd, odd_);
     if constexpr (!is_absent<decltype(even)> && !is_absent<decltype(odd)>) return checker(o, part(even), part(odd));
     return noise(o);
   }
@@ -80,8 +80,7 @@ class texture_text {
   template <class T>
   std::string noise(const T& o) {
     double scale = 1, sum = 0, squares = 0;
-    decltype(auto) member =
-        pick(o, TYNDALL_GET(double(o.scale)), TYNDALL_GET(double(o.m_scale)), TYNDALL_GET(double(o.scale_)));
+    decltype(auto) member = TYNDALL_ANY_AS(double, o, scale, m_scale, scale_);
     if constexpr (!is_absent<decltype(member)>) scale = member;
     constexpr int rounds = 6000;
     for (int k = 0; k < rounds; ++k) {

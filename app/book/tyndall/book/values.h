@@ -25,6 +25,31 @@ constexpr bool can(F) {
 /// What reads such an expression, for pick().
 #define TYNDALL_GET(...) [](auto& o) -> decltype((__VA_ARGS__)) { return __VA_ARGS__; }
 
+/// A member of the object by the first of these names that its class has; absent: by none.
+#define TYNDALL_ANY(object, ...) pick(object, TYNDALL_EACH(TYNDALL_MEMBER, __VA_ARGS__))
+/// The same, of those that are numbers of that type.
+#define TYNDALL_ANY_AS(type, object, ...) pick(object, TYNDALL_EACH(TYNDALL_MEMBER_##type, __VA_ARGS__))
+#define TYNDALL_MEMBER(name) TYNDALL_GET(o.name)
+#define TYNDALL_MEMBER_double(name) TYNDALL_GET(double(o.name))
+#define TYNDALL_MEMBER_int(name) TYNDALL_GET(int(o.name))
+#define TYNDALL_MEMBER_bool(name) TYNDALL_GET(bool(o.name))
+#define TYNDALL_EACH(m, ...) TYNDALL_PICK(__VA_ARGS__, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1)(m, __VA_ARGS__)
+#define TYNDALL_PICK(a, b, c, d, e, f, g, h, i, j, k, l, m, n, count, ...) TYNDALL_EACH_##count
+#define TYNDALL_EACH_1(m, a) m(a)
+#define TYNDALL_EACH_2(m, a, ...) m(a), TYNDALL_EACH_1(m, __VA_ARGS__)
+#define TYNDALL_EACH_3(m, a, ...) m(a), TYNDALL_EACH_2(m, __VA_ARGS__)
+#define TYNDALL_EACH_4(m, a, ...) m(a), TYNDALL_EACH_3(m, __VA_ARGS__)
+#define TYNDALL_EACH_5(m, a, ...) m(a), TYNDALL_EACH_4(m, __VA_ARGS__)
+#define TYNDALL_EACH_6(m, a, ...) m(a), TYNDALL_EACH_5(m, __VA_ARGS__)
+#define TYNDALL_EACH_7(m, a, ...) m(a), TYNDALL_EACH_6(m, __VA_ARGS__)
+#define TYNDALL_EACH_8(m, a, ...) m(a), TYNDALL_EACH_7(m, __VA_ARGS__)
+#define TYNDALL_EACH_9(m, a, ...) m(a), TYNDALL_EACH_8(m, __VA_ARGS__)
+#define TYNDALL_EACH_10(m, a, ...) m(a), TYNDALL_EACH_9(m, __VA_ARGS__)
+#define TYNDALL_EACH_11(m, a, ...) m(a), TYNDALL_EACH_10(m, __VA_ARGS__)
+#define TYNDALL_EACH_12(m, a, ...) m(a), TYNDALL_EACH_11(m, __VA_ARGS__)
+#define TYNDALL_EACH_13(m, a, ...) m(a), TYNDALL_EACH_12(m, __VA_ARGS__)
+#define TYNDALL_EACH_14(m, a, ...) m(a), TYNDALL_EACH_13(m, __VA_ARGS__)
+
 struct absent {};
 /// In the place of classes that the reader's program does not have.
 struct absent_material {
