@@ -114,7 +114,7 @@ class Compilation {
  public:
   Compilation(const ProgramTask& task, const ProgramSources& sources)
       : task_(task), main_(sources.files.front()), headers_(fs::canonical(book_folder())) {
-    for (const fs::path& file : sources.files) units_.push_back(fs::absolute(file).lexically_normal());
+    for (const fs::path& file : sources.files) sources_.push_back(fs::absolute(file).lexically_normal());
     for (const fs::path& folder : sources.include_folders)
       options_.insert(options_.end(), {"-I", fs::absolute(folder).string()});
   }
@@ -147,10 +147,10 @@ class Compilation {
  private:
   /// Makes the text of the program and its outline; returns an error.
   std::string preprocess() {
-    for (std::size_t known = 0; known != units_.size();) {
-      known = units_.size();
+    for (std::size_t known = 0; known != sources_.size();) {
+      known = sources_.size();
       std::string all = "#include \"" + (headers_ / "take.h").string() + "\"\n";
-      for (const fs::path& unit : units_) all += "#include \"" + unit.string() + "\"\n";
+      for (const fs::path& source : sources_) all += "#include \"" + source.string() + "\"\n";
       write_text(task_.folder / "all.cc", all);
       const ChildEnd end = call({"-E", "all.cc", "-o", "all.ii"});
       if (!end.succeeded()) return all_printable(first_error(end.errors, main_));
@@ -163,9 +163,9 @@ class Compilation {
   void add_sources() {
     for (const fs::path& file : outline_.files) {
       const fs::path source = source_beside(file);
-      const bool known = source.empty() || std::find(units_.begin(), units_.end(), source) != units_.end() ||
+      const bool known = source.empty() || std::find(sources_.begin(), sources_.end(), source) != sources_.end() ||
                          std::find(outline_.files.begin(), outline_.files.end(), source) != outline_.files.end();
-      if (!known) units_.push_back(source);
+      if (!known) sources_.push_back(source);
     }
   }
   std::string compile(const std::string& text) {
@@ -189,7 +189,7 @@ class Compilation {
 
   const ProgramTask& task_;
   fs::path main_, headers_;
-  std::vector<fs::path> units_;
+  std::vector<fs::path> sources_;
   std::vector<std::string> options_;
   std::string standard_, text_;
   ProgramOutline outline_;
@@ -203,7 +203,8 @@ std::string first_error(const std::string& output, const fs::path& main) {
   for (const std::string& line : lines) {
     const std::size_t fatal = line.find("fatal error: "), at = std::min(fatal, line.find("error: "));
     const std::size_t place = line.find(':');
-    if (at == std::string::npos || place >= at || line.find("undefined reference") != std::string::npos) continue;
+    const bool of_linker = line.rfind("collect2", 0) == 0 || line.find("undefined reference") != std::string::npos;
+    if (at == std::string::npos || place >= at || of_linker) continue;
     return shown(line.substr(0, place), main) + line.substr(place, at - place) +
            shortened(line.substr(at + (at == fatal ? 13 : 7)), longest_error);
   }

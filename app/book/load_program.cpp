@@ -83,7 +83,7 @@ bool read_messages(OwnProgram& own, const ProgramTask& task, ProgramScene& scene
     if (message->kind == 'N') scene.notes.push_back(task.name + ": " + text);
     if (message->kind == 'R') {
       scene.fuzz_on_sphere = text.find("sphere") != std::string::npos;
-      scene.matt_in_ball = text.find("ball") != std::string::npos;
+      scene.matt_in_sphere = text.find("filled") != std::string::npos;
       scene.short_frame = text.find("frame") != std::string::npos;
       scene.has_images = text.find("image") != std::string::npos;
       scene.has_noise = text.find("noise") != std::string::npos;

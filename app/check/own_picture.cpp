@@ -94,7 +94,7 @@ std::vector<BlockLight> our_blocks(const Scene& scene, const ProgramScene& progr
   BookRules rules;
   rules.schlick = true;
   rules.short_frame = program.short_frame;
-  if (program.matt_in_ball) rules.diffuse = DiffuseRule::filled_sphere;
+  if (program.matt_in_sphere) rules.diffuse = DiffuseRule::filled_sphere;
   if (program.fuzz_on_sphere) rules.fuzz = FuzzRule::sphere;
   ThreadPool pool(0);
   const std::vector<BookSample> samples =

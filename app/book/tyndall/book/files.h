@@ -60,10 +60,10 @@ inline FILE* open_to_read(open_function open, const std::string& name, const cha
 inline FILE* open_file(const char* function, const char* name, const char* mode) {
   const auto open = reinterpret_cast<open_function>(dlsym(RTLD_NEXT, function));
   const char* folder = std::getenv("TYNDALL_BOOK_WRITES");
-  const std::string asked = name;
-  if (!folder || asked.rfind("/dev/", 0) == 0) return open(name, mode);
-  if (mode[0] == 'r') return open_to_read(open, asked, mode);
-  std::string& place = opened_files::get().written[asked];
+  const std::string wanted = name;
+  if (!folder || wanted.rfind("/dev/", 0) == 0) return open(name, mode);
+  if (mode[0] == 'r') return open_to_read(open, wanted, mode);
+  std::string& place = opened_files::get().written[wanted];
   if (place.empty()) place = std::string(folder) + "/" + std::to_string(opened_files::get().written.size());
   return open(place.c_str(), mode);
 }

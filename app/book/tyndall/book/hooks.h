@@ -62,9 +62,9 @@ struct picture_head {
 };
 
 /// Whether this thread is asked by us: then the reader's functions do what they always do.
-static thread_local bool is_asked_by_us = false;
+static thread_local bool is_ours = false;
 /// What the inserted calls ask first.
-inline bool is_watching() { return !is_asked_by_us; }
+inline bool is_watching() { return !is_ours; }
 
 /// Where rays lie in the picture, and all that is needed to ask for them.
 struct session {
@@ -156,7 +156,7 @@ class watcher {
       }
       if (!fits) continue;
       s.width = static_cast<int>(columns), s.samples = static_cast<int>(samples);
-      s.height = camera_.height > 0 ? camera_.height : static_cast<int>(columns / rays.aspect() + 1e-6);
+      s.height = camera_.height > 0 ? camera_.height : static_cast<int>(columns / rays.aspect() + 0.02);
       return s.height > 0;
     }
     throw not_taken{"the size of the picture is not known"};
@@ -288,31 +288,31 @@ auto colour_wanted(F ask, R& ray, W& world, int depth) -> decltype(ask(ray, worl
   const one_thread only;
   watcher& w = watcher::get();
   session s;
-  is_asked_by_us = true;
+  is_ours = true;
   if (has_camera && !w.rays.make) {  // no camera yet: a test of the reader's
     colour made = ask(ray, world, depth);
-    is_asked_by_us = false;
+    is_ours = false;
     return made;
   }
   try {
     const bool known = has_camera ? w.knows(s) : row_watcher<std::remove_const_t<R>>::knows(s, ray);
-    is_asked_by_us = known;
+    is_ours = known;
     if (!known) return colour{};
   } catch (const not_taken& why) {
     tell('E', why.reason);
     std::_Exit(0);
   }
-  static F* asked;
+  static F* query;
   static W* his;
   static int begin;
-  asked = &ask, his = &world, begin = depth;
+  query = &ask, his = &world, begin = depth;
   s.world = static_cast<const Shape*>(pointer(world));
   s.depth = depth, s.has_other_worlds = is_given;
   s.colour = [](const void* a_ray, void* other) {
     const auto& its_ray = *static_cast<const std::remove_const_t<R>*>(a_ray);
-    if (!other) return to_vector((*asked)(its_ray, *his, begin));
+    if (!other) return to_vector((*query)(its_ray, *his, begin));
     return with_world<Shape, W>(static_cast<Shape*>(other),
-                                [&](auto& given) { return to_vector((*asked)(its_ray, given, begin)); });
+                                [&](auto& given) { return to_vector((*query)(its_ray, given, begin)); });
   };
   take_over(s);
 }

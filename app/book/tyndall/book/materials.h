@@ -33,7 +33,7 @@ bool is_front(R& record, vector to, vector normal) {
 }
 /// Whether normals in records are turned to the ray, as editions 2 to 4 have it.
 template <class R>
-constexpr bool turns_normals = !is_absent<decltype(front_member(std::declval<R&>()))>;
+constexpr bool has_facing_normals = !is_absent<decltype(front_member(std::declval<R&>()))>;
 template <class R>
 decltype(auto) material_member(R& record) {
   return TYNDALL_ANY(record, mat, mat_ptr, material, material_ptr, matPtr, materialPtr, mp, mat_pointer, m_material,
@@ -67,7 +67,7 @@ typename N::record make_record(const surface_point& at) {
   using rays = ray_traits<typename N::ray>;
   record.t = 1;
   record.p = rays::make_vector(at.p);
-  record.normal = rays::make_vector({0, at.front || !turns_normals<typename N::record> ? 1.0 : -1.0, 0});
+  record.normal = rays::make_vector({0, at.front || !has_facing_normals<typename N::record> ? 1.0 : -1.0, 0});
   const auto set = [](auto&& member, auto value) {
     if constexpr (!is_absent<decltype(member)>) member = value;
   };
@@ -97,9 +97,9 @@ class material_text {
     refuse(m_, "no such material in Tyndall");
   }
   /// The colour of fog.
-  std::string fog() {
+  std::string medium() {
     vector sum;
-    for (const scattered& one : ask_often({}, slanted, 2000)) sum = sum + unit(one.to);
+    for (const scattered& one : ask_often({}, slanted, 2000)) sum = sum + normalized(one.to);
     if (!(length(sum) < 0.06 * 2000)) refuse(m_, "its fog does not scatter to all sides alike");
     return albedo();
   }
@@ -119,13 +119,13 @@ class material_text {
     for (const scattered& one : all) {
       absorbed += one.does ? 0 : 1;
       if (!one.does) continue;
-      same = same && near(unit(one.to), unit(first.to), 1e-4);
+      same = same && near(normalized(one.to), normalized(first.to), 1e-4);
     }
-    const bool refracts =
-        unit(ask({}, steep).to).y < 0 || unit(ask({}, steep).to).y < 0 || unit(ask({}, steep).to).y < 0;
+    const bool refracts = normalized(ask({}, steep).to).y < 0 || normalized(ask({}, steep).to).y < 0 ||
+                          normalized(ask({}, steep).to).y < 0;
     if (refracts && absorbed == 0) return glass();
     if (absorbed == all.size()) return "{\"type\":\"lambertian\",\"albedo\":[0,0,0]}";
-    if (same && near(unit(first.to), mirror(slanted), 1e-3)) return metal(0);
+    if (same && near(normalized(first.to), mirror(slanted), 1e-3)) return metal(0);
     if (!is_matt(all)) return fuzzy(all, absorbed);
     const std::string part = albedo();
     if (part[0] == '[' && largest(first.part) > 0) out_.matt = &m_, out_.albedo = first.part;
@@ -172,7 +172,7 @@ class material_text {
     });
   }
   std::string metal(double fuzz) {
-    if (!near(unit(ask({}, {0, -2, 0}).to), {0, 1, 0}, fuzz > 0 ? 2 : 1e-3))
+    if (!near(normalized(ask({}, {0, -2, 0}).to), {0, 1, 0}, fuzz > 0 ? 2 : 1e-3))
       refuse(m_, "it is no mirror from everywhere");
     const std::string part = albedo();
     if (part[0] != '[') refuse(m_, "its colour is a texture: Tyndall's metals have one colour");
@@ -184,13 +184,13 @@ class material_text {
     vector sum;
     for (const scattered& one : all) {
       if (!one.does || one.to.y < 0) return false;
-      sum = sum + unit(one.to);
+      sum = sum + normalized(one.to);
     }
     const vector mean = (1.0 / static_cast<double>(all.size())) * sum;
-    const bool in_ball = std::fabs(mean.y - 0.8) < 0.02;
-    if ((!in_ball && std::fabs(mean.y - 2.0 / 3) > 0.02) || std::fabs(mean.x) > 0.06 || std::fabs(mean.z) > 0.06)
+    const bool in_sphere = std::fabs(mean.y - 0.8) < 0.02;
+    if ((!in_sphere && std::fabs(mean.y - 2.0 / 3) > 0.02) || std::fabs(mean.x) > 0.06 || std::fabs(mean.z) > 0.06)
       return false;
-    out_.matt_in_ball = out_.matt_in_ball || in_ball;
+    out_.matt_in_sphere = out_.matt_in_sphere || in_sphere;
     return true;
   }
   /// Share of reflected light by Fresnel's equations, and by Schlick's rule; cosine: of incidence.
@@ -208,7 +208,7 @@ class material_text {
   std::string glass() {
     double index = 0;
     for (int k = 0; k < 2000 && index == 0; ++k) {
-      const vector to = unit(ask({}, steep).to);
+      const vector to = normalized(ask({}, steep).to);
       if (to.y < 0) index = steep.x / std::sqrt(to.x * to.x + to.z * to.z);
     }
     N::with_class(m_, [&](const auto& o) {
@@ -225,7 +225,7 @@ class material_text {
         constexpr int rounds = 1500;
         for (int k = 0; k < rounds; ++k) {
           const scattered one = ask({{}, front}, {sine, side * cosine, 0});
-          const vector to = unit(one.to);
+          const vector to = normalized(one.to);
           if (!one.does || largest(one.part - vector{1, 1, 1}) > 1e-3)
             refuse(m_, "its glass takes light away: Tyndall's is clear");
           const bool back = to.y * side < 0;
@@ -233,10 +233,12 @@ class material_text {
           if (std::fabs(to.x - (back ? 1 : ratio) * sine) > 0.01)
             refuse(m_, "it refracts otherwise than the books' glass");
         }
-        const double share = double(reflected) / rounds;
-        const auto fits = [&](double r) { return std::fabs(share - r) < 5 * std::sqrt(r * (1 - r) / rounds) + 0.004; };
+        const double fraction = double(reflected) / rounds;
+        const auto fits = [&](double r) {
+          return std::fabs(fraction - r) < 5 * std::sqrt(r * (1 - r) / rounds) + 0.004;
+        };
         if (!fits(schlick(cosine, ratio)) && !fits(fresnel(cosine, ratio)) && !fits(schlick(cosine, 1 / ratio)))
-          refuse(m_, "it reflects " + words({share, schlick(cosine, ratio), cosine}) +
+          refuse(m_, "it reflects " + words({fraction, schlick(cosine, ratio), cosine}) +
                          " (its share, the books', the cosine): not as the books' glass");
       }
     return "{\"type\":\"dielectric\",\"refractive_index\":" + number(index) + "}";
@@ -251,7 +253,7 @@ class material_text {
     });
     const auto spread = [&](const std::vector<vector>& to, double lost) {
       vector mean;
-      for (const vector& one : to) mean = mean + unit(one);
+      for (const vector& one : to) mean = mean + normalized(one);
       mean = (1.0 / static_cast<double>(larger(to.size(), std::size_t(1)))) * mean;
       return vector{dot(mean, mirror(slanted)), mean.y, lost};
     };
@@ -288,8 +290,8 @@ std::string material_name(scene_text& out, const typename N::material& m) {
   return out.name_of(m, out.materials, [&] { return material_text<N>(out, m).text(); });
 }
 template <class N>
-std::string fog_colour(scene_text& out, const typename N::material& m) {
-  return material_text<N>(out, m).fog();
+std::string medium_colour(scene_text& out, const typename N::material& m) {
+  return material_text<N>(out, m).medium();
 }
 template <class N>
 bool shines_on_one_side(const typename N::material* m) {

@@ -232,7 +232,7 @@ class world_text {
   bool is_flat(const shape& o, vector q, vector u, vector v, const placing& at) {
     const vector n = cross(u, v);
     if (!(length(n) > 0)) return false;
-    const vector away = (length(u) + length(v)) * unit(n);
+    const vector away = (length(u) + length(v)) * normalized(n);
     const auto holds = [&](double a, double b) {
       const answer<N> its = shoot<N>(o, q + a * u + b * v + away, -1 * away);
       return its.found && std::fabs(its.t - 1) < 10 * rays::precision() * std::fmax(1, largest(q) / length(away));
@@ -247,7 +247,7 @@ class world_text {
                     before = shoot<N>(o, inside + away, -1 * away, 0, 0.001, 0.9);
     if (behind.found || before.found || !back.found)
       return reason_ = "its hit() does not keep the interval of t", false;
-    if (std::fabs(std::fabs(dot(front.normal, unit(n))) - 1) > 0.02)
+    if (std::fabs(std::fabs(dot(front.normal, normalized(n))) - 1) > 0.02)
       return reason_ = "its normals are not those of the books", false;
     const double side = front.front ? 1 : -1;
     push(std::string("{\"type\":\"") + found.type + (disk ? "\",\"center\":" : "\",\"corner\":") + triple(q) +
@@ -267,7 +267,7 @@ class world_text {
     const std::string name =
         out_.name_of(black, out_.materials, [] { return "{\"type\":\"lambertian\",\"albedo\":[0,0,0]}"; });
     out_.objects.push_back(std::string("{\"type\":\"") + found.type + (disk ? "\",\"center\":" : "\",\"corner\":") +
-                           triple(q - distance * unit(normal)) + ",\"u\":" + triple(found.outer * u) + ",\"v\":" +
+                           triple(q - distance * normalized(normal)) + ",\"u\":" + triple(found.outer * u) + ",\"v\":" +
                            triple(found.outer * v) + (disk ? ",\"inner\":" + number(found.inner / found.outer) : "") +
                            ",\"material\":" + name + moves_of(at.moves) + "}");
     pieces_.push_back({});
@@ -356,9 +356,9 @@ class world_text {
   struct move {
     vector by{};
     double sine = 0, cosine = 1;
-    vector turned(vector a, double s) const { return {cosine * a.x - s * a.z, a.y, s * a.x + cosine * a.z}; }
-    vector out(vector a) const { return turned(a, -sine) + by; }
-    line in(const line& a) const { return {turned(a.from - by, sine), turned(a.to, sine)}; }
+    vector rotated(vector a, double s) const { return {cosine * a.x - s * a.z, a.y, s * a.x + cosine * a.z}; }
+    vector out(vector a) const { return rotated(a, -sine) + by; }
+    line in(const line& a) const { return {rotated(a.from - by, sine), rotated(a.to, sine)}; }
     std::string text() const {
       if (sine != 0 || cosine != 1)
         return "{\"rotate_y\":" + number(std::atan2(sine, cosine) * 180 / 3.14159265358979323846) + "}";
@@ -407,13 +407,13 @@ class world_text {
              TYNDALL_GET(-1 / double(o.m_neg_inv_density)), TYNDALL_GET(double(o.density)));
     if constexpr (leads_to<shape, decltype((member))>() && leads_to<typename N::material, decltype((phase))>() &&
                   !is_absent<decltype(free)>) {
-      take_fog(o, *pointer(member), *pointer(phase), free, at);
+      take_medium(o, *pointer(member), *pointer(phase), free, at);
       return true;
     }
     return false;
   }
-  void take_fog(const shape& o, const shape& boundary, const typename N::material& phase, double density,
-                const placing& at) {
+  void take_medium(const shape& o, const shape& boundary, const typename N::material& phase, double extinction,
+                   const placing& at) {
     if (at.boundary) refuse(o, "fog within fog");
     placing inside = at;
     inside.boundary = true;
@@ -425,22 +425,22 @@ class world_text {
     const line seed = aimed(begin);
     const piece filled = pieces_.back();
     drop(begin);
-    check_density(o, boundary, density, seed);
-    out_.objects.push_back("{\"type\":\"medium\",\"boundary\":" + text + ",\"density\":" + number(density) +
-                           ",\"albedo\":" + fog_colour<N>(out_, phase) + "}");
+    check_passing(o, boundary, extinction, seed);
+    out_.objects.push_back("{\"type\":\"medium\",\"boundary\":" + text + ",\"density\":" + number(extinction) +
+                           ",\"albedo\":" + medium_colour<N>(out_, phase) + "}");
     pieces_.push_back({filled.centre, filled.size, "", "", false, false, {}, {}, {}});
     has_media_ = true;
   }
   /// Counts how often rays pass the fog.
-  void check_density(const shape& o, const shape& boundary, double density, const line& seed) {
-    const vector to = unit(seed.to);
+  void check_passing(const shape& o, const shape& boundary, double extinction, const line& seed) {
+    const vector to = normalized(seed.to);
     const answer<N> in = shoot<N>(boundary, seed.from, to, 0, -1e9),
                     out = shoot<N>(boundary, seed.from, to, 0, in.t + 1e-4);
     if (!in.found || !out.found) return;
     constexpr int rounds = 4000;
     int passed = 0;
     for (int k = 0; k < rounds; ++k) passed += shoot<N>(o, seed.from, to).found ? 0 : 1;
-    const double expected = rounds * std::exp(-density * (out.t - in.t));
+    const double expected = rounds * std::exp(-extinction * (out.t - in.t));
     if (std::fabs(passed - expected) > 5 * std::sqrt(expected + 1) + 3)
       refuse(o, "it is denser or thinner than the books' fog");
   }

@@ -25,7 +25,7 @@ class light_text {
   std::string sky() {
     const vector top = sky_at({}, {0, 1, 0}), bottom = sky_at({}, {0, -1, 0});
     const auto check = [&](vector from, vector to) {
-      const double a = 0.5 * (unit(to).y + 1);
+      const double a = 0.5 * (normalized(to).y + 1);
       const vector found = sky_at(from, to);
       if (!(largest(found - ((1 - a) * bottom + a * top)) <= rays::precision() * std::fmax(1, largest(top))))
         throw not_taken{"the sky of ray_color() is neither one colour nor a gradient from top to bottom"};
@@ -41,7 +41,7 @@ class light_text {
     constexpr int rows = 1024, columns = 2048;
     for (int row = 0; row < rows; ++row)
       for (int column = 0; column < columns; ++column) {
-        const double y = 1 - 2 * (row + 0.5) / rows, angle = 2 * half_turn * (column + 0.5) / columns,
+        const double y = 1 - 2 * (row + 0.5) / rows, angle = 2 * pi * (column + 0.5) / columns,
                      r = std::sqrt(1 - y * y);
         check(column % 2 ? eye : vector{30.0 * row, -40, 7.0 * column},
               (1 + column % 3) * vector{r * std::cos(angle), y, r * std::sin(angle)});
@@ -77,14 +77,14 @@ class light_text {
                     words(wanted)};
   }
   vector colour(vector from, vector to) {
-    const ray asked = rays::make(from, to, 0.5);
+    const ray query = rays::make(from, to, 0.5);
     typename N::probe world;
-    return s_.colour(&asked, static_cast<typename N::shape*>(&world));
+    return s_.colour(&query, static_cast<typename N::shape*>(&world));
   }
   vector sky_at(vector from, vector to) {
     if (!s_.has_other_worlds) {
-      const ray asked = rays::make(from + (1e7 / length(to)) * to, to, 0.5);
-      return s_.colour(&asked, nullptr);
+      const ray query = rays::make(from + (1e7 / length(to)) * to, to, 0.5);
+      return s_.colour(&query, nullptr);
     }
     materials_.clear(), hits_ = 0;
     return colour(from, to);
@@ -94,9 +94,9 @@ class light_text {
     materials_ = materials, hits_ = 0;
     return colour({0, 1, 0}, {0.6, -0.8, 0});
   }
-  static bool answer(const void* asked, double low, double high, void* record) {
+  static bool answer(const void* query, double low, double high, void* record) {
     if (hits_ == 0) low_ = low, high_ = high;
-    if (hits_ == 1) second_ = rays::direction(*static_cast<const ray*>(asked));
+    if (hits_ == 1) second_ = rays::direction(*static_cast<const ray*>(query));
     if (hits_ == materials_.size()) return false;
     fill(*static_cast<typename N::record*>(record), materials_[hits_++]);
     return true;
@@ -108,9 +108,9 @@ class light_text {
     if (low_ > 0.05 || high_ < 1e4)
       throw not_taken{"ray_color() looks for hits at t from " + number(low_) + " to " + number(high_) + " only"};
   }
-  static void fill(typename N::record& record, const void* material_asked) {
+  static void fill(typename N::record& record, const void* any_material) {
     record = make_record<N>({{0, 0, 0}});
-    auto* m = const_cast<material*>(static_cast<const material*>(material_asked));
+    auto* m = const_cast<material*>(static_cast<const material*>(any_material));
     decltype(auto) member = material_member(record);
     using M = std::decay_t<decltype(member)>;
     if constexpr (std::is_assignable<M&, material*>::value)
@@ -155,7 +155,7 @@ void tell_scene(const session& s) {
     scene_text out;
     const std::string scene = scene_of<N>(s, out);
     for (const std::string& note : out.notes) tell('N', note);
-    tell('R', std::string(out.fuzz_on_sphere ? "sphere " : "") + (out.matt_in_ball ? "ball " : "") +
+    tell('R', std::string(out.fuzz_on_sphere ? "sphere " : "") + (out.matt_in_sphere ? "filled " : "") +
                   (s.less ? "frame " : "") + (out.has_noise ? "noise " : "") + (out.has_images ? "image " : ""));
     return tell('S', scene);
   } catch (const not_taken& why) {

@@ -88,7 +88,7 @@ inline vector cross(vector a, vector b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 inline double length(vector a) { return std::sqrt(dot(a, a)); }
-inline vector unit(vector a) { return (1 / length(a)) * a; }
+inline vector normalized(vector a) { return (1 / length(a)) * a; }
 inline double largest(vector a) { return std::fmax(std::fabs(a.x), std::fmax(std::fabs(a.y), std::fabs(a.z))); }
 /// Whether two values agree, as far as numbers of the reader's precision can.
 inline bool near(double a, double b, double precision) {
@@ -263,7 +263,7 @@ struct scene_text {
   std::string textures, materials;   ///< members of JSON objects
   std::vector<std::string> objects;  ///< JSON objects
   std::vector<std::string> notes;    ///< what the user should know
-  bool fuzz_on_sphere = false, matt_in_ball = false, has_noise = false, has_images = false;
+  bool fuzz_on_sphere = false, matt_in_sphere = false, has_noise = false, has_images = false;
   const void *matt = nullptr, *shining = nullptr;  ///< a material that scatters one colour, and one that shines
   vector albedo, light;                            ///< their colours
 
