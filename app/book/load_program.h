@@ -31,7 +31,7 @@ struct ProgramScene {
   std::vector<std::filesystem::path> files;  ///< of the reader's, that were read
   std::shared_ptr<OwnProgram> own;           ///< computes what it would
   bool fuzz_on_sphere = false;               ///< its metals are those of the fourth edition
-  bool matt_in_sphere = false;                 ///< its matt surfaces are those of the first edition
+  bool matt_in_sphere = false;               ///< its matt surfaces are those of the first edition
   bool short_frame = false;                  ///< it divides by width - 1 and height - 1
   bool has_noise = false;                    ///< it has textures of noise, whose lattice is its own
   bool has_images = false;                   ///< it has textures of images, which it reads by a curve of its own

@@ -20,7 +20,7 @@ namespace {
 constexpr int max_columns = 64, block = 4;  // of the small picture; of a block in pixels
 constexpr double seconds_of_program = 0.5;
 constexpr int fewest_samples = 4, most_samples = 200;  // a pixel
-constexpr double brightest_sample = 2;                    // of what a sample counts for: few of them would decide else
+constexpr double brightest_sample = 2;                 // of what a sample counts for: few of them would decide else
 constexpr double noise_allowed = 5, part_allowed = 0.03, darkest_level = 0.01, blocks_allowed = 0.02;
 
 /// BlockLight of a block's samples, for the three channels.
@@ -114,7 +114,7 @@ std::string differs_from_own(const Scene& scene, const ProgramScene& program) {
   const Lattice lattice = small_lattice(scene.width, scene.height);
   int count = 0;
   const std::vector<BlockLight> own = own_blocks(*program.own, lattice, count),
-                          ours = our_blocks(scene, program, lattice, count);
+                                ours = our_blocks(scene, program, lattice, count);
   std::size_t different = 0, first = own.size();
   for (std::size_t k = 0; k < own.size(); ++k)
     if (apart(own[k], ours[k])) ++different, first = std::min(first, k);

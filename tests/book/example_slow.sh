@@ -6,7 +6,7 @@ cp -r "$source_root/assets/examples/book" example && cd example || exit 1
 sed 's/image_width = 400/image_width = 40/; s/samples_per_pixel = 100/samples_per_pixel = 400/' main.cc >small.cc
 expect 0 "${CXX:-c++}" -O2 -std=c++17 -Wall -Wextra -Werror -Itracer small.cc -o plain
 ./plain >plain.ppm || fail 'the tracer'
-expect 0 "$tyndall" render small.cc -q --gamma2 -o tyndall.ppm
+expect 0 "$tyndall" render small.cc -Itracer -q --gamma2 -o tyndall.ppm
 # Where nothing is dark or clipped, the means of the tracer's bytes are Tyndall's: the red ball, its left half.
 mean() { # FILE: of a region
   python3 -c '

@@ -22,7 +22,7 @@ fails() {
 }
 render="camera c; c.image_width = 8; c.samples_per_pixel = 2; c.render(ball());"
 
-fails 2 crash 'was ended by SIGSEGV' 'before the colour of its first ray' <<<'int main() { int* volatile p = nullptr; *p = 1; }'
+fails 2 crash 'was ended by SIGSEGV' 'before the colour of its first ray' <<<'int main() { volatile int* volatile p = nullptr; *p = 1; }'
 fails 2 thrown 'was ended by SIGABRT' "an instance of 'int'" <<<'int main() { throw 1; }'
 fails 2 leaves 'ended with exit code 4 before the colour of its first ray' 'its last words: "no model.obj"' <<<'int main() { std::cerr << "reading\nno model.obj\n"; exit(4); }'
 fails 2 nothing 'ended with exit code 0 before the colour of its first ray' <<<'int main() {}'
@@ -90,7 +90,7 @@ program endless <<<'int main() { std::ofstream("mark") << 1; for (volatile int i
 printf '#!/bin/sh\necho 1 >mark; sleep 1000 & sleep 1000\n' >compiler
 interrupted() { # SIGNAL CODE TEXT: what runs in the background ends so
   local code=0
-  for _ in $(seq 600); do [ -n "$(find temporary -name mark -size +0)" ] && break || sleep 0.1; done
+  for _ in $(seq 600); do [ -n "$(find temporary \( -name mark -o -path '*/written/*' \) -size +0)" ] && break || sleep 0.1; done
   kill -"$1" "$!"
   wait "$!" || code=$?
   same "exit code after SIG$1 $3" "$code" "$2"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Programs of several source files, and options that do not fit a program's scene.
 . "$(dirname "$0")/_program.sh"
-cp -r "$source_root/tests/book/several" several
+cp -r "$source_root/tests/book/several" several && cp "$source_root/tests/book/headers/books.h" several/include
 
 expect 0 "$tyndall" convert several/main.cc several/world.cc -I several/include -o several.json
 same 'the header that -I names' "$(json several.json background)" '[0.125, 0.25, 0.5]'
