@@ -86,6 +86,7 @@ bool read_messages(OwnProgram& own, const ProgramTask& task, ProgramScene& scene
       scene.matt_in_sphere = text.find("filled") != std::string::npos;
       scene.short_frame = text.find("frame") != std::string::npos;
       scene.has_images = text.find("image") != std::string::npos;
+      scene.draws_by_pdf = text.find("pdf") != std::string::npos;
       scene.has_noise = text.find("noise") != std::string::npos;
     }
     if (message->kind == 'E') throw UsageError(task.name + ": " + text);

@@ -33,6 +33,7 @@ struct ProgramScene {
   bool fuzz_on_sphere = false;               ///< its metals are those of the fourth edition
   bool matt_in_sphere = false;               ///< its matt surfaces are those of the first edition
   bool short_frame = false;                  ///< it divides by width - 1 and height - 1
+  bool draws_by_pdf = false;                 ///< it draws directions as the third book does, from mixtures
   bool has_noise = false;                    ///< it has textures of noise, whose lattice is its own
   bool has_images = false;                   ///< it has textures of images, which it reads by a curve of its own
 };

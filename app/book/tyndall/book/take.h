@@ -156,7 +156,8 @@ void tell_scene(const session& s) {
     const std::string scene = scene_of<N>(s, out);
     for (const std::string& note : out.notes) tell('N', note);
     tell('R', std::string(out.fuzz_on_sphere ? "sphere " : "") + (out.matt_in_sphere ? "filled " : "") +
-                  (s.less ? "frame " : "") + (out.has_noise ? "noise " : "") + (out.has_images ? "image " : ""));
+                  (s.less ? "frame " : "") + (out.has_noise ? "noise " : "") + (out.has_images ? "image " : "") +
+                  (N::has_densities ? "pdf " : ""));
     return tell('S', scene);
   } catch (const not_taken& why) {
     reason = why.reason;
