@@ -101,7 +101,10 @@ class Commands:
         small = ["--size", "32x18", "-q"]
         self.output(["render", "cornell-smoke", "--spp", "2", *small, "-o", "out.png"])
         shutil.copy(self.fixtures / "out.png", self.fixtures / "snapshot.png")
-        shutil.copy(self.root / "tests/book/third/main.cc", self.fixtures / "main.cc")
+        (self.fixtures / "headers").mkdir()
+        shutil.copy(self.root / "tests/book/headers/books.h", self.fixtures / "headers")
+        main = (self.root / "tests/book/third/main.cc").read_text(encoding="utf-8")
+        (self.fixtures / "main.cc").write_text(main.replace("../headers", "headers"), encoding="utf-8")
         self.output(["render", "cornell-box", "--spp", "4", *small, "-o", "image.ppm"])
         try:
             for name, samples in (("a", "0:1"), ("b", "1:2"), ("A", "0:2"), ("B", "0:2"), ("reference", "0:4"), ("fog", "0:4")):

@@ -16,9 +16,10 @@ fs::path book_folder() {
   const char* assets = std::getenv("TYNDALL_ASSETS");
   const fs::path chosen = assets && *assets ? fs::path(assets) / "book" : fs::path();
   for (const fs::path& folder : {chosen, program.parent_path() / "share" / "tyndall" / "book", program / "book"})
-    if (!folder.empty() && fs::is_regular_file(folder / "rtweekend.h", error)) return folder;
-  throw IoError("the folder of the books' headers was not found: neither share/tyndall/book of the installation nor " +
-                (program / "book").string() + " has rtweekend.h");
+    if (!folder.empty() && fs::is_regular_file(folder / "take.h", error)) return folder;
+  throw IoError(
+      "the folder of headers for readers' programs was not found: neither share/tyndall/book of the installation nor " +
+      (program / "book").string() + " has take.h");
 }
 
 }  // namespace tyndall

@@ -1,9 +1,10 @@
 #pragma once
 #include <filesystem>
 
-/// This room takes scenes from programs: those of readers of "Ray Tracing in One Weekend", whose main() describes a
-/// scene by the books' classes. It compiles them with headers of its own (tyndall/book), runs them, and takes the scene
-/// that they write. What a reader has to know is in README.md.
+/// This room shows what programs of readers of "Ray Tracing in One Weekend" show. It compiles them with their own
+/// headers and a few calls in their functions, runs them, and reads the world that they have built, by headers of its
+/// own (tyndall/book); what is no scene is shown by samples that they compute. What a reader has to know is in
+/// README.md.
 namespace tyndall {
 
 /// The folder of those headers: book in $TYNDALL_ASSETS, share/tyndall/book of the installation, or book beside the

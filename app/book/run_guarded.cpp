@@ -21,34 +21,26 @@ void on_signal_number(int number) {
       before[k].sa_handler(number);
 }
 
-/// Watches signals that ask for the end while it lives. What is ignored stays so, but for SIGINT: shells ignore it for
-/// jobs in the background, which "kill -INT" must still reach.
-class EndWatch {
- public:
-  explicit EndWatch(bool watches) : watches_(watches) {
-    received_signal = 0;
-    struct sigaction action {};
-    action.sa_handler = on_signal_number;
-    for (std::size_t k = 0; watches_ && k < 3; ++k) {
-      sigaction(watched[k], nullptr, &before[k]);
-      const bool ignored = before[k].sa_handler == SIG_IGN;
-      if (!ignored || watched[k] == SIGINT) sigaction(watched[k], &action, nullptr);
-    }
-  }
-  ~EndWatch() {
-    for (std::size_t k = 0; watches_ && k < 3; ++k) sigaction(watched[k], &before[k], nullptr);
-  }
-  EndWatch(const EndWatch&) = delete;
-  EndWatch& operator=(const EndWatch&) = delete;
-  int received() const { return watches_ ? received_signal.load() : 0; }
-
- private:
-  bool watches_;
-};
-
 }  // namespace
 
-ChildEnd run_guarded(const ProgramTask& task, ChildPlan plan, const std::string& doing) {
+EndWatch::EndWatch(bool watches) : watches_(watches) {
+  received_signal = 0;
+  struct sigaction action {};
+  action.sa_handler = on_signal_number;
+  for (std::size_t k = 0; watches_ && k < 3; ++k) {
+    sigaction(watched[k], nullptr, &before[k]);
+    const bool ignored = before[k].sa_handler == SIG_IGN;
+    if (!ignored || watched[k] == SIGINT) sigaction(watched[k], &action, nullptr);
+  }
+}
+
+EndWatch::~EndWatch() {
+  for (std::size_t k = 0; watches_ && k < 3; ++k) sigaction(watched[k], &before[k], nullptr);
+}
+
+int EndWatch::received() const { return watches_ ? received_signal.load() : 0; }
+
+ChildPlan guarded(const ProgramTask& task, ChildPlan plan) {
   plan.guard = available_guard();
   plan.own_folder = task.folder;
   if (!plan.guard.any() && !task.trusted)
@@ -56,6 +48,11 @@ ChildEnd run_guarded(const ProgramTask& task, ChildPlan plan, const std::string&
         task.name +
         ": is not run: this system has nothing that keeps a program from changing your files (neither user "
         "namespaces nor Landlock); --trust runs it as it is");
+  return plan;
+}
+
+ChildEnd run_guarded(const ProgramTask& task, ChildPlan plan, const std::string& doing) {
+  plan = guarded(task, std::move(plan));
   const EndWatch signals(task.watch_signals);
   plan.go_on = [&] { return signals.received() == 0 && (!task.go_on || task.go_on()); };
   ChildEnd end = run_child(plan);

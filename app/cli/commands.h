@@ -20,7 +20,6 @@ int run(const MergeCommand& command);
 int run(const DenoiseCommand& command);
 int run(const InspectCommand& command);
 int run(const ScenesCommand& command);
-int run(const BookCommand& command);
 int run(const ConvertCommand& command);
 int run(const PrintCommand& command);
 

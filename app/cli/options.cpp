@@ -90,24 +90,6 @@ Command read_scenes(Arguments arguments) {
   return ScenesCommand{};
 }
 
-Command read_book(Arguments arguments) {
-  const auto app = new_command(
-      "book",
-      "Prints the folder of headers by which programs of \"Ray Tracing in One Weekend\" and its sequels\n"
-      "compile, all editions.\n\n"
-      "'tyndall main.cc' does all of this by itself. By hand, a program that is built with these headers\n"
-      "writes Tyndall's picture where it wrote its own: on standard output as a PPM, or with -o FILE\n"
-      "(or TYNDALL_OUTPUT=FILE) in any format. On a terminal with a display it opens the window.",
-      "Examples:\n"
-      "  tyndall main.cc\n"
-      "  tyndall render main.cc -o picture.png\n"
-      "  d=$PWD; (cd \"$(mktemp -d)\" && g++ -std=c++17 -I\"$(tyndall book)\" -x c++ - -o \"$d/mine\") < main.cc\n"
-      "  ./mine > picture.ppm\n\n"
-      "(In the folder of main.cc the compiler would find the headers beside it first.)");
-  if (auto help = parse(*app, arguments)) return PrintCommand{*help};
-  return BookCommand{};
-}
-
 Command read_convert(Arguments arguments) {
   ConvertCommand command;
   command.scene.what.clear();
@@ -154,7 +136,6 @@ constexpr Entry entries[] = {
     {"inspect", "say what a scene contains and which models it needs", read_inspect},
     {"scenes", "list the built-in scenes", read_scenes},
     {"convert", "write a scene in normal form, also from an image", read_convert},
-    {"book", "print the folder of headers for programs of \"Ray Tracing in One Weekend\"", read_book},
 };
 
 std::string overview() {
@@ -213,6 +194,10 @@ Command read_command(const std::vector<std::string>& arguments) {
   if (first == "-V" || first == "--version" || first == "version") return PrintCommand{version_text(), {}};
   for (const Entry& entry : entries)
     if (first == entry.name) return entry.read({arguments.begin() + 1, arguments.end()});
+  if (first == "book" && !std::filesystem::exists(first))
+    throw UsageError(
+        "book: the folder of headers is gone: programs are read with their own; in place of a build by hand: tyndall "
+        "main.cc, tyndall render main.cc -o picture.exr, or ./mine | tyndall view -");
   refuse_misspelt_command(first, arguments.size() == 1);
   if (arguments.size() == 1) refuse_misspelt_option(first);
   return read_view(arguments);

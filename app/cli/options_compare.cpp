@@ -1,4 +1,5 @@
 #include "app/book/load_program.h"
+#include "app/check/own_picture.h"
 #include "app/cli/options_render.h"
 #include "core/base/text.h"
 
@@ -50,6 +51,7 @@ void finish_compare(const CLI::App& app, const std::vector<std::string>& images,
   command.image = images[0] == "-" ? "/dev/stdin" : images[0];
   command.reference = command.scene.what = images[1];
   command.scene.program.allowed = true;
+  command.scene.program.differs = differs_from_own;
 }
 
 /// The options that turn the comparison into a test.

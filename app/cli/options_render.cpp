@@ -1,6 +1,7 @@
 #include "app/cli/options_render.h"
 
 #include "app/book/load_program.h"
+#include "app/check/own_picture.h"
 #include "app/cli/setting_options.h"
 #include "core/base/target.h"
 #include "core/base/text.h"
@@ -177,6 +178,7 @@ void add_scene(CLI::App& app, SceneRequest& scene, const std::string& note) {
   const auto take = [&app, &scene](const std::vector<std::string>& arguments) {
     scene.what = arguments[0];
     scene.program.allowed = true;
+    scene.program.differs = differs_from_own;
     // Behind an unknown option stands its value, which is no argument: parse() tells of the option.
     const auto unknown = app.remaining();
     const bool complete = unknown.empty() || unknown[0] == "--";
@@ -190,7 +192,7 @@ void add_scene(CLI::App& app, SceneRequest& scene, const std::string& note) {
                                                     "scene file, built-in scene (see tyndall scenes), PNG or EXR made\n"
                                                     "by Tyndall, - for standard input, or MAIN.cc (.cpp, .cxx): a\n"
                                                     "program of \"Ray Tracing in One Weekend\", which is compiled and\n"
-                                                    "run (see tyndall book); its other source files may follow" +
+                                                    "run; its other source files may follow" +
                                                         note)
       ->option_text(" ")
       ->type_name("")

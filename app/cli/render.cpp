@@ -34,7 +34,8 @@ std::string summary(const RenderOutcome& outcome, const std::vector<std::filesys
 }
 
 int print_replay(const RenderCommand& command) {
-  const LoadedScene loaded = open_frame(command);
+  OwnSamples own;
+  const LoadedScene loaded = open_frame(command, own);
   const SampleKey& key = *command.replay;
   const Scene& scene = loaded.scene;
   if (key.x >= scene.width || key.y >= scene.height)
@@ -52,7 +53,7 @@ int run(const RenderCommand& command) {
   if (command.replay) return print_replay(command);
   check_names(command);
   RenderJob job{command};
-  job.loaded = open_frame(command);
+  job.loaded = open_frame(command, job.own);
   prepare(job);
   if (!job.begin.note.empty()) complain(job.begin.note);
   if (job.begin.as_requested) return 0;

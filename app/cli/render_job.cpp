@@ -12,7 +12,9 @@
 #include "core/files/film_files.h"
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <new>
 #include <utility>
@@ -53,6 +55,8 @@ RunFigures figures(const RenderJob& job, const RenderOutcome& outcome) {
 /// What an image or film at that place carries beside the picture.
 Embedded embedded_in(const RenderJob& job, const Film& film, const std::filesystem::path& file, std::string stats,
                      bool unfinished) {
+  if (job.loaded.is_picture)
+    return {"", "{\"own_samples\": " + nlohmann::json(job.own.reason()).dump() + "}", {}, false};
   return {embedded_scene(job.loaded.scene, job.loaded.folder, film, file), std::move(stats),
           label_for(job.loaded.scene, job.kernels.isa, unfinished)};
 }
@@ -130,11 +134,16 @@ void prepare(RenderJob& job) {
   job.kernels = kernels_to_render(command.isa);
   job.options = render_options(command, job.loaded);
   job.options.threads = job.threads.count;
+  if (job.loaded.is_picture) {
+    job.options.samples = job.own.function()->source();
+    job.options.threads = std::max(command.threads, 1);
+  }
   std::vector<Output> outputs = outputs_of("--output", command.outputs);
   outputs.push_back({"--stats", command.stats});
   check_outputs(outputs, job.loaded.files);
   check_can_write(outputs);
   check_memory(memory_plan(command, job.loaded, *job.options.region), free_memory());
+  if (job.loaded.is_picture) return;  // there is no film to go on with
   job.begin = find_start(command, job.loaded, job.options, job.kernels);
   job.samples_before = totals(job.begin.film).samples;
 }

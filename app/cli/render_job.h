@@ -18,7 +18,8 @@ namespace tyndall {
 struct RenderJob {
   const RenderCommand& command;
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-  LoadedScene loaded{};     ///< what the command's scene is; see open_scene()
+  LoadedScene loaded{};     ///< what the command's scene is; see open_scene_or_samples()
+  OwnSamples own{};         ///< where it is a picture
   bool whole_only = false;  ///< of a picture that is unfinished only a film is written, which can be gone on with
   ThreadCount threads = thread_count(command.threads);
   RenderOptions options{};

@@ -167,8 +167,26 @@ std::string differing_film(const StoredFilm& stored, const RenderCommand& comman
   return text;
 }
 
-LoadedScene open_frame(const RenderCommand& command) {
-  LoadedScene loaded = open_scene(command.scene);
+namespace {
+
+/// Own samples are no function of seed and index, so that nothing can be gone on with or put together.
+void check_own_samples(const RenderCommand& command, const std::string& name) {
+  const auto refuse = [&](const char* option) {
+    throw UsageError(name + ": " + option +
+                     ": found samples of the program's own, expected a scene; they are taken anew each time");
+  };
+  if (command.samples) refuse("--samples");
+  if (command.resume) refuse("--resume");
+  if (command.replay) refuse("--replay");
+  if (command.frame) refuse("--frame");
+  if (command.scene.render.given.size() > 0) refuse("an option of rendering");
+}
+
+}  // namespace
+
+LoadedScene open_frame(const RenderCommand& command, OwnSamples& own) {
+  LoadedScene loaded = open_scene_or_samples(command.scene, own);
+  if (loaded.is_picture) check_own_samples(command, loaded.name);
   if (!command.frame) return loaded;
   if (!loaded.scene.animation)
     throw UsageError("--frame: found no \"animation\" in " + printable(loaded.name) + ", expected a scene with keys");

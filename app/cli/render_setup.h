@@ -19,7 +19,7 @@ Kernels find_kernels(const std::string& isa);
 Kernels kernels_to_render(const std::string& isa);
 
 /// The scene of a command, with --frame the one of that frame.
-LoadedScene open_frame(const RenderCommand& command);
+LoadedScene open_frame(const RenderCommand& command, OwnSamples& own);
 
 /// Limits and region of a render. spp is always set; where only time or error end the render, to max_samples.
 /// Throws UsageError for a region beyond the image and for adaptive sampling of a range.

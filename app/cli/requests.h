@@ -131,8 +131,6 @@ struct InspectCommand {
 
 struct ScenesCommand {};
 
-struct BookCommand {};
-
 struct ConvertCommand {
   SceneRequest scene;
   std::filesystem::path output;  ///< "-": standard output
@@ -145,7 +143,7 @@ struct PrintCommand {
 };
 
 using Command = std::variant<ViewCommand, RenderCommand, SweepCommand, AnimateCommand, CompareCommand, ChartCommand,
-                             VerifyCommand, MergeCommand, DenoiseCommand, InspectCommand, ScenesCommand, BookCommand,
+                             VerifyCommand, MergeCommand, DenoiseCommand, InspectCommand, ScenesCommand,
                              ConvertCommand, PrintCommand>;
 
 /// The command line as a whole: which command, and its request. arguments[0] is what follows the program's name. Throws

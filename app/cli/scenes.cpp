@@ -1,4 +1,3 @@
-#include "app/book/book_folder.h"
 #include "app/cli/commands.h"
 #include "app/export/foreign_scene.h"
 #include "app/files/open_scene.h"
@@ -74,11 +73,6 @@ int run(const ConvertCommand& command) {
 
 int run(const PrintCommand& command) {
   write_standard_output(command.text);
-  return 0;
-}
-
-int run(const BookCommand&) {
-  write_standard_output(book_folder().string() + "\n");
   return 0;
 }
 

@@ -144,9 +144,10 @@ int view_scene(const ViewCommand& command) {
   if (command.ppm == PpmCurve::gamma2)
     throw UsageError(
         "--gamma2: found a scene, expected a picture (P3 or P6) on standard input: only these are read so");
-  const auto open = [request = command.scene](const std::function<bool()>& go_on) mutable {
+  const auto own = std::make_shared<OwnSamples>();
+  const auto open = [request = command.scene, own](const std::function<bool()>& go_on) mutable {
     request.program.go_on = go_on;
-    return open_scene(request);
+    return open_scene_or_samples(request, *own);
   };
   // Without the values of --set: edits begin with these, and may have changed them since.
   const auto read_edits = [request = command.scene](const std::string& what) mutable {
@@ -155,7 +156,7 @@ int view_scene(const ViewCommand& command) {
     request.program.allowed = false;
     return open_scene(request);
   };
-  const LoadedScene loaded = open_scene(command.scene);
+  const LoadedScene loaded = open_scene_or_samples(command.scene, *own);
   find_kernels(command.isa);
   check_memory(loaded.scene);
   check_files(command, loaded.files);
@@ -163,9 +164,17 @@ int view_scene(const ViewCommand& command) {
     tell_alpha(loaded);
     const auto& arguments = command.arguments;
     const bool named = std::find(arguments.begin(), arguments.end(), command.scene.what) != arguments.end();
-    return WindowOptions{loaded,          open,        read_edits,
-                         command.threads, command.isa, command.reference,
-                         command.ui_log,  named,       {command.time_limit, command.target_error}};
+    return WindowOptions{loaded,
+                         open,
+                         read_edits,
+                         command.threads,
+                         command.isa,
+                         command.reference,
+                         command.ui_log,
+                         named,
+                         {command.time_limit, command.target_error},
+                         nullptr,
+                         is_program(command.scene.what) ? own->function() : nullptr};
   });
 }
 

@@ -26,8 +26,7 @@ Scene name_textures_from(const std::filesystem::path& folder, Scene scene) {
   return scene;
 }
 
-/// The scene that a program writes.
-LoadedScene load_program_scene(const SceneRequest& request) {
+ProgramRequest program_request(const SceneRequest& request) {
   const std::filesystem::path file = request.what;
   if (!request.program.allowed) throw SceneError(request.what, "a program", expected_no_program);
   std::error_code error;
@@ -36,16 +35,33 @@ LoadedScene load_program_scene(const SceneRequest& request) {
   parts.sources = {{file}, request.program.include_folders};
   const auto& more = request.program.more_files;
   parts.sources.files.insert(parts.sources.files.end(), more.begin(), more.end());
-  parts.build = request.program.build;
+  parts.compiler = request.program.compiler;
   parts.go_on = request.program.go_on;
   parts.watch_signals = !parts.go_on;
   parts.trusted = request.program.trusted;
-  const ProgramScene made = load_program(parts);
+  return parts;
+}
+
+/// The scene that a program describes, or its own samples.
+LoadedScene load_program_scene(const SceneRequest& request, OwnSamples& own) {
+  const ProgramScene made = load_program(program_request(request));
   for (const std::string& note : made.notes)
     if (!request.program.told) complain(note);
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  LoadedScene loaded = load_scene_text(made.json, request.what, folder, request.overrides);
-  loaded.scene = name_textures_from(folder, std::move(loaded.scene));
+  const std::filesystem::path file = request.what, folder = file.has_parent_path() ? file.parent_path() : ".";
+  LoadedScene loaded;
+  std::string reason = made.reason;
+  if (!made.json.empty()) {
+    loaded = load_scene_text(made.json, request.what, folder, request.overrides);
+    loaded.scene = name_textures_from(folder, std::move(loaded.scene));
+    if (request.program.differs && request.overrides.empty()) reason = request.program.differs(loaded.scene, made);
+  }
+  if (!reason.empty()) {
+    own.take(made.own, request.what + ": " + reason);
+    loaded = LoadedScene{};
+    loaded.name = request.what, loaded.folder = folder, loaded.is_picture = true;
+    loaded.scene.width = made.width, loaded.scene.height = made.height, loaded.scene.render.spp = made.samples;
+    loaded.scene.render.seed = own.taken();  // another program, another picture
+  }
   loaded.sources = made.files;
   loaded.files.insert(loaded.files.begin(), made.files.begin(), made.files.end());
   return loaded;
@@ -62,13 +78,26 @@ void apply_options(const SceneRequest& request, LoadedScene& loaded) {
 
 }  // namespace
 
-LoadedScene open_scene(const SceneRequest& request) {
+LoadedScene open_scene_or_samples(const SceneRequest& request, OwnSamples& own) {
+  own.take(nullptr, "");
   LoadedScene loaded =
-      is_program(request.what) ? load_program_scene(request) : load_scene(request.what, request.overrides);
+      is_program(request.what) ? load_program_scene(request, own) : load_scene(request.what, request.overrides);
+  if (loaded.is_picture && !request.overrides.empty())
+    throw UsageError(own.reason() + "; --set changes scenes, and these are samples of its own");
   apply_options(request, loaded);
-  if (request.program.told) return loaded;
+  if (loaded.is_picture) complain(own.reason() + "; these are your own samples");
+  if (request.program.told || loaded.is_picture) return loaded;
   for (const std::string& remark : texture_remarks(loaded.scene)) complain(remark);
   if (const std::string remark = contents_remark(loaded); !remark.empty()) complain(remark);
+  return loaded;
+}
+
+LoadedScene open_scene(const SceneRequest& request) {
+  OwnSamples own;
+  LoadedScene loaded = open_scene_or_samples(request, own);
+  if (loaded.is_picture)
+    throw UsageError(request.what +
+                     " is no scene, but a program whose own samples can be shown, by tyndall render and tyndall view");
   return loaded;
 }
 

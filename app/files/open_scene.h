@@ -1,5 +1,6 @@
 #pragma once
-#include "app/book/program_layout.h"
+#include "app/book/load_program.h"
+#include "app/files/own_samples.h"
 #include "app/text/values.h"
 #include "core/scene/frames.h"
 #include "core/scene/load.h"
@@ -48,10 +49,12 @@ struct ProgramParts {
   std::vector<std::filesystem::path> more_files, include_folders;  ///< beside the file with main()
   /// Whether a C++ source file may be compiled and run at all: only one that the user has named for that.
   bool allowed = false;
-  bool trusted = false;  ///< it is also run where the system has no guard
-  ProgramBuild build{};
+  bool trusted = false;         ///< it is also run where the system has no guard
+  std::string compiler{};       ///< see ProgramTask
   bool told = false;            ///< what is to be told of it was told before
   std::function<bool()> go_on;  ///< false gives up; empty: signals do, which a window watches itself
+  /// Says why a scene is not what its program computes; "": it is. May be empty.
+  std::function<std::string(const Scene&, const ProgramScene&)> differs;
 };
 
 /// A scene, and what options change in it.
@@ -64,8 +67,13 @@ struct SceneRequest {
   Changes<Display> display;
 };
 
+/// Loads a scene, or what is shown in its place: a program whose world cannot be taken over. Then `own` says why, and
+/// the scene has its picture's size and settings and nothing else; else `own` is emptied. See open_scene().
+LoadedScene open_scene_or_samples(const SceneRequest& request, OwnSamples& own);
+
 /// Loads a scene and applies the options to it: overrides before it is checked, the others after that, and checks
-/// again. Tells on standard error how pictures of textures were read, where that should be known. Throws SceneError.
+/// again. Tells on standard error how pictures of textures were read, where that should be known. Throws SceneError,
+/// and UsageError for a program that has only samples of its own.
 LoadedScene open_scene(const SceneRequest& request);
 
 /// The scene that a request has opened, with further overrides after the request's own. name: what messages call it.

@@ -162,10 +162,7 @@ std::string man_page(const std::vector<CommandPage>& commands) {
          "or display error; 130: Ctrl\\-C; 128 and its number: another signal.\n"
          ".SH ENVIRONMENT\n.TP\n.B TYNDALL_ASSETS\nthe folder that holds the built\\-in scenes and known answers\n"
          ".TP\n.B NO_COLOR\nno colours in progress\n"
-         ".TP\n.B CXX\nthe compiler of programs of the books; else c++, g++ or clang++\n"
-         ".TP\n.B TYNDALL_OUTPUT\nread by programs that were built with the headers of \\(dqtyndall book\\(dq: the "
-         "file of their "
-         "picture\n";
+         ".TP\n.B CXX\nthe compiler of programs of the books; else c++, g++ or clang++\n";
 }
 
 std::string bash_completion(const std::vector<CommandPage>& commands) {

@@ -46,7 +46,7 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
       saving_(wake) {
   wanted_.threads = thread_count(options.threads).count;
   read_preferences_file();
-  if (!picture_ && !function_) restore_edits(options);
+  if (!options.scene.is_picture) restore_edits(options);
   timer_.on_change(clock_seconds());
   submit(clock_seconds());
   if (isa_.empty() && !slow_build_warning().empty()) messages_.say_until_done(slow_build_warning());

@@ -27,8 +27,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t max_messages = std::size_t(300) << 20;  // more than the largest scene
-
 /// Both ends of a pipe, closed at the end.
 struct Pipe {
   int read = -1, write = -1, error = 0;
@@ -55,7 +53,8 @@ struct ProcessStart {
   std::vector<char*> arguments, variables;
   std::string folder;
   Guard guard;
-  int input, errors, messages, report;  ///< descriptors; messages: -1, none
+  int input, errors, channel, report;  ///< descriptors; channel: -1, none
+  std::size_t max_memory, max_file;
 };
 
 std::vector<char*> pointers(std::vector<std::string>& arguments) {
@@ -87,7 +86,7 @@ void die_with_parent(int signal) {
 /// Closes all but the standard streams and the ends of pipes that are needed; those of other children would not end.
 void close_others(const ProcessStart& start) {
 #ifdef __linux__
-  int kept[] = {start.input, start.errors, start.messages, start.report};
+  int kept[] = {start.input, start.errors, start.channel, start.report};
   std::sort(std::begin(kept), std::end(kept));
   int from = 3;
   for (const int end : kept) {
@@ -103,6 +102,13 @@ void report(const ProcessStart& start, int number) {
   [[maybe_unused]] const auto told = write(start.report, &number, sizeof number);
 }
 
+/// Sets a limit that there is.
+template <class Resource>
+void limit(Resource resource, std::size_t bytes) {
+  const rlimit most{bytes, bytes};
+  if (bytes > 0) setrlimit(resource, &most);
+}
+
 /// The new process becomes the program.
 [[noreturn]] void become(const ProcessStart& start) {
   setsid();  // no terminal
@@ -113,7 +119,8 @@ void report(const ProcessStart& start, int number) {
   dup2(start.input, STDIN_FILENO);
   dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDOUT_FILENO);
   dup2(start.errors, STDERR_FILENO);
-  if (start.messages >= 0) fcntl(start.messages, F_SETFD, 0);
+  limit(RLIMIT_AS, start.max_memory), limit(RLIMIT_FSIZE, start.max_file);
+  if (start.channel >= 0) fcntl(start.channel, F_SETFD, 0);
   int error = EPERM;
   if (chdir(start.folder.c_str()) != 0) {
     error = errno;
@@ -159,7 +166,7 @@ int wait_for(pid_t program, const sigset_t& watched) {
   const pid_t program = fork();
   if (program == 0) become(start);
   report(start, program > 0 ? program : -errno);
-  for (const int end : {start.input, start.errors, start.messages, start.report}) close(end);
+  for (const int end : {start.input, start.errors, start.channel, start.report}) close(end);
   const int status = program > 0 ? wait_for(program, watched) : 0;
   close(life);
   while (life >= 0 && waitpid(-1, nullptr, 0) > 0) {  // the namespaces' first process ends last
@@ -204,18 +211,15 @@ void drain(int& from, std::string& text, std::size_t limit, bool keep_last) {
 
 class Child {
  public:
-  Child(const ChildPlan& plan, pid_t supervisor, pid_t program, Pipe& errors, Pipe& messages)
-      : plan_(plan), supervisor_(supervisor), program_(program), errors_(errors), messages_(messages) {}
+  Child(const ChildPlan& plan, pid_t supervisor, pid_t program, Pipe& errors)
+      : plan_(plan), supervisor_(supervisor), program_(program), errors_(errors) {}
 
   /// Until it has ended, or is to be ended.
   void follow(ChildEnd& end) {
-    Clock::time_point deadline = in(plan_.seconds);
-    bool told = false;
+    const Clock::time_point deadline = in(plan_.seconds);
     int waits = 0;  // how often in a row it was seen to wait for input
     while (!collect(end)) {
       take(end, 20);
-      if (!std::exchange(told, !end.messages.empty()) && !end.messages.empty())
-        deadline = std::min(deadline, in(plan_.seconds_after_message));
       waits = awaits_input(program_) ? waits + 1 : 0;
       end.given_up = plan_.go_on && !plan_.go_on();
       end.timed_out = Clock::now() > deadline;
@@ -230,7 +234,7 @@ class Child {
     while (!ended_ && waitpid(supervisor_, &status, 0) < 0 && errno == EINTR) {
     }
     const Clock::time_point deadline = Clock::now() + std::chrono::milliseconds(500);
-    while ((errors_.read >= 0 || messages_.read >= 0) && Clock::now() < deadline) take(end, 50);
+    while (errors_.read >= 0 && Clock::now() < deadline) take(end, 50);
   }
 
  private:
@@ -246,16 +250,14 @@ class Child {
     return true;
   }
   void take(ChildEnd& end, int milliseconds) {
-    pollfd polled[2] = {{errors_.read, POLLIN, 0}, {messages_.read, POLLIN, 0}};
-    const bool is_ending = errors_.read < 0 && messages_.read < 0;
-    if (poll(polled, 2, is_ending ? 1 : milliseconds) <= 0) return;
-    if (polled[0].revents) drain(errors_.read, end.errors, plan_.max_errors, plan_.keep_last_errors);
-    if (polled[1].revents) drain(messages_.read, end.messages, max_messages, false);
+    pollfd polled{errors_.read, POLLIN, 0};
+    if (poll(&polled, 1, errors_.read < 0 ? 1 : milliseconds) > 0)
+      drain(errors_.read, end.errors, plan_.max_errors, plan_.keep_last_errors);
   }
 
   const ChildPlan& plan_;
   pid_t supervisor_, program_;
-  Pipe &errors_, &messages_;
+  Pipe& errors_;
   bool ended_ = false;
 };
 
@@ -263,15 +265,14 @@ class Child {
 
 ChildEnd run_child(const ChildPlan& plan) {
   ChildEnd end;
-  Pipe input, errors, messages, reports;
-  for (const Pipe* pipe : {&input, &errors, &messages, &reports})
+  Pipe input, errors, reports;
+  for (const Pipe* pipe : {&input, &errors, &reports})
     if (pipe->read < 0) {
       end.start_error = pipe->error;
       return end;
     }
   std::vector<std::string> command = plan.command, additions = plan.environment;
-  const bool has_messages = !plan.pipe_variable.empty();
-  if (has_messages) additions.push_back(plan.pipe_variable + "=" + std::to_string(messages.write));
+  if (plan.channel >= 0) additions.push_back(plan.channel_variable + "=" + std::to_string(plan.channel));
   ProcessStart start{with(additions),
                      pointers(command),
                      {},
@@ -279,8 +280,10 @@ ChildEnd run_child(const ChildPlan& plan) {
                      Guard(plan.guard, plan.own_folder.string()),
                      input.read,
                      errors.write,
-                     has_messages ? messages.write : -1,
-                     reports.write};
+                     plan.channel,
+                     reports.write,
+                     plan.max_memory,
+                     plan.max_file};
   start.variables = pointers(start.environment);
   const pid_t parent = getpid(), supervisor = fork();
   if (supervisor == 0) supervise(start, parent);
@@ -288,10 +291,10 @@ ChildEnd run_child(const ChildPlan& plan) {
     end.start_error = errno;
     return end;
   }
-  Pipe::close_end(errors.write), Pipe::close_end(messages.write), Pipe::close_end(reports.write);
+  Pipe::close_end(errors.write), Pipe::close_end(reports.write);
   pid_t program = 0;
   for (int number = 0; next_number(reports.read, number);) (number > 0 ? program : end.start_error) = std::abs(number);
-  Child child(plan, supervisor, program, errors, messages);
+  Child child(plan, supervisor, program, errors);
   if (end.start_error == 0) child.follow(end);
   child.finish(end);
   return end;

@@ -60,14 +60,19 @@ double seconds_of(const ChildPlan& plan, ChildEnd& end) {
 
 }  // namespace
 
-TEST_CASE("a child's exit code, its errors, its messages, and its variables") {
+TEST_CASE("a child's exit code, its errors, its channel, and its variables") {
+  int ends[2];
+  REQUIRE(pipe(ends) == 0);
   ChildPlan plan = shell("echo $ONE >&2; echo out; echo told >&$PIPE; exit 3");
   plan.environment = {"ONE=1 and more"};
-  plan.pipe_variable = "PIPE";
+  plan.channel = ends[1], plan.channel_variable = "PIPE";
   const ChildEnd end = run_child(plan);
+  char told[5] = {};
+  CHECK(read(ends[0], told, 5) == 5);
+  for (const int one : ends) close(one);
   CHECK(end.exit_code == 3);
   CHECK(end.errors == "1 and more\n");
-  CHECK(end.messages == "told\n");
+  CHECK(std::string(told, 5) == "told\n");
   CHECK_FALSE(end.ended());
 }
 
@@ -105,14 +110,10 @@ TEST_CASE("what a child has left running is ended with it") {
   CHECK(is_gone(std::stoi(end.errors)));
 }
 
-TEST_CASE("after its first message a child has less time") {
-  ChildPlan plan = shell("echo told >&$PIPE; sleep 60");
-  plan.pipe_variable = "PIPE";
-  plan.seconds_after_message = 0.2;
-  ChildEnd end;
-  CHECK(seconds_of(plan, end) < 10);
-  CHECK(end.timed_out);
-  CHECK(end.messages == "told\n");
+TEST_CASE("a child's files have a limit") {
+  ChildPlan plan = shell("head -c 100000 /dev/zero >" + (scratch_folder("child") / "large").string());
+  plan.max_file = 50000;
+  CHECK_FALSE(run_child(plan).succeeded());
 }
 
 TEST_CASE("a child that nobody wants any more is ended") {

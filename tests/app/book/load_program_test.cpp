@@ -18,7 +18,8 @@ namespace {
 ProgramRequest program_with(const std::string& main) {
   const fs::path folder = scratch_folder() / "load_program";
   fs::create_directories(folder);
-  std::ofstream(folder / "main.cc") << "#include \"rtweekend.h\"\nint main() { " << main << " }\n";
+  std::ofstream(folder / "main.cc") << "#include \"" << tests_folder().string()
+                                    << "/book/headers/books.h\"\nint main() { " << main << " }\n";
   ProgramRequest request;
   request.sources.files = {folder / "main.cc"};
   request.trusted = true;
@@ -41,10 +42,9 @@ TEST_CASE("a program without end is ended") {
   ProgramRequest request = program_with("for (volatile int i = 0;;) i = 1;");
   request.seconds = 0.5;
   const std::string name = request.sources.files[0].string();
-  CHECK_THROWS_WITH_AS(
-      load_program(request),
-      (name + ": did not come to camera::render() or the pixels of a loop within 0.5 s, and was ended").c_str(),
-      UsageError);
+  CHECK_THROWS_WITH_AS(load_program(request),
+                       (name + ": did not come to the colour of its first ray within 0.5 s, and was ended").c_str(),
+                       UsageError);
 }
 
 TEST_CASE("a program that nobody waits for any more is given up, also while it is compiled") {

@@ -61,7 +61,6 @@ TEST_CASE("programs: more source files and folders of headers, and leave to comp
   for (const Arguments& arguments :
        {Arguments{"inspect", "main.cc", "a.json"}, Arguments{"inspect", "a.json", "main.cc"}})
     CHECK(refusal(arguments) == "unexpected argument \"" + arguments[2] + "\" (see tyndall inspect --help)");
-  CHECK(std::holds_alternative<BookCommand>(read_command({"book"})));
 }
 
 TEST_CASE("the window takes limits, at which the picture pauses") {
@@ -239,7 +238,7 @@ TEST_CASE("chart: methods with flags of their own, reference, budget") {
 TEST_CASE("help names every command and option, with units and defaults") {
   const std::string overview = printed({"--help"});
   for (const char* name :
-       {"view", "render", "compare", "chart", "verify", "merge", "inspect", "scenes", "convert", "book"})
+       {"view", "render", "compare", "chart", "verify", "merge", "inspect", "scenes", "convert"})
     CHECK(has(overview, std::string("\n  ") + name + " "));
   CHECK(printed({"-h"}) == overview);
   for (const char* argument : {"--version", "-V", "version"}) CHECK(has(printed({argument}), "tyndall "));
@@ -272,12 +271,12 @@ TEST_CASE("help names every command and option, with units and defaults") {
   CHECK(has(render, "else 64"));
   CHECK(has(render, "else 1000"));
   CHECK(has(printed({"compare", "--help"}), "depends on the unit of radiance"));
-  for (const char* command : {"view", "merge", "inspect", "scenes", "convert", "book"})
+  for (const char* command : {"view", "merge", "inspect", "scenes", "convert"})
     CHECK(has(printed({command, "--help"}), std::string("Usage: tyndall ") + command));
 }
 
 TEST_CASE("help fits into 100 columns") {
-  for (const char* command : {"view", "render", "compare", "merge", "inspect", "scenes", "convert", "book"}) {
+  for (const char* command : {"view", "render", "compare", "merge", "inspect", "scenes", "convert"}) {
     const std::string text = printed({command, "--help"});
     for (std::size_t at = 0; at < text.size();) {
       const std::size_t end = text.find('\n', at);

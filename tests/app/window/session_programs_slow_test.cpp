@@ -3,6 +3,7 @@
 #include "app/window/document/open_document.h"
 #include "app/window/gallery/gallery.h"
 #include "tests/app/window/opened_session.h"
+#include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
 
@@ -16,7 +17,8 @@ namespace {
 
 /// A program that describes the scene of OpenedSession::write().
 void write_program(const std::string& fuzz, const std::string& file = "main.cc") {
-  std::ofstream(file + ".new") << "#include \"rtweekend.h\"\nint main() {\n  hittable_list world;\n"
+  std::ofstream(file + ".new") << "#include \"" << tests_folder().string()
+                               << "/book/headers/books.h\"\nint main() {\n  hittable_list world;\n"
                                << "  world.add(make_shared<sphere>(point3(0, 0, -2), 1.0, make_shared<metal>(color(1, "
                                   "1, 1), "
                                << fuzz << ")));\n  camera cam;\n  cam.image_width = 8;\n  cam.samples_per_pixel = 4;\n"

@@ -1,18 +1,12 @@
 // Written for Tyndall's tests in the style of the first edition: raw pointers, a function called color, numbers on
 // standard output.
-#include <float.h>
-#include <stdlib.h>
 
-#include <iostream>
-
-#include "camera.h"
-#include "hitable_list.h"
-#include "material.h"
-#include "sphere.h"
+#define EDITION 1
+#include "../headers/books.h"
 
 vec3 color(const ray& r, hitable* world, int depth) {
   hit_record rec;
-  if (world->hit(r, 0.001, MAXFLOAT, rec)) {
+  if (world->hit(r, 0.001, infinity, rec)) {
     ray scattered;
     vec3 attenuation;
     if (depth < 20 && rec.mat_ptr->scatter(r, rec, attenuation, scattered))
@@ -20,7 +14,7 @@ vec3 color(const ray& r, hitable* world, int depth) {
     return vec3(0, 0, 0);
   }
   vec3 unit = unit_vector(r.direction());
-  float share = 0.5 * (unit.y() + 1.0);
+  double share = 0.5 * (unit.y() + 1.0);
   return (1.0 - share) * vec3(1.0, 0.9, 0.8) + share * vec3(0.2, 0.4, 0.6);
 }
 
@@ -32,17 +26,17 @@ int main() {
   list[1] = new sphere(vec3(0, 1, 0), 1, new metal(vec3(0.7, 0.6, 0.5), 0.25));
   list[2] = new sphere(vec3(2, 0.5, 1), 0.5, new dielectric(1.5));
   hitable* world = new hitable_list(list, 3);
-  camera cam(vec3(4, 2, 6), vec3(0, 1, 0), vec3(0, 1, 0), 50, float(nx) / float(ny), 0.0, 7.0);
+  camera cam(vec3(4, 2, 6), vec3(0, 1, 0), vec3(0, 1, 0), 50, double(nx) / ny, 0.0, 7.0);
   for (int j = ny - 1; j >= 0; j--) {
     for (int i = 0; i < nx; i++) {
       vec3 col(0, 0, 0);
       for (int s = 0; s < ns; s++) {
-        float u = float(i + drand48()) / float(nx);
-        float v = float(j + drand48()) / float(ny);
+        double u = (i + random_double()) / nx;
+        double v = (j + random_double()) / ny;
         ray r = cam.get_ray(u, v);
         col += color(r, world, 0);
       }
-      col /= float(ns);
+      col = 1.0 / ns * col;
       col = vec3(sqrt(col[0]), sqrt(col[1]), sqrt(col[2]));
       int ir = int(255.99 * col[0]);
       int ig = int(255.99 * col[1]);

@@ -1,14 +1,5 @@
 // Written for Tyndall's tests in the style of the fourth edition: camera::render() at the end of main().
-#include "rtweekend.h"
-
-#include "../newest/Camera.hpp"
-#include "Constant_Medium.h"
-#include "bvh.h"
-#include "hittable_list.h"
-#include "material.h"
-#include "quad.h"
-#include "sphere.h"
-#include "stripes.h"
+#include "../headers/books.h"
 
 int main() {
   hittable_list room;
@@ -17,14 +8,13 @@ int main() {
   room.add(make_shared<sphere>(point3(0, 1, 0), 1.0, make_shared<dielectric>(1.5)));
   room.add(make_shared<sphere>(point3(-2, 0.5, 1), point3(-2, 0.75, 1), 0.5, make_shared<metal>(color(0.9, 0.6, 0.2), 3.0)));
 
-  shared_ptr<hittable> block = box(point3(1, 0, -1), point3(0, 2, 0), make_shared<lambertian>(stripes));
+  shared_ptr<hittable> block = box(point3(1, 0, -1), point3(0, 2, 0), make_shared<lambertian>(color(0.5, 0.25, 0.125)));
   block = make_shared<rotate_y>(block, 30);
   block = make_shared<translate>(block, vec3(2, 0, 0));
   room.add(block);
   auto mist = make_shared<sphere>(point3(2, 1, 2), 0.75, shared_ptr<material>());
   room.add(make_shared<constant_medium>(mist, 0.5, color(0.9, 0.9, 1.0)));
   room.add(make_shared<quad>(point3(-1, 4, -1), vec3(2, 0, 0), vec3(0, 0, 2), make_shared<diffuse_light>(color(5, 4, 3))));
-  room = hittable_list(make_shared<bvh_node>(room));
 
   camera cam;
   cam.aspect_ratio = 4.0 / 3.0;

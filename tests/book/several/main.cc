@@ -1,5 +1,5 @@
 // Written for Tyndall's tests: several source files, and a header in a folder that -I names.
-#include "camera.h"
+#include "books.h"
 #include "sky_colour.h"
 #include "world.h"
 

@@ -1,7 +1,5 @@
 #include "world.h"
 
-#include "material.h"
-#include "sphere.h"
 
 hittable_list balls() {
   hittable_list list;

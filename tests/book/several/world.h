@@ -1,5 +1,5 @@
 #ifndef WORLD_H
 #define WORLD_H
-#include "hittable_list.h"
+#include "books.h"
 hittable_list balls();
 #endif

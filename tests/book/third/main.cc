@@ -1,17 +1,6 @@
 // Written for Tyndall's tests in the style of the third edition: the loop over pixels is here, with ray_color().
-#include "aarect.h"
-#include "box.h"
-#include "camera.h"
-#include "color.h"
-#include "constant_medium.h"
-#include "hittable_list.h"
-#include "material.h"
-#include "moving_sphere.h"
-#include "rtweekend.h"
-#include "sphere.h"
-
-#include <fstream>
-#include <iostream>
+#define EDITION 3
+#include "../headers/books.h"
 
 color ray_color(const ray& r, const color& background, const hittable& world, int left) {
   hit_record found;
@@ -28,11 +17,10 @@ int main() {
   const int width = 48, height = 36, samples = 5, depth = 9;
   hittable_list world;
   auto grey = make_shared<lambertian>(color(0.5, 0.5, 0.5));
-  world.add(make_shared<xz_rect>(-5, 5, -5, 5, 0, grey));
-  world.add(make_shared<flip_face>(make_shared<xy_rect>(-1, 1, 1, 2, -3, make_shared<diffuse_light>(color(4, 4, 4)))));
-  world.add(make_shared<yz_rect>(0, 2, -2, 2, -4, grey));
+  world.add(make_shared<quad>(point3(-5, 0, -5), vec3(10, 0, 0), vec3(0, 0, 10), grey));
+  auto lamp = make_shared<quad>(point3(-1, 1, -3), vec3(2, 0, 0), vec3(0, 1, 0), make_shared<diffuse_light>(color(4, 4, 4)));
+  world.add(make_shared<flip_face>(lamp));
   world.add(make_shared<moving_sphere>(point3(1, 1, 0), point3(1, 1.5, 0), 0.0, 1.0, 1.0, make_shared<metal>(color(0.8, 0.8, 0.9), 0.1)));
-  world.add(make_shared<box>(point3(-2, 0, 0), point3(-1, 1, 1), grey));
   world.add(make_shared<sphere>(point3(-2, 2, 1), -0.5, make_shared<dielectric>(1.5)));
   camera cam(point3(0, 2, 9), point3(0, 1, 0), vec3(0, 1, 0), 40, 4.0 / 3.0, 0.2, 9.0, 0.25, 0.75);
 

@@ -51,16 +51,21 @@ struct ray {
 
 struct material;
 struct hit_record {
-  double t = std::numeric_limits<double>::infinity();
+  double t = 0;
   point3 p;
   vec3 normal;  // towards the ray's origin
-  bool outside = true;
+  bool front_face = true;
   const material* mat = nullptr;
   void face(const ray& r, const vec3& outward) {
-    outside = dot(r.direction, outward) < 0;
-    normal = outside ? outward : -1 * outward;
+    front_face = dot(r.direction, outward) < 0;
+    normal = front_face ? outward : -1 * outward;
   }
 };
+struct interval {
+  double min, max;
+  interval(double low, double high) : min(low), max(high) {}
+};
+const double infinity = std::numeric_limits<double>::infinity();
 
 struct material {
   virtual ~material() = default;
@@ -92,7 +97,7 @@ struct dielectric : material {
   dielectric(double n) : index(n) {}
   bool scatter(const ray& in, const hit_record& hit, color& part, ray& out) const override {
     part = color(1, 1, 1);
-    const double ratio = hit.outside ? 1 / index : index;
+    const double ratio = hit.front_face ? 1 / index : index;
     const vec3 to = unit(in.direction);
     const double cosine = std::min(-dot(to, hit.normal), 1.0), sine2 = ratio * ratio * (1 - cosine * cosine);
     const double r0 = (1 - ratio) / (1 + ratio) * (1 - ratio) / (1 + ratio);
@@ -125,8 +130,7 @@ struct box_of_space {
 struct hittable {
   box_of_space bounds;
   virtual ~hittable() = default;
-  /// Whether something is hit nearer than hit.t, which is then told.
-  virtual bool hit(const ray& r, hit_record& hit) const = 0;
+  virtual bool hit(const ray& r, interval range, hit_record& hit) const = 0;
 };
 struct hittable_list : hittable {
   std::vector<shared_ptr<hittable>> objects;
@@ -136,9 +140,10 @@ struct hittable_list : hittable {
     objects.push_back(object);
     bounds.add(object->bounds.low), bounds.add(object->bounds.high);
   }
-  bool hit(const ray& r, hit_record& nearest) const override {
+  bool hit(const ray& r, interval range, hit_record& nearest) const override {
     bool any = false;
-    for (const auto& object : objects) any = object->hit(r, nearest) || any;
+    for (const auto& object : objects)
+      if (object->hit(r, range, nearest)) any = true, range.max = nearest.t;
     return any;
   }
 };
@@ -158,8 +163,8 @@ struct bvh_node : hittable_list {
     for (std::size_t k = 0; k < list.objects.size(); ++k) halves[2 * k >= list.objects.size()].add(list.objects[k]);
     for (const hittable_list& half : halves) add(make_shared<bvh_node>(half));
   }
-  bool hit(const ray& r, hit_record& nearest) const override {
-    return bounds.hit(r, 0.001, nearest.t) && hittable_list::hit(r, nearest);
+  bool hit(const ray& r, interval range, hit_record& nearest) const override {
+    return bounds.hit(r, range.min, range.max) && hittable_list::hit(r, range, nearest);
   }
 };
 struct sphere : hittable {
@@ -169,13 +174,13 @@ struct sphere : hittable {
   sphere(const point3& c, double r, shared_ptr<material> m) : center(c), radius(r), mat(m) {
     bounds.add(c - vec3(r, r, r)), bounds.add(c + vec3(r, r, r));
   }
-  bool hit(const ray& r, hit_record& nearest) const override {
+  bool hit(const ray& r, interval range, hit_record& nearest) const override {
     const vec3 to = center - r.origin;
     const double a = r.direction.squared(), h = dot(r.direction, to), d = h * h - a * (to.squared() - radius * radius);
     if (d < 0) return false;
     double t = (h - std::sqrt(d)) / a;
-    if (t < 0.001) t = (h + std::sqrt(d)) / a;
-    if (t < 0.001 || t > nearest.t) return false;
+    if (t < range.min) t = (h + std::sqrt(d)) / a;
+    if (t < range.min || t > range.max) return false;
     nearest.t = t;
     nearest.p = r.at(t);
     nearest.mat = mat.get();
@@ -191,9 +196,9 @@ struct quad : hittable {
       : corner(q), u(a), v(b), normal(cross(a, b)), mat(m) {
     for (const point3& p : {q, q + a, q + b, q + a + b}) bounds.add(p);
   }
-  bool hit(const ray& r, hit_record& nearest) const override {
+  bool hit(const ray& r, interval range, hit_record& nearest) const override {
     const double slope = dot(normal, r.direction), t = dot(normal, corner - r.origin) / slope;
-    if (!(t > 0.001 && t < nearest.t)) return false;
+    if (!(t > range.min && t < range.max)) return false;
     const vec3 p = r.at(t) - corner;
     const double a = dot(normal, cross(p, v)) / normal.squared(), b = dot(normal, cross(u, p)) / normal.squared();
     if (a < 0 || a > 1 || b < 0 || b > 1) return false;
@@ -212,37 +217,45 @@ struct camera {
   point3 lookfrom, lookat = point3(0, 0, -1);
   vec3 vup = vec3(0, 1, 0);
 
-  void render(const hittable& world) const {
-    const double degree = std::acos(-1.0) / 180, lens = focus_dist * std::tan(defocus_angle / 2 * degree);
-    const int height = static_cast<int>(image_width / aspect_ratio);
-    const double pixel = 2 * std::tan(vfov / 2 * degree) * focus_dist / height;
-    const vec3 back = unit(lookfrom - lookat), right = unit(cross(vup, back)), up = cross(back, right);
-    std::cout << "P3\n" << image_width << ' ' << height << "\n255\n";
-    for (int y = 0; y < height; ++y)
+  void render(const hittable& world) {
+    const double degree = std::acos(-1.0) / 180;
+    image_height = static_cast<int>(image_width / aspect_ratio);
+    lens = focus_dist * std::tan(defocus_angle / 2 * degree);
+    pixel = 2 * std::tan(vfov / 2 * degree) * focus_dist / image_height;
+    back = unit(lookfrom - lookat), right = unit(cross(vup, back)), up = cross(back, right);
+    std::cout << "P3\n" << image_width << ' ' << image_height << "\n255\n";
+    for (int y = 0; y < image_height; ++y)
       for (int x = 0; x < image_width; ++x) {
         color sum;
-        for (int sample = 0; sample < samples_per_pixel; ++sample) {
-          const double across = (x + random_double() - image_width / 2.0) * pixel;
-          const double down = (y + random_double() - height / 2.0) * pixel;
-          vec3 p = vec3(random_double(-1, 1), random_double(-1, 1), 0);
-          while (p.squared() >= 1) p = vec3(random_double(-1, 1), random_double(-1, 1), 0);
-          const point3 eye = lookfrom + lens * p[0] * right + lens * p[1] * up;
-          const point3 seen = lookfrom - focus_dist * back + across * right - down * up;
-          sum = sum + ray_color({eye, seen - eye}, world, max_depth);
-        }
+        for (int sample = 0; sample < samples_per_pixel; ++sample)
+          sum = sum + ray_color(get_ray(x, y), world, max_depth);
         for (int k = 0; k < 3; ++k)
           std::cout << static_cast<int>(256 * std::min(std::sqrt(sum[k] / samples_per_pixel), 0.999)) << ' ';
         std::cout << '\n';
       }
   }
 
+  ray get_ray(int x, int y) const {
+    const double across = (x + random_double() - image_width / 2.0) * pixel;
+    const double down = (y + random_double() - image_height / 2.0) * pixel;
+    vec3 p = vec3(random_double(-1, 1), random_double(-1, 1), 0);
+    while (p.squared() >= 1) p = vec3(random_double(-1, 1), random_double(-1, 1), 0);
+    const point3 eye = lookfrom + lens * p[0] * right + lens * p[1] * up;
+    const point3 seen = lookfrom - focus_dist * back + across * right - down * up;
+    return {eye, seen - eye};
+  }
+
   color ray_color(const ray& r, const hittable& world, int depth) const {
     if (depth <= 0) return color();
     hit_record hit;
-    if (!world.hit(r, hit)) return background;
+    if (!world.hit(r, interval(0.001, infinity), hit)) return background;
     color part;
     ray out;
     if (!hit.mat->scatter(r, hit, part, out)) return hit.mat->emitted();
     return hit.mat->emitted() + part * ray_color(out, world, depth - 1);
   }
+
+  int image_height = 0;
+  double lens = 0, pixel = 0;
+  vec3 back, right, up;
 };

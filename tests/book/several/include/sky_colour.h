@@ -1,3 +1,3 @@
 #pragma once
-#include "vec3.h"
+#include "books.h"
 inline const color sky_colour(0.125, 0.25, 0.5);

@@ -1,0 +1,68 @@
+#include "app/book/program_outline.h"
+#include "app/book/inserted_calls.h"
+
+#include <doctest/doctest.h>
+
+namespace tyndall::test::program_outline_test {
+
+namespace {
+
+/// As a compiler makes it of a reader's file; the first line is one of the system's.
+std::string preprocessed(const std::string& own) {
+  return "# 1 \"/usr/include/x.h\" 1 3\nclass hidden { };\n# 1 \"/home/me/main.cc\"\n" + own;
+}
+constexpr const char* program = R"(
+namespace rt {
+class Ray { public: Ray(int a) : b{a}, c(a) { } int b, c; };
+struct Hit { double t; };
+class Shape { public: virtual ~Shape() = default; virtual bool hit(const Ray& r, double low, double high, Hit& h) const = 0; };
+template <class T> class Many : public Shape { };
+class Ball final : public Shape { bool hit(const Ray&, double, double, Hit&) const override { return true; } };
+inline std::ostream& operator<<(std::ostream& out, const Ray& r) { return out; }
+struct Camera { Ray get_ray(double u, double v) const { return Ray(int(u)); } };
+}
+rt::Colour shade(const rt::Ray& r, const rt::Shape& world, int depth = 5) { return { }; }
+int main() { std::cout << "P3\n" << 3 << ' ' << 4; }
+)";
+
+}  // namespace
+
+TEST_CASE("classes and functions of the reader's lines, with namespaces, constructors and operators between them") {
+  const std::string text = preprocessed(program);
+  const ProgramOutline outline = outline_of(text, {"/ours"});
+  std::vector<std::string> classes, functions;
+  for (const OutlinedClass& one : outline.classes) classes.push_back(one.qualified() + (one.is_template ? "<>" : ""));
+  for (const Function& one : outline.functions) functions.push_back(one.name);
+  CHECK(classes == std::vector<std::string>{"::rt::Ray", "::rt::Hit", "::rt::Shape", "::rt::Many<>", "::rt::Ball",
+                                            "::rt::Camera"});
+  CHECK(functions == std::vector<std::string>{"Ray", "hit", "hit", "get_ray", "shade", "main"});
+  CHECK(outline.is_derived("Ball", "Shape"));
+  CHECK_FALSE(outline.is_derived("Camera", "Shape"));
+  CHECK(outline.files == std::vector<std::filesystem::path>{"/home/me/main.cc"});
+  CHECK(outline_of(text, {"/home/me"}).classes.empty());
+  const Function& shade = outline.functions[4];
+  CHECK(shade.result == "rt :: Colour");
+  REQUIRE(shade.parameters.size() == 3);
+  CHECK(shade.parameters[1].name == "world");
+  CHECK(shade.parameters[1].names("Shape"));
+  CHECK(outline.functions[1].is_pure);
+}
+
+TEST_CASE("calls are inserted where rays are made and where their colours are computed; the rest stays") {
+  const std::string text = preprocessed(program);
+  const InsertedCalls made = insert_calls(text, outline_of(text, {"/ours"}), true);
+  CHECK(made.problem.empty());
+  CHECK(made.text.find("get_ray(double u, double v) const { if (::tyndall_book::is_watching())") != std::string::npos);
+  CHECK(made.text.find("return shade(tyndall_ray, tyndall_world, depth); }, r, world, static_cast<int>(depth))") !=
+        std::string::npos);
+  CHECK(made.text.find("<< ::tyndall_book::head_text{\"P3\\n\"} <<") != std::string::npos);
+  CHECK(made.text.find("typeid(o) == typeid(::rt::Ball)") != std::string::npos);
+  CHECK(made.text.find("typeid(::rt::Many)") == std::string::npos);
+}
+
+TEST_CASE("a program without rays has nothing to be asked") {
+  const std::string text = preprocessed("int main() { }\n");
+  CHECK_FALSE(insert_calls(text, outline_of(text, {"/ours"}), true).problem.empty());
+}
+
+}  // namespace tyndall::test::program_outline_test

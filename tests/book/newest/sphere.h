@@ -1,1 +1,0 @@
-#error "the header beside main.cc was found"
