@@ -52,7 +52,7 @@ MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Refer
   ui_.folded = panels_.look.folded;
   ui_.folded.insert("Histogram");  // it takes time with each picture
   if (!options.hosted) signals_.emplace([] { Platform::wake(); });
-  if (log_) log_actions(*log_);
+  if (log_) log_commands(*log_);
   if (reference) session_.references().set(std::move(reference));
   if (options.reference_scene) session_.render_reference(*options.reference_scene);
 }
@@ -311,9 +311,10 @@ void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
   const bool looks = !objects_.active() && picture_tools_.use_mouse(mouse, layout, free);
   const Rect visible = overlap(layout.image, layout.area);
   const bool divides = !looks && !objects_.active() && picture_.drag_divider(ui_, visible, mouse, free, shown_state());
-  const bool arranges = !looks && !divides && objects_.use_mouse(mouse, layout, ui_.scale, free);
+  const bool arranges =
+      !looks && !divides && objects_.use_mouse(mouse, layout, ui_.scale, free && !commands_.shows_menu());
   if (!looks && !divides && !arranges) {
-    const bool opens = !commands_.has_question() && !objects_.shows_menu();
+    const bool opens = !commands_.has_question() && !commands_.shows_menu();
     const PressedButton clicked = pointer.update(mouse, layout, ui_.scale, opens, now, panels_.scene.camera);
     if (clicked != PressedButton::none) objects_.click(layout, mouse, clicked);
   }
@@ -343,7 +344,8 @@ void MainWindow::apply_panels(double now) {
   commands_.carry_out();
   gallery_.want(panels_.wanted_pictures);
   use_preferences();
-  if (shows_errors(panels_.model.view) && !session_.can_show_errors()) commands_.act({Action::view});
+  if (shows_errors(panels_.model.view) && !session_.can_show_errors())
+    commands_.act({std::string("view: ") + view_entry(0).name});
   keep_message(now);
   if (ui_.wake_in < 1e299) pacing_.wake_at(now + ui_.wake_in);
   const Document& document = session_.editor().document();

@@ -10,13 +10,13 @@
 namespace tyndall {
 namespace {
 
-constexpr Tab tabs[] = {{"Object", ""},
-                        {"Camera", "Camera"},
-                        {"Image", "Image"},
-                        {"Render", "Render"},
-                        {"Accuracy", "Speed and accuracy"},
-                        {"Objects", "Objects"},
-                        {"Scenes", "Scenes"}};
+constexpr Tab tabs[] = {{"Object", "properties, selected object", ""},
+                        {"Camera", "camera settings", "Camera"},
+                        {"Image", "image settings", "Image"},
+                        {"Render", "render settings", "Render"},
+                        {"Accuracy", "chart, statistics, graph", "Speed and accuracy"},
+                        {"Objects", "outliner, hierarchy, object list, tree", "Objects"},
+                        {"Scenes", "examples, recent files, gallery", "Scenes"}};
 
 bool is_shown(const PanelState& state, std::string_view part) {
   return state.model.has_scene || !is_part_of_scene(part);
@@ -61,7 +61,8 @@ void draw_tabs(Ui& ui, PanelState& state) {
     ImGui::SameLine();
   }
   ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
-  if (ImGui::Button("...", {ImGui::CalcTextSize("...").x + spare, 0})) state.requests.push_back({Action::palette});
+  if (ImGui::Button("...", {ImGui::CalcTextSize("...").x + spare, 0}))
+    state.requests.push_back({"all actions by name"});
   ImGui::PopStyleColor();
   log_item(ui, "tab.actions", "button");
   ImGui::PopStyleVar(2);
@@ -183,6 +184,11 @@ bool is_part_of_scene(std::string_view part) {
 }
 
 std::span<const Tab> column_tabs() { return tabs; }
+
+int tab_named(std::string_view name) {
+  const auto found = std::find_if(std::begin(tabs), std::end(tabs), [&](const Tab& tab) { return tab.name == name; });
+  return static_cast<int>(found - std::begin(tabs));
+}
 
 std::span<const char* const> lasting_sections() {
   static constexpr const char* sections[] = {"Camera",     "Image",   "Film",   "Render", "Speed and accuracy",

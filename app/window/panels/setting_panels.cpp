@@ -90,7 +90,7 @@ void threads_row(Ui& ui, PanelState& state) {
   int threads = state.model.threads;
   static const double cores = std::max(2, thread_count().count);  // asking takes longer than drawing the row
   const Row row{"threads", "Threads", between(1, max_threads), {1, cores}, "", "never changes the picture", ""};
-  if (value_row(ui, row, threads)) state.requests.push_back({Action::threads, threads});
+  if (value_row(ui, row, threads)) state.requests.push_back({"threads", std::to_string(threads)});
 }
 
 /// Width and height of the picture. Sizes that do not fit into memory are refused.
@@ -120,10 +120,11 @@ void pixels_row(Ui& ui, PanelState& state) {
   }
 }
 
-/// A choice that changes nothing by itself: another one is asked for, by its number.
-void request_row(Ui& ui, PanelState& state, const Row& row, std::span<const Choice> choices, int chosen, Action action,
-                 int columns = 0) {
-  if (choice_row(ui, row, choices, chosen, columns)) state.requests.push_back({action, chosen});
+/// A choice that changes nothing by itself: a command is asked for with the name of another one.
+void request_row(Ui& ui, PanelState& state, const Row& row, std::span<const Choice> choices, int chosen,
+                 const char* command) {
+  if (choice_row(ui, row, choices, chosen))
+    state.requests.push_back({command, choices[static_cast<std::size_t>(chosen)].name});
 }
 
 void size_row(Ui& ui, PanelState& state) {
@@ -132,7 +133,7 @@ void size_row(Ui& ui, PanelState& state) {
   const std::string meaning = frame ? fmt::format("{} x {} pixels", frame->width, frame->height) : "";
   const char* help = "the picture has the size that the scene's file says, or as many pixels as the window shows";
   const Row row{"at", "Render at", {}, {}, "", help, meaning};
-  request_row(ui, state, row, choices, state.model.at_window ? 1 : 0, Action::render_at);
+  request_row(ui, state, row, choices, state.model.at_window ? 1 : 0, "render at");
 }
 
 void split_row(Ui& ui, PanelState& state) {
@@ -141,7 +142,7 @@ void split_row(Ui& ui, PanelState& state) {
   const char* help = "A keeps these settings, B takes what you change; both get the same processor time";
   const Row row{"split", "Split", {}, {}, "", help, kept.empty() ? "" : "A keeps " + kept + "; above: B"};
   int chosen = kept.empty() ? 0 : 1;
-  if (choice_row(ui, row, choices, chosen)) state.requests.push_back({Action::split});
+  if (choice_row(ui, row, choices, chosen)) state.requests.push_back({"split view"});
 }
 
 std::string clean_meaning(const PanelState& state) {
@@ -156,7 +157,7 @@ void clean_row(Ui& ui, PanelState& state) {
   static constexpr Choice choices[] = {{"off"}, {"on"}, {"beside raw"}};
   const char* help = "filters noise away where the samples show that it is noise: key N";
   const Row row{"clean", "Clean", {}, {}, "", help, clean_meaning(state)};
-  request_row(ui, state, row, choices, state.model.clean, Action::clean_as);
+  request_row(ui, state, row, choices, state.model.clean, "clean");
 }
 
 /// "7 spheres, 1 quad, 1 medium, 1 light".
@@ -235,7 +236,8 @@ void image_panel(Ui& ui, PanelState& state) {
   Choice choices[view_count];
   for (int k = 0; k < view_count; ++k) choices[k] = {view_entry(k).name, missing_for_view(state.model, k)};
   const Row row{"view", "View", {}, {}, "", "keys 1 to 9", view_meaning(state)};
-  request_row(ui, state, row, choices, state.model.view, Action::view, 3);
+  int view = state.model.view;
+  if (choice_row(ui, row, choices, view, 3)) state.requests.push_back({std::string("view: ") + view_entry(view).name});
 }
 
 void film_panel(Ui& ui, PanelState& state) {

@@ -68,6 +68,12 @@ struct WheelOwner {
   bool used = false;  ///< in this drawing, by a list
 };
 
+/// What is asked for: a command by its name, with an argument where it takes one.
+struct Request {
+  std::string command, argument{};
+  bool operator==(const Request&) const = default;
+};
+
 /// What a row of a number shows.
 struct Row {
   std::string name;  ///< in the log and in messages: "fuzz"

@@ -1,4 +1,5 @@
 #pragma once
+#include "app/window/accuracy/views.h"
 #include "app/window/panels/panels.h"
 #include "app/window/system/style.h"
 #include "app/window/system/ui_log.h"
@@ -46,7 +47,7 @@ class Column {
       CHECK((ui.changed || state.scene == before));  // no control edits the scene without a word
       if (!ui.problem.empty()) problem = ui.problem;
       for (const Request& request : std::exchange(state.requests, {})) {
-        if (request.action == Action::view) state.model.view = request.number;
+        if (request.command.starts_with("view: ")) state.model.view = view_named(request.command.substr(6));
         requested.push_back(request);
       }
     });

@@ -123,7 +123,7 @@ TEST_CASE("choices change what they say, and only that") {
   CHECK(column.state.model.view == view_named("cost"));
   CHECK(column.problem == "FLIP: needs a reference: see Speed and accuracy");
   column.click("scenes.cover");
-  CHECK(column.has_query_for({Action::scene, 0, "cover"}));
+  CHECK(column.has_query_for({"scene", "cover"}));
 }
 
 TEST_CASE("a drawing in which no control was moved leaves the scene alone, and one in which one was says so") {
@@ -151,20 +151,20 @@ TEST_CASE("the controls of the section Accuracy ask for what they say") {
   Column column;
   column.click("chart.export");
   column.click("chart.reference");
-  CHECK(column.has_query_for({Action::export_chart}));
-  CHECK(column.has_query_for({Action::reference}));
+  CHECK(column.has_query_for({"export the chart"}));
+  CHECK(column.has_query_for({"reference picture"}));
   column.requested.clear();
   column.click("render.split.on");
-  CHECK(column.requested == std::vector<Request>{{Action::split}});
+  CHECK(column.requested == std::vector<Request>{{"split view"}});
   column.state.model.kept_method = "path";
   column.click("render.split.on");  // it is on
   CHECK(column.requested.size() == 1);
   column.click("render.split.off");
   CHECK(column.requested.size() == 2);
   column.click("image.clean.beside raw");
-  CHECK(column.requested.back() == Request{Action::clean_as, 2});
+  CHECK(column.requested.back() == Request{"clean", "beside raw"});
   column.click("render.at.window");
-  CHECK(column.requested.back() == Request{Action::render_at, 1});
+  CHECK(column.requested.back() == Request{"render at", "window"});
 }
 
 TEST_CASE("errors are seen only where there is something to measure against") {
