@@ -168,14 +168,19 @@ std::vector<Command> Commands::table_of_window() {
 /// What only controls, answers to questions and lines of the palette ask for.
 std::vector<Command> Commands::unlisted_table() {
   return {
-      {"menu", "", no_key, unlisted,  // of what is under the mouse; argument: its title
-       [](Commands& c, const std::string& title) { c.open_menu(title, in_object_menu); }},
+      {"menu", "", no_key, unlisted,  // of what is selected
+       [](Commands& c, auto&) {
+         const bool none = c.panels_.selected.empty();
+         c.open_menu(none ? "Add here" : title_of(c.session_.editor().scene(), c.panels_.selected), in_object_menu);
+       }},
       {"part", "", no_key, unlisted,  // of the column; argument: its tab
        [](Commands& c, const std::string& name) { c.panels_.tabs.jump = tab_named(name), c.shows_panels_ = true; },
        needs_of_part},
-      {"row", "", no_key, unlisted,  // of the column; argument: see row_entries()
-       [](Commands& c, const std::string& n) { c.go_to_row(row_entries()[std::stoul(n)]); },
-       [](const Commands& c, const std::string& n) { return needs_of_part(c, row_entries()[std::stoul(n)].part); }},
+      {"row", "", no_key, unlisted,  // of the column; argument: its part and its label, "Camera/Focus"
+       [](Commands& c, const std::string& place) { c.go_to_row(place); },
+       [](const Commands& c, const std::string& place) { return needs_of_part(c, place.substr(0, place.find('/'))); }},
+      {"vary", "", no_key, unlisted, [](Commands& c, const std::string& pointer) { c.vary(pointer); }},
+      {"key", "", no_key, unlisted, [](Commands& c, const std::string& pointer) { c.add_key(pointer); }, needs_scene},
       {"scene", "", no_key, unlisted,  // argument: as load_scene takes it
        [](Commands& c, const std::string& what) { c.session_.editor().open(what); }},
       {"clean", "", no_key, unlisted | begins_picture,  // argument: off, on or beside raw

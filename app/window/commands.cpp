@@ -70,11 +70,28 @@ void Commands::open_palette() {
   palette_.open(palette_items(session_.editor().scene(), panels_.selected, listed_scenes()));
 }
 
-void Commands::go_to_row(const RowEntry& row) {
-  if (owner_of(row, session_.editor().scene(), panels_.selected).empty())
-    return session_.messages().say(row.label + ": " + row.missing);
-  panels_.seek = RowPlace{row.part, row.label};
+void Commands::go_to_row(const std::string& place) {
+  const std::size_t slash = place.find('/');
+  const RowPlace wanted{place.substr(0, slash), place.substr(slash + 1)};
+  for (const RowEntry& row : row_entries(session_.editor().scene(), panels_.selected))
+    if (row.part == wanted.part && row.label == wanted.label && !row.missing.empty())
+      return session_.messages().say(row.label + ": " + row.missing);
+  panels_.seek = wanted;
   shows_panels_ = true;
+}
+
+/// Gives the value a key at the frame that the film shows.
+void Commands::add_key(const std::string& pointer) {
+  Scene scene = session_.editor().scene();
+  const auto slot = find_slot(scene, pointer);
+  if (!slot) return;
+  tyndall::add_key(scene, *slot, timeline_.frame());
+  session_.messages().say("key of " + slot->label + " at frame " + std::to_string(timeline_.frame()));
+  session_.editor().edit(std::move(scene), gestures_.begin());
+}
+
+void Commands::vary(const std::string& pointer) {
+  if (const auto slot = find_slot(session_.editor().scene(), pointer)) strip_.vary(*slot);
 }
 
 std::vector<std::string> Commands::listed_scenes() const {
@@ -192,8 +209,8 @@ void Commands::escape() {
 
 void Commands::draw(Ui& ui, const Rect& area) {
   shows_menu_ = menu_.is_open();
-  if (auto chosen = menu_.draw(ui, area)) panels_.requests.push_back(std::move(*chosen));
-  if (auto chosen = palette_.draw(ui, area)) panels_.requests.push_back(std::move(*chosen));
+  if (auto chosen = menu_.draw(ui, area)) ui.requests.push_back(std::move(*chosen));
+  if (auto chosen = palette_.draw(ui, area)) ui.requests.push_back(std::move(*chosen));
   if (shows_help_) draw_help(ui, shows_help_);
   if (session_.editor().offers_reload() && !has_question())
     dialog_ = changed_file_dialog(*session_.editor().document().origin);
@@ -202,11 +219,11 @@ void Commands::draw(Ui& ui, const Rect& area) {
       dialog_ = picture_dialog(picture);
   if (dialog_.kind == Dialog::Kind::halves && !session_.split()) dialog_.kind = Dialog::Kind::none;
   closing_.draw(ui, area, dialog_);
-  if (auto answer = draw_dialog(ui, area, dialog_)) panels_.requests.push_back(std::move(*answer));
+  if (auto answer = draw_dialog(ui, area, dialog_)) ui.requests.push_back(std::move(*answer));
 }
 
-void Commands::carry_out() {
-  for (const Request& request : std::exchange(panels_.requests, {})) act(request);
+void Commands::carry_out(Ui& ui) {
+  for (const Request& request : std::exchange(ui.requests, {})) act(request);
 }
 
 }  // namespace tyndall

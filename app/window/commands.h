@@ -54,7 +54,7 @@ class Commands {
 
   /// To be called at the end of each drawing, when the panels' scene was handed to the editor: carries out what was
   /// asked for in it.
-  void carry_out();
+  void carry_out(Ui& ui);
 
   /// Whether a dialog waits for an answer: until then nothing else takes clicks.
   bool has_dialog() const { return dialog_.kind != Dialog::Kind::none; }
@@ -88,8 +88,10 @@ class Commands {
   void reset_camera();
   void frame_selection();
   void open_palette();
-  /// Brings up a row of the column; where that is not shown a message says what to do first.
-  void go_to_row(const RowEntry& row);
+  /// Brings up a row of the column, "Camera/Focus"; where that is not shown a message says what to do first.
+  void go_to_row(const std::string& place);
+  void add_key(const std::string& pointer);
+  void vary(const std::string& pointer);
   /// Ends the split view; asks which half to keep where they differ.
   void end_split();
   void save();

@@ -2,7 +2,6 @@
 
 #include "app/window/accuracy/views.h"
 #include "core/scene/place.h"
-#include "core/scene/pointer_values.h"
 
 #include <algorithm>
 #include <cassert>
@@ -261,7 +260,10 @@ void MainWindow::draw_timeline(const Rect& rect, double now) {
 
 /// The strip, and what is taken over from it.
 void MainWindow::draw_strip(const Rect& rect) {
-  if (!strip_.is_open()) return;
+  if (!strip_.is_open()) {
+    strip_gesture_ = 0;
+    return;
+  }
   const WindowSize size = platform_.size();
   const float dots = static_cast<float>(size.framebuffer_width) / static_cast<float>(std::max(1, size.width));
   const Editor& editor = session_.editor();
@@ -276,26 +278,6 @@ void MainWindow::draw_strip(const Rect& rect) {
   session_.editor().edit(std::move(*taken), strip_gesture_);
   panels_.scene = session_.editor().scene();
   ui_.changed = false;
-}
-
-/// What was chosen in the menu of a row: the row's other value shows which value of the scene it is.
-void MainWindow::take_wish() {
-  RowWish wish = std::exchange(ui_.wish, {});
-  if (wish.kind == RowWish::Kind::none) return;
-  const auto pointer = pointer_of_change(session_.editor().scene(), panels_.scene);
-  panels_.scene = session_.editor().scene();
-  panels_changes_ = session_.editor().changes();
-  ui_.changed = false;
-  if (!pointer) return session_.messages().say(wish.row.label + " stands for several values of the scene");
-  if (wish.kind == RowWish::Kind::key) {
-    Scene scene = session_.editor().scene();
-    if (add_key(scene, *pointer, timeline_.frame()))
-      session_.messages().say("key of " + wish.row.label + " at frame " + std::to_string(timeline_.frame()));
-    return session_.editor().edit(std::move(scene), tools_.gestures.begin());
-  }
-  if (!strip_.is_open()) strip_gesture_ = 0;
-  strip_.vary({*pointer, wish.row}, wish.present);
-  pacing_.on_event();
 }
 
 void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
@@ -316,7 +298,7 @@ void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
   if (!looks && !divides && !arranges) {
     const bool opens = !commands_.has_question() && !commands_.shows_menu();
     const PressedButton clicked = pointer.update(mouse, layout, ui_.scale, opens, now, panels_.scene.camera);
-    if (clicked != PressedButton::none) objects_.click(layout, mouse, clicked);
+    if (clicked != PressedButton::none && objects_.click(layout, mouse, clicked)) ui_.requests.push_back({"menu"});
   }
   const bool grounded = mouse.control || objects_.active() || session_.shows_picture();
   const bool flies =
@@ -327,7 +309,6 @@ void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
 
 void MainWindow::apply_panels(double now) {
   assert(ui_.changed || panels_changes_ != session_.editor().changes() || panels_.scene == session_.editor().scene());
-  take_wish();
   if (ui_.changed) {
     if (session_.shows_picture()) {  // without a scene, how it is displayed is all that can be changed
       const Display display = panels_.scene.display;
@@ -341,7 +322,7 @@ void MainWindow::apply_panels(double now) {
   }
   session_.editor().select(all_selected(panels_));
   if (!ui_.problem.empty()) session_.messages().say(ui_.problem, true);
-  commands_.carry_out();
+  commands_.carry_out(ui_);
   gallery_.want(panels_.wanted_pictures);
   use_preferences();
   if (shows_errors(panels_.model.view) && !session_.can_show_errors())

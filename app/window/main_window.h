@@ -53,7 +53,6 @@ class MainWindow {
   void draw_interface(const Layout& layout);
   void use_mouse_and_keys(const Layout& layout, double now);
   void apply_panels(double now);
-  void take_wish();
   void draw_strip(const Rect& rect);
   void draw_timeline(const Rect& rect, double now);
   bool send(double now, bool scene_too = true);

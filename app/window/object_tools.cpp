@@ -91,20 +91,20 @@ bool ObjectTools::use_mouse(const Mouse& mouse, const Layout& layout, float scal
   return taken;
 }
 
-void ObjectTools::click(const Layout& layout, const Mouse& mouse, PressedButton button) {
-  if (!layout.image.contains(mouse.x, mouse.y)) return;
+bool ObjectTools::click(const Layout& layout, const Mouse& mouse, PressedButton button) {
+  if (!layout.image.contains(mouse.x, mouse.y)) return false;
   const Scene& scene = panels_.scene;
   const PictureClick click = click_in(scene, layout.image, mouse.x, mouse.y);
   const Renderer::Pick pick = session_.renderers().pick(click.x, click.y);
   if (button == PressedButton::left) {
     const bool again = clicks_.again(mouse.x, mouse.y, scale_, scene.camera);
-    return mouse.shift ? focus_on(pick, mouse.control) : select(click, pick, mouse.control, again);
+    mouse.shift ? focus_on(pick, mouse.control) : select(click, pick, mouse.control, again);
   }
-  if (button != PressedButton::right) return;
+  if (button != PressedButton::right) return false;
   const ObjectPaths now = selected();
   if (std::find(now.begin(), now.end(), pick.object) == now.end()) select(click, pick, false, false);
   look_under_mouse();
-  panels_.requests.push_back({"menu", selected().empty() ? "Add here" : title_of(scene, panels_.selected)});
+  return true;
 }
 
 void ObjectTools::select(const PictureClick& click, const Renderer::Pick& pick, bool more, bool again) {

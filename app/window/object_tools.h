@@ -36,8 +36,8 @@ class ObjectTools {
   /// The mouse in the picture, before the tool that orbits; moves objects of the panels' scene. free: nothing else has
   /// the mouse. Returns whether this has it.
   bool use_mouse(const Mouse& mouse, const Layout& layout, float scale, bool free);
-  /// A click of the left button selects or focuses; of the right button asks for the menu.
-  void click(const Layout& layout, const Mouse& mouse, PressedButton button);
+  /// A click of the left button selects or focuses; for one of the right button it returns true: it asks for the menu.
+  bool click(const Layout& layout, const Mouse& mouse, PressedButton button);
 
   /// Draws outline and handles.
   void draw(Ui& ui, const Layout& layout);

@@ -18,16 +18,6 @@ std::string name_of_row(const RowEntry& row) {
   return "go to: Background " + label;
 }
 
-void add_rows(std::vector<PaletteItem>& lines, const Scene& scene, const ObjectPath& selected) {
-  std::vector<PaletteItem> missing;
-  for (int k = 0; const RowEntry& row : row_entries()) {
-    const std::string owner = owner_of(row, scene, selected);
-    PaletteItem line{name_of_row(row), owner.empty() ? row.missing : owner, row.also, {"row", std::to_string(k++)}};
-    (owner.empty() ? missing : lines).push_back(std::move(line));
-  }
-  lines.insert(lines.end(), missing.begin(), missing.end());
-}
-
 }  // namespace
 
 std::vector<PaletteItem> palette_items(const Scene& scene, const ObjectPath& selected,
@@ -39,7 +29,11 @@ std::vector<PaletteItem> palette_items(const Scene& scene, const ObjectPath& sel
         lines.push_back({command.name, text_of(command.key), command.words, {command.name}});
   };
   add_commands(false);
-  add_rows(lines, scene, selected);
+  for (const RowEntry& row : row_entries(scene, selected))
+    lines.push_back({name_of_row(row),
+                     row.missing.empty() ? row.owner : row.missing,
+                     row.words,
+                     {"row", row.part + "/" + row.label}});
   add_commands(true);
   for (const Tab& tab : column_tabs())
     lines.push_back({std::string("go to: ") + tab.name, "", tab.words, {"part", tab.name}});

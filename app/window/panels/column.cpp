@@ -61,8 +61,7 @@ void draw_tabs(Ui& ui, PanelState& state) {
     ImGui::SameLine();
   }
   ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
-  if (ImGui::Button("...", {ImGui::CalcTextSize("...").x + spare, 0}))
-    state.requests.push_back({"all actions by name"});
+  if (ImGui::Button("...", {ImGui::CalcTextSize("...").x + spare, 0})) ui.requests.push_back({"all actions by name"});
   ImGui::PopStyleColor();
   log_item(ui, "tab.actions", "button");
   ImGui::PopStyleVar(2);

@@ -186,7 +186,7 @@ std::vector<SceneRow> rows_of(const std::vector<std::filesystem::path>& files) {
 
 void scene_list(Ui& ui, PanelState& state, const char* name, const std::vector<SceneRow>& rows, std::size_t maximum) {
   list(ui, name, row_height * ui.scale, rows.size(), std::min(rows.size(), maximum), [&](std::size_t k) {
-    if (scene_row(ui, state, rows[k])) state.requests.push_back({"scene", rows[k].what});
+    if (scene_row(ui, state, rows[k])) ui.requests.push_back({"scene", rows[k].what});
   });
 }
 

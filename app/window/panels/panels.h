@@ -92,7 +92,6 @@ struct PanelState {
   std::optional<RowPlace> seek;              ///< the column goes to that row in the next drawings, see SoughtRow
   bool row_has_keys = false;                 ///< the arrow keys go through the choices of a row
   bool leave_row = false;                    ///< they do not from the next drawing on
-  std::vector<Request> requests;             ///< of panels, menus, palette and dialogs, until they are carried out
   std::vector<std::string> wanted_pictures;  ///< of these scenes, that are to be seen
 };
 

@@ -159,7 +159,8 @@ bool three_boxes(Ui& ui, const Row& row, Vec3d& value, float width, const char* 
     changed = value_box(ui, names[k], part, *components[k], (width - 2 * space) / 3, fixed_digits) || changed;
   }
   ImGui::EndGroup();
-  return row_menu(ui, row, false, value.x) || changed;
+  row_menu(ui, row, false);
+  return changed;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <vector>
 
 /// The controls that panels are made of: each a row with a label on the left and, beneath it, what the value means.
 namespace tyndall {
@@ -87,15 +88,7 @@ struct Row {
   bool warning = false;  ///< the line beneath is one
   std::optional<Vec3d> original =
       std::nullopt;       ///< what a double click sets: what the scene's file has; of single numbers x
-  bool of_scene = false;  ///< a value of the scene itself: its menu has Vary and Key
-};
-
-/// What was chosen in the menu of a row. In that drawing the row has changed its value to another valid one, for no
-/// reason but to show which value of the scene it is: whoever looks at the wish takes that back.
-struct RowWish {
-  enum class Kind { none, vary, key } kind = Kind::none;
-  Row row;
-  double present = 0;  ///< the value before; of a vector x
+  std::string pointer{};  ///< of the scene's value that it shows: its menu has Vary and Key; "": it shows none
 };
 
 /// What all controls share. One per window; lives as long as it.
@@ -111,14 +104,15 @@ struct Ui {
   HoveredItem hovered;
   WheelOwner wheel;
   SoughtRow sought;
-  RowPlace drawn;                ///< the part of the column that is being drawn, and its section
-  double wake_in = 1e300;        ///< seconds until something appears by itself
-  bool has_question = false;     ///< a dialog waits for an answer: the column takes no input
-  bool close_popup = false;      ///< a list or a picker that is open closes in this drawing
-  bool changed = false;          ///< a control has changed its value in this drawing: the scene may be another one
-  RowWish wish;                  ///< chosen in this drawing
-  std::string problem;           ///< why a typed value was refused: one line; "": it was not
-  std::set<std::string> folded;  ///< sections that are closed
+  RowPlace drawn;             ///< the part of the column that is being drawn, and its section
+  double wake_in = 1e300;     ///< seconds until something appears by itself
+  bool has_question = false;  ///< a dialog waits for an answer: the column takes no input
+  bool close_popup = false;   ///< a list or a picker that is open closes in this drawing
+  bool changed = false;       ///< a control has changed its value in this drawing: the scene may be another one
+  std::vector<RowPlace>* rows = nullptr;  ///< gets the place of each row that is drawn; null: nobody asks
+  std::vector<Request> requests;          ///< of controls, until they are carried out
+  std::string problem;                    ///< why a typed value was refused: one line; "": it was not
+  std::set<std::string> folded;           ///< sections that are closed
 };
 
 /// Puts a prefix before the names of controls in the log, and makes them distinct, as long as it lives.
@@ -194,9 +188,8 @@ bool changed_if(Ui& ui, bool changed);
 bool slider(Ui& ui, const Row& row, double& value, float width);
 bool value_box(Ui& ui, const char* id, const Row& row, double& value, float width, bool fixed_digits);
 void begin_row(Ui& ui, const Row& row);
-/// Opens the menu of a row by a right click on the last item, and draws it. can_vary: it has Vary, too. value: see
-/// RowWish. Returns whether the value was changed.
-bool row_menu(Ui& ui, const Row& row, bool can_vary, double& value);
+/// Opens the menu of a row by a right click on the last item, and draws it. can_vary: it has Vary, too.
+void row_menu(Ui& ui, const Row& row, bool can_vary);
 void end_row(Ui& ui, const Row& row);
 /// Shows a tooltip over the last item after a moment.
 void tooltip(Ui& ui, const std::string& text);

@@ -46,7 +46,7 @@ class Column {
       log_.end_of_widgets();
       CHECK((ui.changed || state.scene == before));  // no control edits the scene without a word
       if (!ui.problem.empty()) problem = ui.problem;
-      for (const Request& request : std::exchange(state.requests, {})) {
+      for (const Request& request : std::exchange(ui.requests, {})) {
         if (request.command.starts_with("view: ")) state.model.view = view_named(request.command.substr(6));
         requested.push_back(request);
       }
