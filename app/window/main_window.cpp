@@ -4,7 +4,6 @@
 #include "core/scene/place.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -131,7 +130,6 @@ void MainWindow::draw(double now) {
   ui_.wake_in = 1e300;
   ui_.has_question = commands_.has_dialog();
   ui_.problem.clear();
-  ui_.changed = false;
   ui_.close_popup = std::exchange(panels_.close_popup, false);
   const bool fresh = picture_due(now);
   for (const Half half : {Half::current, Half::kept})
@@ -194,8 +192,7 @@ ShownState MainWindow::shown_state() const {
 }
 
 void MainWindow::fill_panels() {
-  const std::uint64_t changes = session_.editor().changes();
-  if (std::exchange(panels_changes_, changes) != changes) panels_.scene = session_.editor().scene();
+  panels_.scene = EditedScene(session_.editor().shared());
   panels_.model.frame = picture_.shown();
   panels_.model.saved = &session_.editor().document().origin->saved;
   const std::string& title = session_.editor().document().origin->title;
@@ -210,7 +207,7 @@ void MainWindow::fill_panels() {
   panels_.model.clean = session_.clean() ? (session_.clean_beside_raw() ? 2 : 1) : 0;
   panels_.model.can_show_errors = session_.can_show_errors();
   panels_.wanted_pictures.clear();
-  ui_.size = target_distance(panels_.scene.camera);
+  ui_.size = target_distance(panels_.scene->camera);
   set_selected(panels_, session_.editor().selection());
 }
 
@@ -232,7 +229,7 @@ void MainWindow::draw_interface(const Layout& layout) {
   draw_strip({layout.strip.x0, layout.strip.y0 + film, layout.strip.x1, layout.strip.y1});
   commands_.draw(ui_, layout.area);
   if (!ui_.log) return;
-  ui_.log->widget("picture", layout.image, title_of(panels_.scene, panels_.selected));
+  ui_.log->widget("picture", layout.image, title_of(*panels_.scene, panels_.selected));
   ui_.log->end_of_widgets();
 }
 
@@ -254,8 +251,7 @@ void MainWindow::draw_timeline(const Rect& rect, double now) {
     timeline_.stop();
     session_.messages().say(error.where + ": found " + error.found + ", expected " + error.expected, true);
   }
-  panels_.scene = session_.editor().scene();
-  ui_.changed = false;
+  panels_.scene = EditedScene(session_.editor().shared());
 }
 
 /// The strip, and what is taken over from it.
@@ -276,15 +272,13 @@ void MainWindow::draw_strip(const Rect& rect) {
   move_linked_objects(editor.scene(), editor.scene(), *taken);
   if (strip_gesture_ == 0) strip_gesture_ = tools_.gestures.begin();
   session_.editor().edit(std::move(*taken), strip_gesture_);
-  panels_.scene = session_.editor().scene();
-  ui_.changed = false;
+  panels_.scene = EditedScene(session_.editor().shared());
 }
 
 void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
   const Mouse mouse = read_mouse();
   if (log_) log_->mouse(mouse);
   const std::set<int>& held = platform_.held();
-  const Camera before = panels_.scene.camera;
   PointerTool& pointer = tools_.pointer;
   const bool holds = mouse.any_down() || holds_fly_key(held) || objects_.active();
   const bool rotates = pointer.is_turning(mouse, layout, now);
@@ -297,29 +291,40 @@ void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
       !looks && !divides && objects_.use_mouse(mouse, layout, ui_.scale, free && !commands_.shows_menu());
   if (!looks && !divides && !arranges) {
     const bool opens = !commands_.has_question() && !commands_.shows_menu();
-    const PressedButton clicked = pointer.update(mouse, layout, ui_.scale, opens, now, panels_.scene.camera);
+    Camera camera = panels_.scene->camera;
+    const PressedButton clicked = pointer.update(mouse, layout, ui_.scale, opens, now, camera);
+    set_camera(camera);
     if (clicked != PressedButton::none && objects_.click(layout, mouse, clicked)) ui_.requests.push_back({"menu"});
   }
   const bool grounded = mouse.control || objects_.active() || session_.shows_picture();
-  const bool flies =
-      tools_.flight.update(grounded ? std::set<int>{} : held, platform_.shift_held(), now, panels_.scene.camera);
+  Camera camera = panels_.scene->camera;
+  const bool flies = tools_.flight.update(grounded ? std::set<int>{} : held, platform_.shift_held(), now, camera);
   if (flies) pacing_.wake_at(now + min_frame_interval);
-  ui_.changed |= arranges || !(panels_.scene.camera == before);
+  set_camera(camera);
+}
+
+void MainWindow::set_camera(const Camera& camera) {
+  if (!(camera == panels_.scene->camera)) panels_.scene.change().camera = camera;
+}
+
+/// Hands what the drawing has changed of the scene to the editor.
+void MainWindow::take_edit() {
+  Editor& editor = session_.editor();
+  if (!panels_.scene.is_changed()) return;
+  const std::string pointer = panels_.scene.pointer();
+  const std::uint64_t gesture = tools_.gestures.current();
+  Scene next = panels_.scene.take();
+  if (session_.shows_picture()) {  // without a scene, how it is displayed is all that can be changed
+    const Display display = next.display;
+    next = editor.scene();
+    next.display = display;
+  }
+  if (pointer.empty() || pointer.starts_with("/objects/")) tools_.start.finish_edit(editor.shared(), next, gesture);
+  editor.edit(std::move(next), gesture, pointer);
 }
 
 void MainWindow::apply_panels(double now) {
-  assert(ui_.changed || panels_changes_ != session_.editor().changes() || panels_.scene == session_.editor().scene());
-  if (ui_.changed) {
-    if (session_.shows_picture()) {  // without a scene, how it is displayed is all that can be changed
-      const Display display = panels_.scene.display;
-      panels_.scene = session_.editor().scene();
-      panels_.scene.display = display;
-    }
-    const std::uint64_t gesture = tools_.gestures.current();
-    tools_.start.finish_edit(session_.editor().scene(), panels_.scene, gesture);
-    session_.editor().edit(std::move(panels_.scene), gesture);
-    panels_changes_.reset();
-  }
+  take_edit();
   session_.editor().select(all_selected(panels_));
   if (!ui_.problem.empty()) session_.messages().say(ui_.problem, true);
   commands_.carry_out(ui_);

@@ -52,6 +52,8 @@ class MainWindow {
   ShownState shown_state() const;
   void draw_interface(const Layout& layout);
   void use_mouse_and_keys(const Layout& layout, double now);
+  void set_camera(const Camera& camera);
+  void take_edit();
   void apply_panels(double now);
   void draw_strip(const Rect& rect);
   void draw_timeline(const Rect& rect, double now);
@@ -84,12 +86,11 @@ class MainWindow {
   ObjectTools objects_;
   PictureTools picture_tools_;
   Commands commands_;
-  std::shared_ptr<const Origin> noted_;          ///< the file of the recent ones that was noted last
-  std::optional<std::uint64_t> panels_changes_;  ///< Editor::changes() of the scene that panels_ has a copy of
-  std::uint64_t paced_edit_ = 0;                 ///< newest edit that pacing_ knows of
-  double input_since_ = 0;       ///< when the oldest input came that no drawing has seen; 0: there is none
-  bool takes_in_again_ = false;  ///< an edit waits for what came while the picture was put on the screen
-  double awaits_until_ = 0;      ///< until then nothing is drawn but the picture of an edit that was just sent
+  std::shared_ptr<const Origin> noted_;  ///< the file of the recent ones that was noted last
+  std::uint64_t paced_edit_ = 0;         ///< newest edit that pacing_ knows of
+  double input_since_ = 0;               ///< when the oldest input came that no drawing has seen; 0: there is none
+  bool takes_in_again_ = false;          ///< an edit waits for what came while the picture was put on the screen
+  double awaits_until_ = 0;              ///< until then nothing is drawn but the picture of an edit that was just sent
 };
 
 }  // namespace tyndall

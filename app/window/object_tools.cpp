@@ -93,7 +93,7 @@ bool ObjectTools::use_mouse(const Mouse& mouse, const Layout& layout, float scal
 
 bool ObjectTools::click(const Layout& layout, const Mouse& mouse, PressedButton button) {
   if (!layout.image.contains(mouse.x, mouse.y)) return false;
-  const Scene& scene = panels_.scene;
+  const Scene& scene = *panels_.scene;
   const PictureClick click = click_in(scene, layout.image, mouse.x, mouse.y);
   const Renderer::Pick pick = session_.renderers().pick(click.x, click.y);
   if (button == PressedButton::left) {
@@ -109,7 +109,7 @@ bool ObjectTools::click(const Layout& layout, const Mouse& mouse, PressedButton 
 
 void ObjectTools::select(const PictureClick& click, const Renderer::Pick& pick, bool more, bool again) {
   pacing_.on_event();
-  const ObjectPath found = clicked_object(panels_.scene, pick, click.at, panels_.selected, again && !more);
+  const ObjectPath found = clicked_object(*panels_.scene, pick, click.at, panels_.selected, again && !more);
   if (!more) {
     select_all(found.empty() ? ObjectPaths{} : ObjectPaths{found});
   } else if (!found.empty()) {
@@ -122,25 +122,25 @@ void ObjectTools::select(const PictureClick& click, const Renderer::Pick& pick, 
     select_all(all);
   }
   if (!found.empty())
-    handles_.clicked(panels_.scene, found, found == pick.object ? pick.point : middle_of(panels_.scene, found));
+    handles_.clicked(*panels_.scene, found, found == pick.object ? pick.point : middle_of(*panels_.scene, found));
 }
 
 void ObjectTools::focus_on(const Renderer::Pick& pick, bool keep_blur) {
   if (pick.object.empty() || !(pick.depth > 0)) return session_.messages().say("nothing to focus on there");
-  panels_.scene.camera = focus(panels_.scene.camera, pick.depth, keep_blur);
+  panels_.scene.change().camera = focus(panels_.scene->camera, pick.depth, keep_blur);
 }
 
 void ObjectTools::draw(Ui& ui, const Layout& layout) {
   const ObjectPaths all = selected();
-  for (const ObjectPath& path : all) draw_outline(ui, layout.image, outline(panels_.scene, path));
+  for (const ObjectPath& path : all) draw_outline(ui, layout.image, outline(*panels_.scene, path));
   if (!all.empty() && layout.image.width() > 0) {
-    const PictureFrame frame = frame_of(panels_.scene, layout.image, static_cast<double>(ui.scale));
-    const auto handles = handles_of(panels_.scene, frame, all, handles_.origin(panels_.scene, frame, all));
+    const PictureFrame frame = frame_of(*panels_.scene, layout.image, static_cast<double>(ui.scale));
+    const auto handles = handles_of(*panels_.scene, frame, all, handles_.origin(*panels_.scene, frame, all));
     draw_handles(frame, handles, handles_.hovered(), handles_.active());
     draw_handle_text(frame, handles_.said());
     if (ui.log) {
       std::vector<std::string> names;
-      for (const Handle& handle : handles) names.push_back(name_of_handle(panels_.scene, all, handle));
+      for (const Handle& handle : handles) names.push_back(name_of_handle(*panels_.scene, all, handle));
       log_handles(*ui.log, handles, names, frame.scale);
     }
   }

@@ -120,7 +120,7 @@ void PictureTools::draw(Ui& ui, const Layout& layout) {
   const bool as_chosen = frame->view == view_entry(panels_.model.view).view;
   if (as_chosen) draw_legend(ui, visible, legend_of(panels_.model.view, frame->white));
   draw_zoom(ui, visible);
-  inspector_.draw(ui, {frame, panels_.scene, session_.wanted().scene.get(), layout.image, visible},
+  inspector_.draw(ui, {frame, *panels_.scene, session_.wanted().scene.get(), layout.image, visible},
                   session_.renderers());
 }
 

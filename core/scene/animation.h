@@ -51,7 +51,7 @@ inline constexpr auto fields(const Animation*) {
           .also("film length, duration, frame count"),
       Field{"curve", &Animation::curve, "how values change between keys"}.also("interpolation, easing"),
       Field{"orbit", &Animation::orbit, "the camera's look_from moves around look_at in place of straight towards keys"}
-          .also("turntable, camera path")};
+          .also("turntable")};
 }
 
 /// The value at a time, counted in frames: on the curve between keys, constant before the first and after the last.

@@ -81,7 +81,7 @@ void begin_jump(Ui& ui, PanelState& state) {
   if (!section.empty())
     ui.folded.erase(std::string(section));
   else if (!state.selected.empty())
-    ui.folded.erase(title_of(state.scene, state.selected));
+    ui.folded.erase(title_of(*state.scene, state.selected));
   ui.wake_in = 0;
 }
 
@@ -92,7 +92,7 @@ struct Part {
 };
 
 void histogram_part(Ui& ui, PanelState& state) {
-  histogram_section(ui, state.histogram, state.model.frame.get(), state.scene.display);
+  histogram_section(ui, state.histogram, state.model.frame.get(), state.scene->display);
 }
 
 /// Draws the parts; scrolls to the one that the column is sent to, and finds out which one is at its head.

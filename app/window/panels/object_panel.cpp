@@ -54,29 +54,32 @@ void light_rows(Ui& ui, PanelState& state, const Slot& radiance) {
   slider_row(ui, power, light.power);
   stops_row(ui, light.power);
   if (light.power != before.power || !(light.colour == before.colour))
-    put_value(state.scene, radiance.pointer, light_radiance(light));
+    state.scene.set(radiance.pointer, light_radiance(light));
 }
 
 void type_row(Ui& ui, PanelState& state, ObjectPath& path) {
   const auto types = surface_types();
   std::vector<std::string> missing;
-  for (int k = 0; k < static_cast<int>(types.size()); ++k) missing.push_back(why_not(state.scene, path, k));
+  for (int k = 0; k < static_cast<int>(types.size()); ++k) missing.push_back(why_not(*state.scene, path, k));
   std::vector<Choice> choices;
   for (std::size_t k = 0; k < types.size(); ++k)
     choices.push_back({types[k], missing[k].empty() ? nullptr : missing[k].c_str()});
-  int type = surface_type(state.scene, path);
+  int type = surface_type(*state.scene, path);
   Row row{"type", "Type", {}, {}, "", "what kind of material it is; the colour stays", ""};
-  if (combo_row(ui, row, choices, type)) path = set_surface_type(state.scene, path, type, state.materials);
+  if (combo_row(ui, row, choices, type)) path = set_surface_type(state.scene.change(), path, type, state.materials);
 }
 
-/// Which texture a colour comes from, and the values of that; nothing for a colour of its own.
-void texture_rows(Ui& ui, PanelState& state, const char* name, ColourOrTexture& colour) {
-  TextureIndex* texture = std::get_if<TextureIndex>(&colour);
+/// Which texture a colour comes from, and the values of that; nothing for a colour of its own. colour_in: finds it in a
+/// scene.
+void texture_rows(Ui& ui, PanelState& state, const char* name, const auto& colour_in) {
+  const TextureIndex* texture = std::get_if<TextureIndex>(&colour_in(*state.scene));
   if (!texture) return;
+  int index = texture->index;
   std::vector<std::string> names;
-  for (const Texture& one : state.scene.textures) names.push_back(printable(one.name));
-  combo_row(ui, {name, label_of(name, ""), {}, {}, "", colour_meaning(name).help, ""}, names, texture->index);
-  const Texture& now = state.scene.textures[static_cast<std::size_t>(texture->index)];
+  for (const Texture& one : state.scene->textures) names.push_back(printable(one.name));
+  if (combo_row(ui, {name, label_of(name, ""), {}, {}, "", colour_meaning(name).help, ""}, names, index))
+    colour_in(state.scene.change()) = TextureIndex{index};
+  const Texture& now = state.scene->textures[static_cast<std::size_t>(index)];
   const Scope scope(ui, now.name);
   if (const Image* image = std::get_if<Image>(&now.kind))
     text_row(ui, {"file", "Picture", {}, {}, "", image->file, ""}, image->file);
@@ -85,7 +88,8 @@ void texture_rows(Ui& ui, PanelState& state, const char* name, ColourOrTexture& 
 
 /// The values of a material. brief: without the line that tells what its colour does.
 void material_rows(Ui& ui, PanelState& state, int index, bool brief) {
-  Material& material = state.scene.materials[static_cast<std::size_t>(index)];
+  const auto number = static_cast<std::size_t>(index);
+  const Material& material = state.scene->materials[number];
   const Scope scope(ui, material.name);
   const bool shines = std::holds_alternative<Light<>>(material.kind);
   const auto said = [&](const Slot& slot, const std::string& meaning) {
@@ -93,8 +97,10 @@ void material_rows(Ui& ui, PanelState& state, int index, bool brief) {
   };
   part_rows(
       ui, state, material_part(material), [&](const Slot&) { return !shines; }, said);
-  if (const char* name = colour_name(material.kind)) texture_rows(ui, state, name, material.colour);
-  if (const auto radiance = shines ? find_slot(state.scene, material_part(material) + "/radiance") : std::nullopt)
+  if (const char* name = colour_name(material.kind))
+    texture_rows(
+        ui, state, name, [&](auto& scene) -> auto& { return scene.materials[number].colour; });
+  if (const auto radiance = shines ? find_slot(*state.scene, material_part(material) + "/radiance") : std::nullopt)
     light_rows(ui, state, *radiance);
 }
 
@@ -102,16 +108,17 @@ void material_rows(Ui& ui, PanelState& state, int index, bool brief) {
 /// goes that stood before the object.
 void surface_rows(Ui& ui, PanelState& state, ObjectPath& path) {
   type_row(ui, state, path);
-  Solid3d& solid = std::get<Solid3d>(find_object(state.scene, path)->kind);
+  int material = std::get<Solid3d>(find_object(*state.scene, path)->kind).material;
   std::vector<std::string> names;
-  for (const Material& material : state.scene.materials) names.push_back(printable(material.name));
-  const int users = users_of(state.scene, solid.material);
+  for (const Material& one : state.scene->materials) names.push_back(printable(one.name));
+  const int users = users_of(*state.scene, material);
   Row row{"material", "Material", {}, {}, "", "which of the scene's materials it has", ""};
   if (users > 1) row.meaning = "shared by " + std::to_string(users) + " objects: all of them change";
-  combo_row(ui, row, names, solid.material);
+  if (combo_row(ui, row, names, material))
+    std::get<Solid3d>(find_object(state.scene.change(), path)->kind).material = material;
   if (users < 2) return;
   ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - value_width(ui));
-  if (small_button(ui, "single_user", "make single user")) make_single_user(state.scene, path);
+  if (small_button(ui, "single_user", "make single user")) make_single_user(state.scene.change(), path);
 }
 
 std::string kinds_of(const Scene& scene, const Object& object) {
@@ -123,13 +130,13 @@ std::string kinds_of(const Scene& scene, const Object& object) {
 
 /// The rows that are shown of an object while nothing is selected: its material, and a metal sphere's radius.
 void brief_section(Ui& ui, PanelState& state, const ObjectPath& path) {
-  const Object& object = *find_object(state.scene, path);
-  const std::string title = title_of(state.scene, path), part = object_part(path);
-  if (!section(ui, title, kinds_of(state.scene, object))) return;
+  const Object& object = *find_object(*state.scene, path);
+  const std::string title = title_of(*state.scene, path), part = object_part(path);
+  if (!section(ui, title, kinds_of(*state.scene, object))) return;
   const Solid3d* solid = std::get_if<Solid3d>(&object.kind);
   if (solid) material_rows(ui, state, solid->material, true);
   const bool metal_ball =
-      shape_of<Sphere<>>(object) && solid && std::holds_alternative<Metal<>>(material_of(state.scene, object)->kind);
+      shape_of<Sphere<>>(object) && solid && std::holds_alternative<Metal<>>(material_of(*state.scene, object)->kind);
   const Scope scope(ui, title);
   part_rows(ui, state, part, [&](const Slot& slot) {
     return solid ? metal_ball && slot.name == std::string_view("radius") : slot.form != ValueForm::colour;
@@ -138,11 +145,13 @@ void brief_section(Ui& ui, PanelState& state, const ObjectPath& path) {
 
 /// The rows of a solid, a medium or a group, but for its name.
 void kind_rows(Ui& ui, PanelState& state, const ObjectPath& path) {
-  Object& object = *find_object(state.scene, path);
+  const Object& object = *find_object(*state.scene, path);
   const std::string part = object_part(path);
   part_rows(ui, state, part);
-  if (Volume* volume = std::get_if<Volume>(&object.kind)) {
-    texture_rows(ui, state, "albedo", volume->albedo);
+  if (const Volume* volume = std::get_if<Volume>(&object.kind)) {
+    texture_rows(
+        ui, state,
+        "albedo", [&](auto& scene) -> auto& { return std::get<Volume>(find_object(scene, path)->kind).albedo; });
     part_rows(ui, state, part + "/boundary");
     for (const std::string& step : transform_parts(part + "/boundary", volume->boundary_transform))
       part_rows(ui, state, step);
@@ -154,16 +163,17 @@ void kind_rows(Ui& ui, PanelState& state, const ObjectPath& path) {
 
 void full_section(Ui& ui, PanelState& state) {
   ObjectPath& path = state.selected;
-  const Object* object = find_object(state.scene, path);
-  const std::string title = title_of(state.scene, path), also = std::to_string(state.also.size());
-  if (!section(ui, title, state.also.empty() ? kinds_of(state.scene, *object) : "and " + also + " more")) return;
+  const Object* object = find_object(*state.scene, path);
+  const std::string title = title_of(*state.scene, path), also = std::to_string(state.also.size());
+  if (!section(ui, title, state.also.empty() ? kinds_of(*state.scene, *object) : "and " + also + " more")) return;
   const Solid3d* solid = std::get_if<Solid3d>(&object->kind);
   if (solid) material_rows(ui, state, solid->material, false);
   const Scope scope(ui, title);
   if (solid) surface_rows(ui, state, path);  // another type may move it in its list
   kind_rows(ui, state, path);
   const Row name{"name", "Name", {}, {}, "", "of this object: key F2", ""};
-  name_row(ui, name, title, state.rename, find_object(state.scene, path)->name);
+  std::string typed = find_object(*state.scene, path)->name;
+  if (name_row(ui, name, title, state.rename, typed)) find_object(state.scene.change(), path)->name = typed;
   state.rename = false;
 }
 
@@ -188,14 +198,14 @@ void forget_scene(PanelState& state) {
 }
 
 void object_panel(Ui& ui, PanelState& state) {
-  if (find_object(state.scene, state.selected)) {
-    if (state.rename) ui.folded.erase(title_of(state.scene, state.selected));
+  if (find_object(*state.scene, state.selected)) {
+    if (state.rename) ui.folded.erase(title_of(*state.scene, state.selected));
     ImGui::PushID("selected");
     full_section(ui, state);
     ImGui::PopID();
     return;
   }
-  for (const ObjectPath& path : interesting(state.scene)) {
+  for (const ObjectPath& path : interesting(*state.scene)) {
     ImGui::PushID(path.back());
     brief_section(ui, state, path);
     ImGui::PopID();

@@ -1,5 +1,6 @@
 #pragma once
 #include "app/window/accuracy/live_accuracy.h"
+#include "app/window/document/edited_scene.h"
 #include "app/window/edit/material_edits.h"
 #include "app/window/gallery/gallery.h"
 #include "app/window/panels/camera_slots.h"
@@ -17,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-/// The column of panels. Panels change the scene that they are given (a copy) and leave requests; they start nothing.
+/// The column of panels. Panels change the scene that they are given and leave requests; they start nothing.
 namespace tyndall {
 
 /// What panels show of the window, besides the scene.
@@ -74,7 +75,7 @@ struct ColumnTabs {
 struct PanelState {
   PanelModel model;
   // Panels change these in place.
-  Scene scene;
+  EditedScene scene;
   ObjectPath selected;           ///< whose values the panels show; empty: nothing is selected
   std::vector<ObjectPath> also;  ///< further objects that are selected with it
   bool rename = false;           ///< the name of the selected object is to be typed

@@ -44,7 +44,7 @@ bool is_same_object(const Scene& now, const Scene& saved, const std::string& poi
 }
 
 std::vector<Slot> saved_slots(const PanelState& state, const std::string& part) {
-  if (!is_same_object(state.scene, *state.model.saved, part + "/")) return {};
+  if (!is_same_object(*state.scene, *state.model.saved, part + "/")) return {};
   std::vector<Slot> slots = slots_of(*state.model.saved, part);
   for (Slot& slot : slots) fill_in(state.model.saved->camera, slot);
   return slots;
@@ -92,12 +92,12 @@ void slot_row(Ui& ui, PanelState& state, const Slot& slot, const Row& row) {
                        : slot.form == ValueForm::place ? vector_row(ui, place, *vector)
                        : !slot.choices.empty()         ? choose(ui, slot, row, *number)
                                                        : slider_row(ui, row, *number);
-  if (changed) put_value(state.scene, slot.pointer, value);
+  if (changed) state.scene.set(slot.pointer, value);
 }
 
 void part_rows(Ui& ui, PanelState& state, const std::string& part, const Wanted& wanted, const Said& said) {
   const std::vector<Slot> saved = saved_slots(state, part);
-  visit_part(std::as_const(state.scene), part, [&]<class Owner>(Slot& slot, const Owner& owner) {
+  visit_part(*state.scene, part, [&]<class Owner>(Slot& slot, const Owner& owner) {
     if constexpr (std::is_same_v<Owner, Camera>) fill_in(owner, slot);
     if (!slot.given || (wanted && !wanted(slot))) return false;
     const std::string meaning = meaning_of(owner, slot);

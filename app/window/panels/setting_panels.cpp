@@ -63,7 +63,7 @@ std::string caustics_meaning(const RenderSettings& render, const Frame* frame) {
 
 /// The grey line beneath a setting's row.
 std::string setting_meaning(const PanelState& state, std::string_view name) {
-  const RenderSettings& render = state.scene.render;
+  const RenderSettings& render = state.scene->render;
   if (name == "integrator") return label(render.integrator).help;
   if (name == "caustics") return caustics_meaning(render, state.model.frame.get());
   if (name == "sharing") return sharing_meaning(render, state.model.frame.get());
@@ -84,7 +84,7 @@ void threads_row(Ui& ui, PanelState& state) {
 
 /// Width and height of the picture. Sizes that do not fit into memory are refused.
 void pixels_row(Ui& ui, PanelState& state) {
-  Scene& scene = state.scene;
+  const Scene& scene = *state.scene;
   Row row{"size", "Image size", between(1, 65536), {0, 4000}, "", "width and height in pixels, also of snapshots", ""};
   row.whole = true;
   double width = scene.width, height = scene.height;
@@ -97,15 +97,14 @@ void pixels_row(Ui& ui, PanelState& state) {
   changed = value_box(ui, "height", row, height, box, false) || changed;
   end_row(ui, row);
   if (!changed) return;
-  const int old_width = scene.width, old_height = scene.height;
-  scene.width = static_cast<int>(width), scene.height = static_cast<int>(height);
   try {
-    const bool clean = state.model.clean > 0;
-    check_memory(WindowPlan{scene.width, scene.height, has_lights(scene), clean}, free_memory(),
+    const int wide = static_cast<int>(width), high = static_cast<int>(height);
+    check_memory(WindowPlan{wide, high, has_lights(scene), state.model.clean > 0}, free_memory(),
                  "switch the clean view off");
+    Scene& next = state.scene.change();
+    next.width = wide, next.height = high;
   } catch (const UsageError& error) {
     ui.problem = error.what();
-    scene.width = old_width, scene.height = old_height;
   }
 }
 
@@ -177,10 +176,10 @@ std::string kernel_note(const Frame* frame) { return frame ? frame->isa + " × "
 void camera_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Camera", "Home: reset")) return;
   const Scope scope(ui, "camera");
-  Camera& camera = state.scene.camera;
+  const Camera& camera = state.scene->camera;
   const bool plain_up = camera.vup == Vec3d{0, 1, 0};
   const auto said = [&](const Slot& slot, const std::string& meaning) {
-    return slot.name == std::string_view("focus_distance") ? focus_meaning(state.scene) : meaning;
+    return slot.name == std::string_view("focus_distance") ? focus_meaning(*state.scene) : meaning;
   };
   part_rows(
       ui, state, "/camera", [](const Slot& slot) { return slot.form == ValueForm::number; }, said);
@@ -190,22 +189,23 @@ void camera_panel(Ui& ui, PanelState& state) {
   });
   CameraSlots& slots = state.cameras[state.model.title];
   const SlotWish wish = camera_slots_row(ui, slots, camera);
-  if (wish.recall) camera = slots[*wish.recall].camera;
-  if (wish.store) store_camera(slots, camera, state.model.frame.get(), state.scene.display);
+  if (wish.recall) state.scene.change().camera = slots[*wish.recall].camera;
+  if (wish.store) store_camera(slots, camera, state.model.frame.get(), state.scene->display);
 }
 
 void background_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Background", "seen beyond all objects")) return;
   const Scope scope(ui, "background");
-  Background& background = state.scene.background;
+  const Background& background = state.scene->background;
   int kind = static_cast<int>(background.index());
   const std::vector<Choice> kinds = sky_choices(background, state.backgrounds);
   const int columns = kinds.size() > 3 ? 2 : 0;  // the names of four do not fit side by side
   if (choice_row(ui, {"kind", "Kind", {}, {}, "", "", ""}, kinds, kind, columns))
-    set_background_kind(background, kind, state.backgrounds);
-  if (const SkyPicture* sky = std::get_if<SkyPicture>(&background))
+    set_background_kind(state.scene.change().background, kind, state.backgrounds);
+  const Background& now = state.scene->background;
+  if (const SkyPicture* sky = std::get_if<SkyPicture>(&now))
     text_row(ui, {"file", "Picture", {}, {}, "", sky->file, ""}, sky->file);
-  part_rows(ui, state, std::holds_alternative<Vec3d>(background) ? "" : "/background");
+  part_rows(ui, state, std::holds_alternative<Vec3d>(now) ? "" : "/background");
 }
 
 void image_panel(Ui& ui, PanelState& state) {
@@ -221,7 +221,7 @@ void image_panel(Ui& ui, PanelState& state) {
 }
 
 void film_panel(Ui& ui, PanelState& state) {
-  const std::optional<Animation>& animation = state.scene.animation;
+  const std::optional<Animation>& animation = state.scene->animation;
   if (!animation || !section(ui, "Film", std::to_string(animation->keyed.size()) + " values have keys")) return;
   const Scope scope(ui, "film");
   part_rows(ui, state, "/animation");
@@ -239,7 +239,7 @@ void render_panel(Ui& ui, PanelState& state) {
   pixels_row(ui, state);
   size_row(ui, state);
   threads_row(ui, state);
-  note(ui, contents_text(state.scene), false);
+  note(ui, contents_text(*state.scene), false);
 }
 
 }  // namespace tyndall

@@ -223,11 +223,6 @@ void text_row(Ui& ui, const Row& row, const std::string& text) {
   end_row(ui, row);
 }
 
-bool changed_if(Ui& ui, bool changed) {
-  ui.changed |= changed;
-  return changed;
-}
-
 bool popup_is_open() { return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup); }
 
 bool small_button(Ui& ui, const std::string& name, const std::string& label, float width) {
@@ -235,7 +230,7 @@ bool small_button(Ui& ui, const std::string& name, const std::string& label, flo
   const bool pressed = ImGui::Button((label + "##" + name).c_str(), {width, ImGui::GetFontSize() + 10 * ui.scale});
   ImGui::PopFont();
   log_item(ui, name, "button");
-  return changed_if(ui, pressed);
+  return pressed;
 }
 
 }  // namespace tyndall

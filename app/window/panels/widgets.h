@@ -104,11 +104,10 @@ struct Ui {
   HoveredItem hovered;
   WheelOwner wheel;
   SoughtRow sought;
-  RowPlace drawn;             ///< the part of the column that is being drawn, and its section
-  double wake_in = 1e300;     ///< seconds until something appears by itself
-  bool has_question = false;  ///< a dialog waits for an answer: the column takes no input
-  bool close_popup = false;   ///< a list or a picker that is open closes in this drawing
-  bool changed = false;       ///< a control has changed its value in this drawing: the scene may be another one
+  RowPlace drawn;                         ///< the part of the column that is being drawn, and its section
+  double wake_in = 1e300;                 ///< seconds until something appears by itself
+  bool has_question = false;              ///< a dialog waits for an answer: the column takes no input
+  bool close_popup = false;               ///< a list or a picker that is open closes in this drawing
   std::vector<RowPlace>* rows = nullptr;  ///< gets the place of each row that is drawn; null: nobody asks
   std::vector<Request> requests;          ///< of controls, until they are carried out
   std::string problem;                    ///< why a typed value was refused: one line; "": it was not
@@ -183,8 +182,7 @@ void clipped_text_at(const std::string& text, ImVec2 at, float width, Tone colou
 /// Whether a list or a colour picker is open.
 bool popup_is_open();
 
-/// Parts that rows are made of. What changes a value says so by the first.
-bool changed_if(Ui& ui, bool changed);
+/// Parts that rows are made of.
 bool slider(Ui& ui, const Row& row, double& value, float width);
 bool value_box(Ui& ui, const char* id, const Row& row, double& value, float width, bool fixed_digits);
 void begin_row(Ui& ui, const Row& row);
