@@ -27,20 +27,21 @@ std::unique_ptr<UiLog> open_log(const std::filesystem::path& file) {
 
 }  // namespace
 
-void FrameAlarm::on_frame() {
-  if (clock_seconds() >= due && !rang.exchange(true)) Platform::wake();
+void FrameAlarm::on_frame(Platform& platform) {
+  if (clock_seconds() >= due && !rang.exchange(true)) platform.wake();
 }
 
-MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Reference> reference)
+MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Reference> reference,
+                       std::unique_ptr<Platform> platform)
     : log_(open_log(options.ui_log)),
-      platform_(options.scene.scene.width, options.scene.scene.height),
+      platform_(std::move(platform)),
       session_(
-          options, [] { Platform::wake(); }, [this] { alarm_.on_frame(); }, log_.get()),
+          options, wake_, [this] { alarm_.on_frame(*platform_); }, log_.get()),
       picture_(session_.renderers(), session_.accuracy()),
-      appearance_(platform_, session_, ui_),
+      appearance_(*platform_, session_, ui_),
       objects_(session_, panels_, tools_.gestures, pacing_),
-      picture_tools_(session_, panels_, tools_.gestures, pacing_, [] { Platform::wake(); }),
-      commands_(session_, platform_, panels_, pacing_, tools_.gestures, objects_, picture_tools_, strip_, timeline_,
+      picture_tools_(session_, panels_, tools_.gestures, pacing_, wake_),
+      commands_(session_, *platform_, panels_, pacing_, tools_.gestures, objects_, picture_tools_, strip_, timeline_,
                 log_.get()) {
   ui_.log = log_.get();
   panels_.model.scenes = built_in_scenes();
@@ -49,7 +50,7 @@ MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Refer
   panels_.look = session_.preferences();
   ui_.folded = panels_.look.folded;
   ui_.folded.insert("Histogram");  // it takes time with each picture
-  if (!options.hosted) signals_.emplace([] { Platform::wake(); });
+  if (!options.hosted) signals_.emplace(wake_);
   if (log_) log_commands(*log_);
   if (reference) session_.references().set(std::move(reference));
   if (options.reference_scene) session_.render_reference(*options.reference_scene);
@@ -74,7 +75,7 @@ bool MainWindow::picture_due(double now) const {
 }
 
 bool MainWindow::hidden() const {
-  const WindowSize size = platform_.size();
+  const WindowSize size = platform_->size();
   return size.framebuffer_width <= 0 || size.framebuffer_height <= 0;
 }
 
@@ -120,13 +121,13 @@ void MainWindow::draw(double now) {
   const double cpu_before = thread_cpu_seconds();
   pacing_.on_drawing();
   if (hidden()) {
-    platform_.skip_frame();
+    platform_->skip_frame();
     send(now);
     return pacing_.on_drawn(now);
   }
   note_files();
   appearance_.update(panels_.look, gallery_.recent());
-  platform_.begin_frame();
+  platform_->begin_frame();
   ui_.wake_in = 1e300;
   ui_.has_question = commands_.has_dialog();
   ui_.problem.clear();
@@ -137,7 +138,7 @@ void MainWindow::draw(double now) {
   // The old picture keeps its shape until the new one is there.
   const Scene& scene = session_.editor().scene();
   const Frame* shown = picture_.shown().get();
-  const WindowSize size = platform_.size();
+  const WindowSize size = platform_->size();
   Layout layout = layout_for(size, shown ? shown->width : scene.width, shown ? shown->height : scene.height);
   const float dots = static_cast<float>(size.framebuffer_width) / static_cast<float>(std::max(1, size.width));
   follow_window_size(size, dots);
@@ -153,9 +154,9 @@ void MainWindow::draw(double now) {
   if (!fresh) picture_.note_shown();  // the one before; if a newer scene is sent now, the workers begin with that
   if (send(now, !fresh) && !fresh) {
     awaits_until_ = now + longest_await;
-    return platform_.drop_frame();
+    return platform_->drop_frame();
   }
-  const std::string problem = picture_.show(platform_, layout, shown_state());
+  const std::string problem = picture_.show(*platform_, layout, shown_state());
   if (!problem.empty()) session_.messages().say(problem, true);
   finish_drawing(now, cpu_before, fresh);
   awaits_until_ = 0;
@@ -260,7 +261,7 @@ void MainWindow::draw_strip(const Rect& rect) {
     strip_gesture_ = 0;
     return;
   }
-  const WindowSize size = platform_.size();
+  const WindowSize size = platform_->size();
   const float dots = static_cast<float>(size.framebuffer_width) / static_cast<float>(std::max(1, size.width));
   const Editor& editor = session_.editor();
   const double again = strip_.update({editor.scene(), editor.changes(), !read_mouse().any_down() && !timeline_.plays(),
@@ -278,7 +279,7 @@ void MainWindow::draw_strip(const Rect& rect) {
 void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
   const Mouse mouse = read_mouse();
   if (log_) log_->mouse(mouse);
-  const std::set<int>& held = platform_.held();
+  const std::set<int>& held = platform_->held();
   PointerTool& pointer = tools_.pointer;
   const bool holds = mouse.any_down() || holds_fly_key(held) || objects_.active();
   const bool rotates = pointer.is_turning(mouse, layout, now);
@@ -298,7 +299,7 @@ void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
   }
   const bool grounded = mouse.control || objects_.active() || session_.shows_picture();
   Camera camera = panels_.scene->camera;
-  const bool flies = tools_.flight.update(grounded ? std::set<int>{} : held, platform_.shift_held(), now, camera);
+  const bool flies = tools_.flight.update(grounded ? std::set<int>{} : held, platform_->shift_held(), now, camera);
   if (flies) pacing_.wake_at(now + min_frame_interval);
   set_camera(camera);
 }
@@ -335,8 +336,8 @@ void MainWindow::apply_panels(double now) {
   keep_message(now);
   if (ui_.wake_in < 1e299) pacing_.wake_at(now + ui_.wake_in);
   const Document& document = session_.editor().document();
-  platform_.set_title(document.origin->title +
-                      (session_.editor().edited() && !session_.shows_picture() ? " (edited)" : "") + " – Tyndall");
+  platform_->set_title(document.origin->title +
+                       (session_.editor().edited() && !session_.shows_picture() ? " (edited)" : "") + " – Tyndall");
 }
 
 /// Takes a message off the screen when its time has come; errors stay.
@@ -355,7 +356,7 @@ void MainWindow::finish_drawing(double now, double cpu_before, bool fresh) {
   if (shown) pacing_.on_picture(shown->edit, after);
   if (!log_) return;
   if (shown) log_->shown(*shown, after);
-  const WindowSize size = platform_.size();
+  const WindowSize size = platform_->size();
   log_->changed("size", std::to_string(size.width) + " " + std::to_string(size.height));
   log_->drawn(thread_cpu_seconds() - cpu_before, fresh);
 }

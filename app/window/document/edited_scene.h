@@ -32,8 +32,12 @@ class EditedScene {
 
   /// The pointer of the only value that was set; "": anything may have changed.
   const std::string& pointer() const { return pointer_; }
-  /// The changed scene, which is not needed here any more.
-  Scene take() { return std::move(*changed_); }
+  /// The changed scene. Here it is as it was shown, then.
+  Scene take() {
+    Scene taken = std::move(*changed_);
+    changed_.reset();
+    return taken;
+  }
 
  private:
   Scene& copy() { return changed_ ? *changed_ : changed_.emplace(*shown_); }
