@@ -38,7 +38,7 @@ LEVELS = [
     ["app/window/document", "app/window/picture"],
     ["app/window/tools"],
     ["app/window/edit", "app/window/accuracy", "app/window/gallery"],
-    ["app/window/actions", "app/window/handles"],
+    ["app/window/handles"],
     ["app/window/panels"],
     ["app/window/menus", "app/window/rendering", "app/window/variations", "app/window/timeline"],
     ["app/window/inspector"],

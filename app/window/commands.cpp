@@ -9,126 +9,60 @@
 #include <utility>
 
 namespace tyndall {
-namespace {
 
-Theme other_theme(Theme theme) { return theme == Theme::dark ? Theme::light : Theme::dark; }
-
-}  // namespace
+/// What a menu, a movement or the strip makes of a key or character. Returns whether it was meant for one of them.
+bool Commands::take_key(const KeyPress& press) {
+  if (press.typing || has_question()) return false;
+  if (press.character == '\0' && menu_.take_key(press.key)) return true;
+  if (objects_.active()) return objects_.take_press(press);
+  return !panels_.row_has_keys && strip_.take_key(press.key);
+}
 
 void Commands::take(const InputEvents& events) {
   for (const KeyPress& press : events.keys) {
-    const auto request = request_of_key(press.key, press.modifiers);
-    const bool answers = request && request->action == Action::deselect;
-    if (palette_.take_key(press.key)) {
+    const Command* command = command_of_key(press.key, press.modifiers);
+    const bool answers = command && command->name == "deselect";
+    if (palette_.take_key(press.key) || take_key(press)) {
       pacing_.on_event();
       continue;
     }
-    if (!press.typing && !has_question() && objects_.has_keys() && objects_.take_press(press)) continue;
-    if (objects_.active() && !answers) continue;
-    if (!press.typing && !has_question() && !panels_.row_has_keys && strip_.take_key(press.key)) {
-      pacing_.on_event();
-      continue;
-    }
-    if (!request || (press.typing && !has_question()) || (has_question() && !answers)) continue;
-    panels_.leave_row = true;
-    act(*request);
+    if (!command || (objects_.active() && !answers)) continue;
+    if ((press.typing && !has_question()) || (has_question() && !answers)) continue;
+    panels_.leave_row = !answers;
+    act({command->name});
   }
   for (const std::filesystem::path& file : events.dropped)
     session_.references().open_dropped(std::filesystem::absolute(file));
 }
 
+std::string Commands::why_not(const Command& command, const std::string& argument) const {
+  return command.why_not ? command.why_not(*this, argument) : "";
+}
+
 void Commands::act(const Request& request) {
-  const ActionEntry* entry = find_action(request.action);
-  if (log_ && entry) log_->line("did " + std::string(entry->name));
-  if (entry) panels_.leave_row = request.action != Action::deselect;
-  if (request.action == Action::rename) shows_panels_ = true;
+  const Command& command = command_named(request.command);
+  const std::string& argument = request.argument.empty() ? command.argument : request.argument;
+  if (log_ && !command.is(unlisted)) log_->line("did " + command.name);
   pacing_.on_event();
-  const bool refused = requires_scene(request) || (requires_rendering(request) && !session_.renders());
-  if (session_.shows_picture() && refused)
-    return session_.messages().say("this is a picture without a scene: it can be looked at, compared and saved");
-  if (picture_.act(request.action) || objects_.act(request.action)) return;
-  act_on_window(request);
-  act_on_rendering(request);
-  act_on_document(request);
+  if (const std::string why = why_not(command, argument); !why.empty()) return session_.messages().say(why);
+  command.run(*this, argument);
+  if (command.is(begins_picture)) pacing_.on_new_start(clock_seconds());
 }
 
-/// Carries out the request by the handler of its action. Returns whether there is one.
-bool Commands::act_by(std::span<const Handler> handlers, const Request& request) {
-  const auto found =
-      std::find_if(handlers.begin(), handlers.end(), [&](const Handler& one) { return one.action == request.action; });
-  if (found != handlers.end()) found->act(*this, request);
-  return found != handlers.end();
-}
-
-void Commands::act_on_window(const Request& request) {
-  static constexpr Handler handlers[] = {
-      {Action::help, [](Commands& c, auto&) { c.shows_help_ = !c.shows_help_; }},
-      {Action::deselect, [](Commands& c, auto&) { c.escape(); }},
-      {Action::panels, [](Commands& c, auto&) { c.shows_panels_ = !c.shows_panels_; }},
-      {Action::full_screen, [](Commands& c, auto&) { c.platform_.toggle_full_screen(); }},
-      {Action::section, [](Commands& c, auto& r) { c.panels_.tabs.jump = r.number, c.shows_panels_ = true; }},
-      {Action::row, [](Commands& c, auto& r) { c.go_to_row(row_entries()[static_cast<std::size_t>(r.number)]); }},
-      {Action::palette, [](Commands& c, auto&) { c.open_palette(); }},
-      {Action::quit, [](Commands& c, auto&) { c.ask_to_close(); }},
-      {Action::larger_text,
-       [](Commands& c, auto&) { c.panels_.look.text_size = stepped_text_size(c.panels_.look.text_size, 1); }},
-      {Action::smaller_text,
-       [](Commands& c, auto&) { c.panels_.look.text_size = stepped_text_size(c.panels_.look.text_size, -1); }},
-      {Action::usual_text, [](Commands& c, auto&) { c.panels_.look.text_size = 1; }},
-      {Action::other_theme, [](Commands& c, auto&) { c.panels_.look.theme = other_theme(c.panels_.look.theme); }}};
-  act_by(handlers, request);
-}
-
-void Commands::act_on_rendering(const Request& request) {
-  static constexpr Handler handlers[] = {
-      {Action::pause, [](Commands& c, auto&) { c.session_.wanted().paused = !c.session_.wanted().paused; }},
-      {Action::threads, [](Commands& c, auto& r) { c.session_.wanted().threads = r.number; }},
-      {Action::reference,
-       [](Commands& c, auto&) { c.dialog_ = reference_dialog(c.session_.accuracy().reference() != nullptr); }},
-      {Action::open_reference, [](Commands& c, auto& r) { c.session_.references().open(r.text); }},
-      {Action::render_reference, [](Commands& c, auto&) { c.session_.render_reference(); }},
-      {Action::drop_reference, [](Commands& c, auto&) { c.session_.references().drop(); }},
-      {Action::export_chart, [](Commands& c, auto&) { c.session_.export_chart(); }},
-      {Action::snapshot, [](Commands& c, auto&) { c.session_.snapshot(); }}};
-  // After these a new picture is to be seen at once.
-  static constexpr Handler new_starts[] = {
-      {Action::restart, [](Commands& c, auto&) { ++c.session_.wanted().restarts; }},
-      {Action::view, [](Commands& c, auto& r) { c.select_view(r.number); }},
-      {Action::clean, [](Commands& c, auto&) { c.session_.set_clean(!c.session_.clean()); }},
-      {Action::clean_beside_raw,
-       [](Commands& c, auto&) { c.session_.set_clean_beside_raw(!c.session_.clean_beside_raw()); }},
-      {Action::clean_as,
-       [](Commands& c, auto& r) { c.session_.set_clean(r.number > 0), c.session_.set_clean_beside_raw(r.number > 1); }},
-      {Action::render_at, [](Commands& c, auto& r) { c.panels_.model.at_window = r.number == 1; }},
-      {Action::split, [](Commands& c, auto&) { c.session_.split() ? c.end_split() : c.session_.set_split(true); }},
-      {Action::keep_half,
-       [](Commands& c, auto& r) { c.session_.keep_half(r.number == 0 ? Half::kept : Half::current); }}};
-  act_by(handlers, request);
-  if (act_by(new_starts, request)) pacing_.on_new_start(clock_seconds());
-}
-
-void Commands::act_on_document(const Request& request) {
-  static constexpr Handler handlers[] = {
-      {Action::frame, [](Commands& c, auto&) { c.frame_selection(); }},
-      {Action::reset_camera, [](Commands& c, auto&) { c.reset_camera(); }},
-      {Action::play, [](Commands& c, auto&) { c.play(); }},
-      {Action::key_cameras, [](Commands& c, auto&) { c.key_cameras(); }},
-      {Action::undo, [](Commands& c, auto&) { c.session_.editor().undo(); }},
-      {Action::redo, [](Commands& c, auto&) { c.session_.editor().redo(); }},
-      {Action::open, [](Commands& c, auto&) { c.dialog_ = open_dialog(); }},
-      {Action::open_file,
-       [](Commands& c, auto& r) { c.session_.references().open_dropped(std::filesystem::absolute(r.text)); }},
-      {Action::sky_of_file, [](Commands& c, auto& r) { c.session_.editor().set_sky(r.text); }},
-      {Action::scene, [](Commands& c, auto& r) { c.session_.editor().open(r.text); }},
-      {Action::save, [](Commands& c, auto&) { c.save(); }},
-      {Action::save_as, [](Commands& c, auto&) { c.save_as(); }},
-      {Action::take_file, [](Commands& c, auto& r) { c.session_.editor().answer_about_file(r.number == 1); }},
-      {Action::save_to, [](Commands& c, auto& r) { c.save_to(r.text); }},
-      {Action::save_named, [](Commands& c, auto& r) { c.save_named(r.text); }},
-      {Action::save_unsaved,
-       [](Commands& c, auto&) { c.closing_.save(), c.session_.editor().go_to_unsaved(), c.save(); }},
-      {Action::discard_unsaved, [](Commands& c, auto&) { c.closing_.discard(); }}};
-  act_by(handlers, request);
+void Commands::open_menu(const std::string& title, CommandFlag which) {
+  std::vector<MenuItem> items;
+  bool separated = which == in_add_menu;  // additions are, from what is done to objects
+  for (const Command& command : commands()) {
+    if (!command.is(which)) continue;
+    const bool line_above = command.is(in_add_menu) && !std::exchange(separated, true);
+    items.push_back({"menu." + log_name(command.name),
+                     command.name,
+                     text_of(command.key),
+                     why_not(command, command.argument),
+                     line_above,
+                     {command.name}});
+  }
+  menu_.open(objects_.mouse().x, objects_.mouse().y, title, std::move(items));
 }
 
 void Commands::open_palette() {
@@ -136,11 +70,28 @@ void Commands::open_palette() {
   palette_.open(palette_items(session_.editor().scene(), panels_.selected, listed_scenes()));
 }
 
-void Commands::go_to_row(const RowEntry& row) {
-  if (owner_of(row, session_.editor().scene(), panels_.selected).empty())
-    return session_.messages().say(row.label + ": " + row.missing);
-  panels_.seek = RowPlace{row.part, row.label};
+void Commands::go_to_row(const std::string& place) {
+  const std::size_t slash = place.find('/');
+  const RowPlace wanted{place.substr(0, slash), place.substr(slash + 1)};
+  for (const RowEntry& row : row_entries(session_.editor().scene(), panels_.selected))
+    if (row.part == wanted.part && row.label == wanted.label && !row.missing.empty())
+      return session_.messages().say(row.label + ": " + row.missing);
+  panels_.seek = wanted;
   shows_panels_ = true;
+}
+
+/// Gives the value a key at the frame that the film shows.
+void Commands::add_key(const std::string& pointer) {
+  Scene scene = session_.editor().scene();
+  const auto slot = find_slot(scene, pointer);
+  if (!slot) return;
+  tyndall::add_key(scene, *slot, timeline_.frame());
+  session_.messages().say("key of " + slot->label + " at frame " + std::to_string(timeline_.frame()));
+  session_.editor().edit(std::move(scene), gestures_.begin());
+}
+
+void Commands::vary(const std::string& pointer) {
+  if (const auto slot = find_slot(session_.editor().scene(), pointer)) strip_.vary(*slot);
 }
 
 std::vector<std::string> Commands::listed_scenes() const {
@@ -172,12 +123,14 @@ void Commands::reset_camera() {
 
 void Commands::frame_selection() {
   const auto sphere = bounding_sphere(session_.editor().scene(), panels_.selected);
-  if (!sphere) return session_.messages().say("select an object first: click on it");
+  if (!sphere) return;  // an empty group
   Scene scene = session_.editor().scene();
   scene.camera =
       frame_sphere(scene.camera, sphere->center, sphere->radius, static_cast<double>(scene.width) / scene.height);
   session_.editor().edit(std::move(scene), gestures_.begin());
 }
+
+void Commands::step_text_size(int by) { panels_.look.text_size = stepped_text_size(panels_.look.text_size, by); }
 
 void Commands::save_as() {
   const Origin& origin = *session_.editor().document().origin;
@@ -206,10 +159,7 @@ void Commands::save_named(std::filesystem::path file) {
   dialog_ = replace_dialog(file);
 }
 
-/// A view of errors needs something to measure against; without it the view stays and a message says why.
-void Commands::select_view(int index) {
-  if (shows_errors(index) && !session_.can_show_errors())
-    return session_.messages().say("load a reference first: see Speed and accuracy");
+void Commands::show_view(int index) {
   panels_.model.view = index;
   session_.set_view(view_entry(index).view, view_entry(index).error);
 }
@@ -241,6 +191,7 @@ void Commands::escape() {
     panels_.leave_row = true;
     return;
   }
+  if (menu_.is_open()) return menu_.close();
   if (objects_.escape()) return;
   if (strip_.is_open() && !has_question() && !shows_help_ && !session_.messages().current().error)
     return strip_.close();
@@ -257,7 +208,9 @@ void Commands::escape() {
 }
 
 void Commands::draw(Ui& ui, const Rect& area) {
-  if (auto chosen = palette_.draw(ui, area)) panels_.requests.push_back(std::move(*chosen));
+  shows_menu_ = menu_.is_open();
+  if (auto chosen = menu_.draw(ui, area)) ui.requests.push_back(std::move(*chosen));
+  if (auto chosen = palette_.draw(ui, area)) ui.requests.push_back(std::move(*chosen));
   if (shows_help_) draw_help(ui, shows_help_);
   if (session_.editor().offers_reload() && !has_question())
     dialog_ = changed_file_dialog(*session_.editor().document().origin);
@@ -266,11 +219,11 @@ void Commands::draw(Ui& ui, const Rect& area) {
       dialog_ = picture_dialog(picture);
   if (dialog_.kind == Dialog::Kind::halves && !session_.split()) dialog_.kind = Dialog::Kind::none;
   closing_.draw(ui, area, dialog_);
-  if (auto answer = draw_dialog(ui, area, dialog_)) panels_.requests.push_back(std::move(*answer));
+  if (auto answer = draw_dialog(ui, area, dialog_)) ui.requests.push_back(std::move(*answer));
 }
 
-void Commands::carry_out() {
-  for (const Request& request : std::exchange(panels_.requests, {})) act(request);
+void Commands::carry_out(Ui& ui) {
+  for (const Request& request : std::exchange(ui.requests, {})) act(request);
 }
 
 }  // namespace tyndall

@@ -1,5 +1,5 @@
 #pragma once
-#include "app/window/actions/actions.h"
+#include "app/window/command.h"
 #include "app/window/dialog.h"
 #include "app/window/menus/menu.h"
 #include "app/window/menus/row_list.h"
@@ -14,7 +14,6 @@
 #include "app/window/tools/pointer.h"
 #include "app/window/variations/strip.h"
 
-#include <span>
 #include <vector>
 
 /// What happens when the user presses a key, drops a file or answers a question.
@@ -39,6 +38,9 @@ class Commands {
         closing_(session),
         log_(log) {}
 
+  /// See commands(), which is made of it once.
+  static std::vector<Command> table();
+
   /// Does what the user has asked for since the last drawing.
   void take(const InputEvents& events);
   /// Carries out one request.
@@ -47,36 +49,49 @@ class Commands {
   void ask_to_close();
   /// The window may go.
   bool closed() const { return closing_.done(); }
-  /// Draws the help table and the question that waits for an answer.
+  /// Draws menu, palette, help table and the question that waits for an answer.
   void draw(Ui& ui, const Rect& area);
 
   /// To be called at the end of each drawing, when the panels' scene was handed to the editor: carries out what was
   /// asked for in it.
-  void carry_out();
+  void carry_out(Ui& ui);
 
   /// Whether a dialog waits for an answer: until then nothing else takes clicks.
   bool has_dialog() const { return dialog_.kind != Dialog::Kind::none; }
   /// Whether a dialog or the palette has the keyboard.
   bool has_question() const { return has_dialog() || palette_.is_open(); }
+  /// Whether the menu is open, or was closed by this drawing: a click beside it does nothing else.
+  bool shows_menu() const { return shows_menu_ || menu_.is_open(); }
   bool shows_panels() const { return shows_panels_; }
 
  private:
-  struct Handler {
-    Action action;
-    void (*act)(Commands& commands, const Request& request);
-  };
-  bool act_by(std::span<const Handler> handlers, const Request& request);
-  void act_on_window(const Request& request);
-  void act_on_rendering(const Request& request);
-  void act_on_document(const Request& request);
-  void select_view(int index);
+  static std::vector<Command> table_of_objects();
+  static std::vector<Command> table_of_picture();
+  static std::vector<Command> table_of_files();
+  static std::vector<Command> table_of_views();
+  static std::vector<Command> table_of_window();
+  static std::vector<Command> unlisted_table();
+  // See Command::why_not.
+  static const char* needs_scene(const Commands& commands, const std::string& argument);
+  static const char* needs_rendering(const Commands& commands, const std::string& argument);
+  static const char* needs_selection(const Commands& commands, const std::string& argument);
+  static const char* needs_of_view(const Commands& commands, const std::string& name);
+  static const char* needs_of_part(const Commands& commands, const std::string& part);
+
+  std::string why_not(const Command& command, const std::string& argument) const;
+  bool take_key(const KeyPress& press);
+  void open_menu(const std::string& title, CommandFlag which);
+  void show_view(int index);
+  void step_text_size(int by);
   void play();
   void key_cameras();
   void reset_camera();
   void frame_selection();
   void open_palette();
-  /// Brings up a row of the column; where that is not shown a message says what to do first.
-  void go_to_row(const RowEntry& row);
+  /// Brings up a row of the column, "Camera/Focus"; where that is not shown a message says what to do first.
+  void go_to_row(const std::string& place);
+  void add_key(const std::string& pointer);
+  void vary(const std::string& pointer);
   /// Ends the split view; asks which half to keep where they differ.
   void end_split();
   void save();
@@ -97,10 +112,11 @@ class Commands {
   VariationStrip& strip_;
   Timeline& timeline_;
   Dialog dialog_;
+  Menu menu_;
   Palette palette_;
   Closing closing_;
   UiLog* log_;  ///< may be null
-  bool shows_help_ = false, shows_panels_ = true;
+  bool shows_help_ = false, shows_panels_ = true, shows_menu_ = false;
 };
 
 }  // namespace tyndall

@@ -89,7 +89,7 @@ Dialog open_dialog() {
   return {Dialog::Kind::other,
           "Open",
           "a scene, an image that Tyndall has made of one, or a picture to measure the error against",
-          {{"dialog.open", "Open", Request{Action::open_file}}, {"dialog.cancel", "Cancel"}},
+          {{"dialog.open", "Open", Request{"open"}}, {"dialog.cancel", "Cancel"}},
           0,
           "scene.json"};
 }
@@ -98,7 +98,7 @@ Dialog name_dialog(const std::filesystem::path& suggestion) {
   Dialog dialog{Dialog::Kind::other,
                 "Save the scene as",
                 "",
-                {{"dialog.save", "Save", Request{Action::save_named}}, {"dialog.cancel", "Cancel"}},
+                {{"dialog.save", "Save", Request{"save named"}}, {"dialog.cancel", "Cancel"}},
                 0,
                 "scene.json"};
   std::strncpy(dialog.name, suggestion.c_str(), sizeof dialog.name - 1);
@@ -110,8 +110,8 @@ Dialog loss_dialog(const Origin& origin, bool changed) {
           changed ? "Another program has changed " + origin.title + " since it was read."
                   : "Saving " + origin.title + " loses its comments.",
           changed ? "Saving replaces what it holds now." : "Scenes are written in normal form, which has none.",
-          {{"dialog.save", "Save anyway", Request{Action::save_to, 0, origin.file.string()}},
-           {"dialog.save_as", "Save as…", Request{Action::save_as}},
+          {{"dialog.save", "Save anyway", Request{"save to", origin.file.string()}},
+           {"dialog.save_as", "Save as…", Request{"save as"}},
            {"dialog.cancel", "Cancel"}},
           1};
 }
@@ -120,7 +120,7 @@ Dialog replace_dialog(const std::filesystem::path& file) {
   return {Dialog::Kind::other,
           file.string() + " exists.",
           "",
-          {{"dialog.replace", "Replace it", Request{Action::save_to, 0, file.string()}}, {"dialog.cancel", "Cancel"}},
+          {{"dialog.replace", "Replace it", Request{"save to", file.string()}}, {"dialog.cancel", "Cancel"}},
           1};
 }
 
@@ -129,11 +129,11 @@ Dialog reference_dialog(bool has_reference) {
                 "Measure the error against",
                 "an image of this scene and size, best an EXR of another seed; or one that is rendered now with "
                 "another seed",
-                {{"dialog.load", "Load", Request{Action::open_reference}},
-                 {"dialog.render", "Render one", Request{Action::render_reference}}},
+                {{"dialog.load", "Load", Request{"open the reference"}},
+                 {"dialog.render", "Render one", Request{"render a reference"}}},
                 0,
                 "reference.exr"};
-  if (has_reference) dialog.answers.push_back({"dialog.drop", "No reference", Request{Action::drop_reference}});
+  if (has_reference) dialog.answers.push_back({"dialog.drop", "No reference", Request{"drop the reference"}});
   dialog.answers.push_back({"dialog.cancel", "Cancel"});
   return dialog;
 }
@@ -142,8 +142,8 @@ Dialog picture_dialog(const std::filesystem::path& file) {
   return {Dialog::Kind::other,
           "What is " + file.filename().string() + "?",
           "A sky lights the scene from all around; a reference is what the picture is compared with.",
-          {{"dialog.sky", "As sky", Request{Action::sky_of_file, 0, file.string()}},
-           {"dialog.reference", "As reference", Request{Action::open_reference, 0, file.string()}},
+          {{"dialog.sky", "As sky", Request{"sky", file.string()}},
+           {"dialog.reference", "As reference", Request{"open the reference", file.string()}},
            {"dialog.cancel", "Cancel"}}};
 }
 
@@ -151,16 +151,16 @@ Dialog changed_file_dialog(const Origin& origin) {
   return {Dialog::Kind::changed_file,
           "Another program has changed " + origin.title + ".",
           "You have edits of it that are not saved. If you take the file, Ctrl + Z brings them back.",
-          {{"dialog.keep", "Keep my edits", Request{Action::take_file, 0}},
-           {"dialog.take", "Take the file", Request{Action::take_file, 1}}}};
+          {{"dialog.keep", "Keep my edits", Request{"keep the edits"}},
+           {"dialog.take", "Take the file", Request{"take the file"}}}};
 }
 
 Dialog halves_dialog(const std::string& method_a, const std::string& method_b) {
   return {Dialog::Kind::halves,
           "Which half do you keep?",
           "",
-          {{"dialog.a", "A   " + method_a, Request{Action::keep_half, 0}},
-           {"dialog.b", "B   " + method_b, Request{Action::keep_half, 1}},
+          {{"dialog.a", "A   " + method_a, Request{"keep half", "A"}},
+           {"dialog.b", "B   " + method_b, Request{"keep half", "B"}},
            {"dialog.cancel", "Cancel"}},
           2};
 }
@@ -169,8 +169,8 @@ Dialog close_dialog(const Origin& unsaved) {
   return {Dialog::Kind::close,
           "Save the edits of " + unsaved.title + "?",
           "The file of the scene does not have them.",
-          {{"dialog.save", "Save", Request{Action::save_unsaved}},
-           {"dialog.discard", "Discard", Request{Action::discard_unsaved}},
+          {{"dialog.save", "Save", Request{"save and close"}},
+           {"dialog.discard", "Discard", Request{"discard and close"}},
            {"dialog.cancel", "Cancel"}}};
 }
 
@@ -185,7 +185,7 @@ std::optional<Request> draw_dialog(Ui& ui, const Rect& area, Dialog& dialog) {
   end_box();
   if (answer < 0 || (answer == 0 && types && dialog.name[0] == '\0')) return {};
   std::optional<Request> request = dialog.answers[static_cast<std::size_t>(answer)].request;
-  if (request && types && answer == 0) request->text = typed_file(dialog.name).string();
+  if (request && types && answer == 0) request->argument = typed_file(dialog.name).string();
   dialog.kind = Dialog::Kind::none;
   return request;
 }

@@ -1,5 +1,4 @@
 #pragma once
-#include "app/window/actions/actions.h"
 #include "app/window/document/document.h"
 #include "app/window/panels/widgets.h"
 #include "app/window/session.h"

@@ -2,10 +2,8 @@
 
 #include "app/window/accuracy/views.h"
 #include "core/scene/place.h"
-#include "core/scene/pointer_values.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -29,20 +27,21 @@ std::unique_ptr<UiLog> open_log(const std::filesystem::path& file) {
 
 }  // namespace
 
-void FrameAlarm::on_frame() {
-  if (clock_seconds() >= due && !rang.exchange(true)) Platform::wake();
+void FrameAlarm::on_frame(Platform& platform) {
+  if (clock_seconds() >= due && !rang.exchange(true)) platform.wake();
 }
 
-MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Reference> reference)
+MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Reference> reference,
+                       std::unique_ptr<Platform> platform)
     : log_(open_log(options.ui_log)),
-      platform_(options.scene.scene.width, options.scene.scene.height),
+      platform_(std::move(platform)),
       session_(
-          options, [] { Platform::wake(); }, [this] { alarm_.on_frame(); }, log_.get()),
+          options, wake_, [this] { alarm_.on_frame(*platform_); }, log_.get()),
       picture_(session_.renderers(), session_.accuracy()),
-      appearance_(platform_, session_, ui_),
+      appearance_(*platform_, session_, ui_),
       objects_(session_, panels_, tools_.gestures, pacing_),
-      picture_tools_(session_, panels_, tools_.gestures, pacing_, [] { Platform::wake(); }),
-      commands_(session_, platform_, panels_, pacing_, tools_.gestures, objects_, picture_tools_, strip_, timeline_,
+      picture_tools_(session_, panels_, tools_.gestures, pacing_, wake_),
+      commands_(session_, *platform_, panels_, pacing_, tools_.gestures, objects_, picture_tools_, strip_, timeline_,
                 log_.get()) {
   ui_.log = log_.get();
   panels_.model.scenes = built_in_scenes();
@@ -51,8 +50,8 @@ MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Refer
   panels_.look = session_.preferences();
   ui_.folded = panels_.look.folded;
   ui_.folded.insert("Histogram");  // it takes time with each picture
-  if (!options.hosted) signals_.emplace([] { Platform::wake(); });
-  if (log_) log_actions(*log_);
+  if (!options.hosted) signals_.emplace(wake_);
+  if (log_) log_commands(*log_);
   if (reference) session_.references().set(std::move(reference));
   if (options.reference_scene) session_.render_reference(*options.reference_scene);
 }
@@ -76,7 +75,7 @@ bool MainWindow::picture_due(double now) const {
 }
 
 bool MainWindow::hidden() const {
-  const WindowSize size = platform_.size();
+  const WindowSize size = platform_->size();
   return size.framebuffer_width <= 0 || size.framebuffer_height <= 0;
 }
 
@@ -122,17 +121,16 @@ void MainWindow::draw(double now) {
   const double cpu_before = thread_cpu_seconds();
   pacing_.on_drawing();
   if (hidden()) {
-    platform_.skip_frame();
+    platform_->skip_frame();
     send(now);
     return pacing_.on_drawn(now);
   }
   note_files();
   appearance_.update(panels_.look, gallery_.recent());
-  platform_.begin_frame();
+  platform_->begin_frame();
   ui_.wake_in = 1e300;
   ui_.has_question = commands_.has_dialog();
   ui_.problem.clear();
-  ui_.changed = false;
   ui_.close_popup = std::exchange(panels_.close_popup, false);
   const bool fresh = picture_due(now);
   for (const Half half : {Half::current, Half::kept})
@@ -140,7 +138,7 @@ void MainWindow::draw(double now) {
   // The old picture keeps its shape until the new one is there.
   const Scene& scene = session_.editor().scene();
   const Frame* shown = picture_.shown().get();
-  const WindowSize size = platform_.size();
+  const WindowSize size = platform_->size();
   Layout layout = layout_for(size, shown ? shown->width : scene.width, shown ? shown->height : scene.height);
   const float dots = static_cast<float>(size.framebuffer_width) / static_cast<float>(std::max(1, size.width));
   follow_window_size(size, dots);
@@ -156,9 +154,9 @@ void MainWindow::draw(double now) {
   if (!fresh) picture_.note_shown();  // the one before; if a newer scene is sent now, the workers begin with that
   if (send(now, !fresh) && !fresh) {
     awaits_until_ = now + longest_await;
-    return platform_.drop_frame();
+    return platform_->drop_frame();
   }
-  const std::string problem = picture_.show(platform_, layout, shown_state());
+  const std::string problem = picture_.show(*platform_, layout, shown_state());
   if (!problem.empty()) session_.messages().say(problem, true);
   finish_drawing(now, cpu_before, fresh);
   awaits_until_ = 0;
@@ -195,8 +193,7 @@ ShownState MainWindow::shown_state() const {
 }
 
 void MainWindow::fill_panels() {
-  const std::uint64_t changes = session_.editor().changes();
-  if (std::exchange(panels_changes_, changes) != changes) panels_.scene = session_.editor().scene();
+  panels_.scene = EditedScene(session_.editor().shared());
   panels_.model.frame = picture_.shown();
   panels_.model.saved = &session_.editor().document().origin->saved;
   const std::string& title = session_.editor().document().origin->title;
@@ -211,7 +208,7 @@ void MainWindow::fill_panels() {
   panels_.model.clean = session_.clean() ? (session_.clean_beside_raw() ? 2 : 1) : 0;
   panels_.model.can_show_errors = session_.can_show_errors();
   panels_.wanted_pictures.clear();
-  ui_.size = target_distance(panels_.scene.camera);
+  ui_.size = target_distance(panels_.scene->camera);
   set_selected(panels_, session_.editor().selection());
 }
 
@@ -233,7 +230,7 @@ void MainWindow::draw_interface(const Layout& layout) {
   draw_strip({layout.strip.x0, layout.strip.y0 + film, layout.strip.x1, layout.strip.y1});
   commands_.draw(ui_, layout.area);
   if (!ui_.log) return;
-  ui_.log->widget("picture", layout.image, title_of(panels_.scene, panels_.selected));
+  ui_.log->widget("picture", layout.image, title_of(*panels_.scene, panels_.selected));
   ui_.log->end_of_widgets();
 }
 
@@ -255,14 +252,16 @@ void MainWindow::draw_timeline(const Rect& rect, double now) {
     timeline_.stop();
     session_.messages().say(error.where + ": found " + error.found + ", expected " + error.expected, true);
   }
-  panels_.scene = session_.editor().scene();
-  ui_.changed = false;
+  panels_.scene = EditedScene(session_.editor().shared());
 }
 
 /// The strip, and what is taken over from it.
 void MainWindow::draw_strip(const Rect& rect) {
-  if (!strip_.is_open()) return;
-  const WindowSize size = platform_.size();
+  if (!strip_.is_open()) {
+    strip_gesture_ = 0;
+    return;
+  }
+  const WindowSize size = platform_->size();
   const float dots = static_cast<float>(size.framebuffer_width) / static_cast<float>(std::max(1, size.width));
   const Editor& editor = session_.editor();
   const double again = strip_.update({editor.scene(), editor.changes(), !read_mouse().any_down() && !timeline_.plays(),
@@ -274,35 +273,13 @@ void MainWindow::draw_strip(const Rect& rect) {
   move_linked_objects(editor.scene(), editor.scene(), *taken);
   if (strip_gesture_ == 0) strip_gesture_ = tools_.gestures.begin();
   session_.editor().edit(std::move(*taken), strip_gesture_);
-  panels_.scene = session_.editor().scene();
-  ui_.changed = false;
-}
-
-/// What was chosen in the menu of a row: the row's other value shows which value of the scene it is.
-void MainWindow::take_wish() {
-  RowWish wish = std::exchange(ui_.wish, {});
-  if (wish.kind == RowWish::Kind::none) return;
-  const auto pointer = pointer_of_change(session_.editor().scene(), panels_.scene);
-  panels_.scene = session_.editor().scene();
-  panels_changes_ = session_.editor().changes();
-  ui_.changed = false;
-  if (!pointer) return session_.messages().say(wish.row.label + " stands for several values of the scene");
-  if (wish.kind == RowWish::Kind::key) {
-    Scene scene = session_.editor().scene();
-    if (add_key(scene, *pointer, timeline_.frame()))
-      session_.messages().say("key of " + wish.row.label + " at frame " + std::to_string(timeline_.frame()));
-    return session_.editor().edit(std::move(scene), tools_.gestures.begin());
-  }
-  if (!strip_.is_open()) strip_gesture_ = 0;
-  strip_.vary({*pointer, wish.row}, wish.present);
-  pacing_.on_event();
+  panels_.scene = EditedScene(session_.editor().shared());
 }
 
 void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
   const Mouse mouse = read_mouse();
   if (log_) log_->mouse(mouse);
-  const std::set<int>& held = platform_.held();
-  const Camera before = panels_.scene.camera;
+  const std::set<int>& held = platform_->held();
   PointerTool& pointer = tools_.pointer;
   const bool holds = mouse.any_down() || holds_fly_key(held) || objects_.active();
   const bool rotates = pointer.is_turning(mouse, layout, now);
@@ -311,44 +288,56 @@ void MainWindow::use_mouse_and_keys(const Layout& layout, double now) {
   const bool looks = !objects_.active() && picture_tools_.use_mouse(mouse, layout, free);
   const Rect visible = overlap(layout.image, layout.area);
   const bool divides = !looks && !objects_.active() && picture_.drag_divider(ui_, visible, mouse, free, shown_state());
-  const bool arranges = !looks && !divides && objects_.use_mouse(mouse, layout, ui_.scale, free);
+  const bool arranges =
+      !looks && !divides && objects_.use_mouse(mouse, layout, ui_.scale, free && !commands_.shows_menu());
   if (!looks && !divides && !arranges) {
-    const bool opens = !commands_.has_question() && !objects_.shows_menu();
-    const PressedButton clicked = pointer.update(mouse, layout, ui_.scale, opens, now, panels_.scene.camera);
-    if (clicked != PressedButton::none) objects_.click(layout, mouse, clicked);
+    const bool opens = !commands_.has_question() && !commands_.shows_menu();
+    Camera camera = panels_.scene->camera;
+    const PressedButton clicked = pointer.update(mouse, layout, ui_.scale, opens, now, camera);
+    set_camera(camera);
+    if (clicked != PressedButton::none && objects_.click(layout, mouse, clicked)) ui_.requests.push_back({"menu"});
   }
   const bool grounded = mouse.control || objects_.active() || session_.shows_picture();
-  const bool flies =
-      tools_.flight.update(grounded ? std::set<int>{} : held, platform_.shift_held(), now, panels_.scene.camera);
+  Camera camera = panels_.scene->camera;
+  const bool flies = tools_.flight.update(grounded ? std::set<int>{} : held, platform_->shift_held(), now, camera);
   if (flies) pacing_.wake_at(now + min_frame_interval);
-  ui_.changed |= arranges || !(panels_.scene.camera == before);
+  set_camera(camera);
+}
+
+void MainWindow::set_camera(const Camera& camera) {
+  if (!(camera == panels_.scene->camera)) panels_.scene.change().camera = camera;
+}
+
+/// Hands what the drawing has changed of the scene to the editor.
+void MainWindow::take_edit() {
+  Editor& editor = session_.editor();
+  if (!panels_.scene.is_changed()) return;
+  const std::string pointer = panels_.scene.pointer();
+  const std::uint64_t gesture = tools_.gestures.current();
+  Scene next = panels_.scene.take();
+  if (session_.shows_picture()) {  // without a scene, how it is displayed is all that can be changed
+    const Display display = next.display;
+    next = editor.scene();
+    next.display = display;
+  }
+  if (pointer.empty() || pointer.starts_with("/objects/")) tools_.start.finish_edit(editor.shared(), next, gesture);
+  editor.edit(std::move(next), gesture, pointer);
 }
 
 void MainWindow::apply_panels(double now) {
-  assert(ui_.changed || panels_changes_ != session_.editor().changes() || panels_.scene == session_.editor().scene());
-  take_wish();
-  if (ui_.changed) {
-    if (session_.shows_picture()) {  // without a scene, how it is displayed is all that can be changed
-      const Display display = panels_.scene.display;
-      panels_.scene = session_.editor().scene();
-      panels_.scene.display = display;
-    }
-    const std::uint64_t gesture = tools_.gestures.current();
-    tools_.start.finish_edit(session_.editor().scene(), panels_.scene, gesture);
-    session_.editor().edit(std::move(panels_.scene), gesture);
-    panels_changes_.reset();
-  }
+  take_edit();
   session_.editor().select(all_selected(panels_));
   if (!ui_.problem.empty()) session_.messages().say(ui_.problem, true);
-  commands_.carry_out();
+  commands_.carry_out(ui_);
   gallery_.want(panels_.wanted_pictures);
   use_preferences();
-  if (shows_errors(panels_.model.view) && !session_.can_show_errors()) commands_.act({Action::view});
+  if (shows_errors(panels_.model.view) && !session_.can_show_errors())
+    commands_.act({std::string("view: ") + view_entry(0).name});
   keep_message(now);
   if (ui_.wake_in < 1e299) pacing_.wake_at(now + ui_.wake_in);
   const Document& document = session_.editor().document();
-  platform_.set_title(document.origin->title +
-                      (session_.editor().edited() && !session_.shows_picture() ? " (edited)" : "") + " – Tyndall");
+  platform_->set_title(document.origin->title +
+                       (session_.editor().edited() && !session_.shows_picture() ? " (edited)" : "") + " – Tyndall");
 }
 
 /// Takes a message off the screen when its time has come; errors stay.
@@ -367,7 +356,7 @@ void MainWindow::finish_drawing(double now, double cpu_before, bool fresh) {
   if (shown) pacing_.on_picture(shown->edit, after);
   if (!log_) return;
   if (shown) log_->shown(*shown, after);
-  const WindowSize size = platform_.size();
+  const WindowSize size = platform_->size();
   log_->changed("size", std::to_string(size.width) + " " + std::to_string(size.height));
   log_->drawn(thread_cpu_seconds() - cpu_before, fresh);
 }

@@ -10,6 +10,7 @@
 #include "app/window/variations/strip.h"
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -22,7 +23,7 @@ struct FrameAlarm {
   std::atomic<double> due = 0;  ///< clock second from which on a frame wakes the window
   std::atomic<bool> rang = false;
 
-  void on_frame();
+  void on_frame(Platform& platform);
 };
 
 /// What mouse and keys do in the picture.
@@ -37,9 +38,12 @@ struct Tools {
 class MainWindow {
  public:
   /// reference: null: none.
-  MainWindow(const WindowOptions& options, std::shared_ptr<const Reference> reference);
+  MainWindow(const WindowOptions& options, std::shared_ptr<const Reference> reference,
+             std::unique_ptr<Platform> platform);
   /// Until the window is closed. Returns the exit code.
   int run();
+  /// Waits for something to happen, and draws if there is something new. Returns whether the window stays open.
+  bool step();
   /// Waits until the file of edits that were not saved holds all of them. From any thread.
   std::string flush_edits() { return session_.flush_edits(); }
 
@@ -52,8 +56,9 @@ class MainWindow {
   ShownState shown_state() const;
   void draw_interface(const Layout& layout);
   void use_mouse_and_keys(const Layout& layout, double now);
+  void set_camera(const Camera& camera);
+  void take_edit();
   void apply_panels(double now);
-  void take_wish();
   void draw_strip(const Rect& rect);
   void draw_timeline(const Rect& rect, double now);
   bool send(double now, bool scene_too = true);
@@ -67,16 +72,17 @@ class MainWindow {
   void note_files();
 
   std::unique_ptr<UiLog> log_;
-  Platform platform_;
+  std::unique_ptr<Platform> platform_;
+  std::function<void()> wake_ = [this] { platform_->wake(); };  ///< called from any thread
   FrameAlarm alarm_;
   Session session_;
   std::optional<EndSignals> signals_;  ///< none where signals are left to the program that the window belongs to
   PictureView picture_;
-  VariationStrip strip_{[] { Platform::wake(); }};
+  VariationStrip strip_{wake_};
   Timeline timeline_;
   std::uint64_t film_gesture_ = 0;   ///< going through frames is one step to undo
   std::uint64_t strip_gesture_ = 0;  ///< what is taken over from the strip is one step to undo
-  Gallery gallery_{[] { Platform::wake(); }};
+  Gallery gallery_{wake_};
   Ui ui_;
   PanelState panels_;
   Appearance appearance_;
@@ -85,12 +91,11 @@ class MainWindow {
   ObjectTools objects_;
   PictureTools picture_tools_;
   Commands commands_;
-  std::shared_ptr<const Origin> noted_;          ///< the file of the recent ones that was noted last
-  std::optional<std::uint64_t> panels_changes_;  ///< Editor::changes() of the scene that panels_ has a copy of
-  std::uint64_t paced_edit_ = 0;                 ///< newest edit that pacing_ knows of
-  double input_since_ = 0;       ///< when the oldest input came that no drawing has seen; 0: there is none
-  bool takes_in_again_ = false;  ///< an edit waits for what came while the picture was put on the screen
-  double awaits_until_ = 0;      ///< until then nothing is drawn but the picture of an edit that was just sent
+  std::shared_ptr<const Origin> noted_;  ///< the file of the recent ones that was noted last
+  std::uint64_t paced_edit_ = 0;         ///< newest edit that pacing_ knows of
+  double input_since_ = 0;               ///< when the oldest input came that no drawing has seen; 0: there is none
+  bool takes_in_again_ = false;          ///< an edit waits for what came while the picture was put on the screen
+  double awaits_until_ = 0;              ///< until then nothing is drawn but the picture of an edit that was just sent
 };
 
 }  // namespace tyndall

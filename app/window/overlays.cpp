@@ -2,7 +2,7 @@
 
 #include "app/report/contents.h"
 #include "app/text/progress.h"
-#include "app/window/actions/actions.h"
+#include "app/window/command.h"
 #include "app/window/dialog.h"
 #include "app/window/system/imgui_compat.h"
 #include "core/render/clean_film.h"

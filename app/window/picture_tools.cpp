@@ -10,23 +10,14 @@
 
 namespace tyndall {
 
-bool PictureTools::act(Action action) {
+void PictureTools::find_path() {
+  inspector_.set_on(true);
+  inspector_.find_path(session_.renderers(), session_.wanted().scene);
+}
+
+void PictureTools::store_camera() {
   const Scene& scene = session_.editor().scene();
-  if (action == Action::actual_size)
-    zoom_.toggle(mouse_.x, mouse_.y);
-  else if (action == Action::inspect)
-    inspector_.set_on(!inspector_.on());
-  else if (action == Action::replay)
-    inspector_.set_on(true), inspector_.find_path(session_.renderers(), session_.wanted().scene);
-  else if (action == Action::refine_first)
-    refine();
-  else if (action == Action::store_camera)
-    store_camera(panels_.cameras[panels_.model.title], scene.camera, panels_.model.frame.get(), scene.display);
-  else if (action == Action::next_camera)
-    look_through_next();
-  else
-    return false;
-  return true;
+  tyndall::store_camera(panels_.cameras[panels_.model.title], scene.camera, panels_.model.frame.get(), scene.display);
 }
 
 void PictureTools::look_through_next() {
@@ -38,7 +29,6 @@ void PictureTools::look_through_next() {
   session_.editor().edit(std::move(scene), gestures_.begin());
 }
 
-/// Begins to draw a rectangle, or gives one up.
 void PictureTools::refine() {
   Region& part = session_.wanted().refine_first;
   if (rectangle_.cancel()) return session_.messages().dismiss();
@@ -130,7 +120,7 @@ void PictureTools::draw(Ui& ui, const Layout& layout) {
   const bool as_chosen = frame->view == view_entry(panels_.model.view).view;
   if (as_chosen) draw_legend(ui, visible, legend_of(panels_.model.view, frame->white));
   draw_zoom(ui, visible);
-  inspector_.draw(ui, {frame, panels_.scene, session_.wanted().scene.get(), layout.image, visible},
+  inspector_.draw(ui, {frame, *panels_.scene, session_.wanted().scene.get(), layout.image, visible},
                   session_.renderers());
 }
 

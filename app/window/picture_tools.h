@@ -1,5 +1,4 @@
 #pragma once
-#include "app/window/actions/actions.h"
 #include "app/window/inspector/inspector.h"
 #include "app/window/inspector/rectangle_tool.h"
 #include "app/window/panels/panels.h"
@@ -20,8 +19,12 @@ class PictureTools {
   PictureTools(Session& session, PanelState& panels, Gestures& gestures, Pacing& pacing, std::function<void()> wake)
       : session_(session), panels_(panels), gestures_(gestures), pacing_(pacing), inspector_(std::move(wake)) {}
 
-  /// Carries out an action that looks closer; what is no such action is left. Returns whether it was one.
-  bool act(Action action);
+  void toggle_actual_size() { zoom_.toggle(mouse_.x, mouse_.y); }
+  void inspect() { inspector_.set_on(!inspector_.on()); }
+  void find_path();          ///< why the pixel under the cursor is noisy
+  void refine();             ///< begins to draw a rectangle, or gives one up
+  void store_camera();       ///< puts the camera aside
+  void look_through_next();  ///< of the cameras that were put aside
   /// Ends the innermost of what is shown. Returns whether there was anything.
   bool escape();
 
@@ -43,8 +46,6 @@ class PictureTools {
 
  private:
   bool drag_picture(const Mouse& mouse, const Layout& layout, bool free);
-  void refine();
-  void look_through_next();
   std::string said_of_rectangle() const;
   void draw_zoom(Ui& ui, const Rect& visible) const;
 

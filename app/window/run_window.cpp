@@ -34,29 +34,34 @@ void give_freed_memory_back() {
 }  // namespace
 
 int MainWindow::run() {
-  while (!commands_.closed() && (!signals_ || signals_->received() == 0)) {
-    // Asked first: a picture that comes later is not missed.
-    const bool at_rest = log_ && session_.at_rest() && picture_tools_.at_rest() && gallery_.idle() && strip_.at_rest();
-    const double wait = waiting_time(clock_seconds());
-    if (at_rest && wait >= 1) log_->rest();
-    platform_.wait(wait);
-    alarm_.rang = false;
-    if (platform_.take_close_wish()) commands_.ask_to_close();
-    const InputEvents events = platform_.take_events();
-    if (input_since_ <= 0) input_since_ = events.first;
-    const bool looked = picture_tools_.collect(), came = gallery_.collect(), varied = strip_.collect();
-    if (events.any || session_.collect() || looked || came || varied) pacing_.on_event();
-    for (const KeyPress& press : events.keys)
-      if (log_ && press.character == '\0') log_->line("key " + std::to_string(press.key));
-    commands_.take(events);
-    const double now = clock_seconds();
-    if (session_.collect_errors()) pacing_.wake_at(now);
-    const bool due = picture_due(now), again = std::exchange(takes_in_again_, false);
-    if (!due && !again) send(now);
-    if (due || again || (pacing_.wait(now) <= 0 && !awaits_picture(now))) draw(now);
+  while (step()) {
   }
-  platform_.hide();  // a comparison or a snapshot may still take a second
+  platform_->hide();  // a comparison or a snapshot may still take a second
   return end_of_signal();
+}
+
+bool MainWindow::step() {
+  if (commands_.closed() || (signals_ && signals_->received() != 0)) return false;
+  // Asked first: a picture that comes later is not missed.
+  const bool at_rest = log_ && session_.at_rest() && picture_tools_.at_rest() && gallery_.idle() && strip_.at_rest();
+  const double wait = waiting_time(clock_seconds());
+  if (at_rest && wait >= 1) log_->rest();
+  platform_->wait(wait);
+  alarm_.rang = false;
+  if (platform_->take_close_wish()) commands_.ask_to_close();
+  const InputEvents events = platform_->take_events();
+  if (input_since_ <= 0) input_since_ = events.first;
+  const bool looked = picture_tools_.collect(), came = gallery_.collect(), varied = strip_.collect();
+  if (events.any || session_.collect() || looked || came || varied) pacing_.on_event();
+  for (const KeyPress& press : events.keys)
+    if (log_ && press.character == '\0') log_->line("key " + std::to_string(press.key));
+  commands_.take(events);
+  const double now = clock_seconds();
+  if (session_.collect_errors()) pacing_.wake_at(now);
+  const bool due = picture_due(now), again = std::exchange(takes_in_again_, false);
+  if (!due && !again) send(now);
+  if (due || again || (pacing_.wait(now) <= 0 && !awaits_picture(now))) draw(now);
+  return true;
 }
 
 /// Says what becomes of edits that no file has, which there are where a signal ends the window. Returns the exit code.
@@ -79,7 +84,8 @@ int run_window(const WindowOptions& options) {
   std::shared_ptr<const Reference> reference;
   if (!options.reference.empty())
     reference = std::make_shared<const Reference>(read_reference(options.reference, document_of(options.scene)));
-  MainWindow window(options, std::move(reference));
+  const Scene& scene = options.scene.scene;
+  MainWindow window(options, std::move(reference), open_platform(scene.width, scene.height));
   if (options.hosted) return window.run();
   end_when_display_is_lost([&window] { return printable(window.flush_edits(), 2000); });
   const int code = window.run();

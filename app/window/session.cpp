@@ -61,16 +61,9 @@ std::function<LoadedScene()> Session::reload_of(const WindowOptions& options) {
   return [this, reload = options.reload] { return reload([this] { return !closing_; }); };
 }
 
-/// The edited scene, copied once for all who go on using it.
-const std::shared_ptr<const Scene>& Session::shared_scene() {
-  if (!shared_ || shared_changes_ != editor_.changes()) shared_ = std::make_shared<const Scene>(editor_.scene());
-  shared_changes_ = editor_.changes();
-  return shared_;
-}
-
 /// The scene as the renderers get it.
 std::shared_ptr<const Scene> Session::rendered_scene() {
-  const std::shared_ptr<const Scene>& scene = shared_scene();
+  std::shared_ptr<const Scene> scene = editor_.shared();
   if (!picture_size_ || *picture_size_ == PictureSize{scene->width, scene->height}) return scene;
   auto sized = std::make_shared<Scene>(*scene);
   sized->width = picture_size_->width, sized->height = picture_size_->height;

@@ -133,7 +133,6 @@ class Session {
   void submit(double now);
   bool ask();
   std::shared_ptr<const Scene> with_kept_settings(const Scene& scene) const;
-  const std::shared_ptr<const Scene>& shared_scene();
   std::shared_ptr<const Scene> rendered_scene();
   bool tell_of_keeping();
   bool collect_rows();
@@ -162,8 +161,6 @@ class Session {
   bool beside_ = false;  ///< the clean view beside the raw one
   Editor editor_;
   std::optional<PictureSize> picture_size_;
-  std::shared_ptr<const Scene> shared_;                  ///< a copy of the edited scene
-  std::uint64_t shared_changes_ = 0;                     ///< Editor::changes() when it was copied
   std::uint64_t kept_changes_ = 0;                       ///< Editor::changes() when the edits were kept last
   bool discarded_ = false;                               ///< edits are not kept any more
   Keeping::Kind told_keeping_ = Keeping::Kind::nothing;  ///< what the user was told last

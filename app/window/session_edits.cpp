@@ -56,7 +56,7 @@ void Session::keep_edits() {
   kept_changes_ = editor_.changes();
   const Document* unsaved = this->unsaved();
   if (unsaved == &editor_.document())
-    kept_.keep(shared_scene(), unsaved->origin);
+    kept_.keep(editor_.shared(), unsaved->origin);
   else if (unsaved)
     kept_.keep(std::make_shared<const Scene>(unsaved->scene), unsaved->origin);
   else

@@ -44,9 +44,11 @@ struct Field {
   T Owner::*value;
   Valid valid;
   Slider slider;
-  const char* unit;  ///< "" for a pure number
-  const char* help;  ///< one phrase: what it means physically
-  bool required;     ///< a scene file must give it
+  const char* unit;        ///< "" for a pure number
+  const char* help;        ///< one phrase: what it means physically
+  bool required;           ///< a scene file must give it
+  const char* label = "";  ///< on screen; "": the name with a capital, and spaces
+  const char* words = "";  ///< what other programs call it, separated by ", "
 
   /// A number or a vector.
   constexpr Field(const char* name_, T Owner::*value_, Valid valid_, Slider slider_, const char* unit_,
@@ -55,6 +57,17 @@ struct Field {
   /// A switch or a choice.
   constexpr Field(const char* name_, T Owner::*value_, const char* help_)
       : Field(name_, value_, Valid{}, no_slider(), "", help_) {}
+
+  constexpr Field called(const char* on_screen) const {
+    Field field = *this;
+    field.label = on_screen;
+    return field;
+  }
+  constexpr Field also(const char* other_words) const {
+    Field field = *this;
+    field.words = other_words;
+    return field;
+  }
 };
 
 /// The list of T.

@@ -22,7 +22,8 @@ struct Dielectric {
 template <class F>
 constexpr auto fields(const Dielectric<F>*) {
   return std::tuple{Field{"refractive_index", &Dielectric<F>::refractive_index, above(0), Slider{0.5, 3}, "",
-                          "inside over outside; below 1 for a bubble", true}};
+                          "inside over outside; below 1 for a bubble", true}
+                        .also("ior, index of refraction, refraction, eta")};
 }
 
 /// Snell's law at one boundary: eta times the cosine of the refracted direction, sqrt(cos_in² + eta² - 1); 0 at total

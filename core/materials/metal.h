@@ -22,7 +22,8 @@ struct Metal {
 template <class F>
 constexpr auto fields(const Metal<F>*) {
   return std::tuple{Field{"fuzz", &Metal<F>::fuzz, between(0, 1), Slider{0, 1}, "",
-                          "radius of the blur around the mirror direction; 0 is a mirror"}};
+                          "radius of the blur around the mirror direction; 0 is a mirror"}
+                        .also("roughness, rough, glossiness, gloss")};
 }
 
 template <class F>

@@ -24,9 +24,12 @@ struct Medium {
 template <class F>
 constexpr auto fields(const Medium<F>*) {
   return std::tuple{Field{"density", &Medium<F>::density, at_least(0), Slider{0.001, 100, true}, "",
-                          "mean number of scattering or absorption events per unit length", true},
+                          "mean number of scattering or absorption events per unit length", true}
+                        .also("fog density, extinction, opacity, absorption, thickness"),
                     Field{"g", &Medium<F>::g, inside(-1, 1), Slider{-0.95, 0.95}, "",
-                          "mean cosine of the scattering angle (Henyey-Greenstein); 0 scatters evenly"}};
+                          "mean cosine of the scattering angle (Henyey-Greenstein); 0 scatters evenly"}
+                        .called("Asymmetry g")
+                        .also("g, anisotropy, anisotropic, phase function, henyey-greenstein, forward scattering")};
 }
 
 /// Distance to the next event in a medium of the given density (> 0), for a random number u in (0, 1]. Distances are

@@ -47,10 +47,11 @@ inline constexpr int max_frames = 1000000;
 
 inline constexpr auto fields(const Animation*) {
   return std::tuple{
-      Field{"frames", &Animation::frames, between(1, max_frames), Slider{1, 1000, true}, "", "number of frames", true},
-      Field{"curve", &Animation::curve, "how values change between keys"},
-      Field{"orbit", &Animation::orbit,
-            "the camera's look_from moves around look_at in place of straight towards keys"}};
+      Field{"frames", &Animation::frames, between(1, max_frames), Slider{1, 1000, true}, "", "number of frames", true}
+          .also("film length, duration, frame count"),
+      Field{"curve", &Animation::curve, "how values change between keys"}.also("interpolation, easing"),
+      Field{"orbit", &Animation::orbit, "the camera's look_from moves around look_at in place of straight towards keys"}
+          .also("turntable")};
 }
 
 /// The value at a time, counted in frames: on the curve between keys, constant before the first and after the last.

@@ -4,8 +4,6 @@
 #include "core/scene/json_read.h"
 #include "core/scene/place.h"
 
-#include <algorithm>
-
 namespace tyndall {
 namespace {
 
@@ -29,45 +27,6 @@ std::optional<JsonValue> default_of(std::string_view type, std::string_view key,
   };
   (look(static_cast<const Kinds*>(nullptr)), ...);
   return found;
-}
-
-bool is_numbers(const JsonValue& json) {
-  const auto* array = std::get_if<JsonArray>(&json.value);
-  return array && std::all_of(array->begin(), array->end(),
-                              [](const JsonValue& item) { return std::holds_alternative<double>(item.value); });
-}
-
-bool same(const JsonValue& a, const JsonValue& b) { return print_json(a) == print_json(b); }
-
-void find_changes(const JsonValue& before, const JsonValue& after, const std::string& at,
-                  std::vector<std::string>& found);
-
-/// The same of the members of objects, of which either may lack some.
-void find_changed_members(const JsonObject& before, const JsonObject& after, const std::string& at,
-                          std::vector<std::string>& found) {
-  for (const JsonMember& member : before) {
-    const std::string place = at + "/" + pointer_step(member.key);
-    if (const JsonValue* now = find(after, member.key))
-      find_changes(member.value, *now, place, found);
-    else
-      found.push_back(place);
-  }
-  for (const JsonMember& member : after)
-    if (!find(before, member.key)) found.push_back(at + "/" + pointer_step(member.key));
-}
-
-/// Adds the pointers to all values that differ; vectors of numbers count as one.
-void find_changes(const JsonValue& before, const JsonValue& after, const std::string& at,
-                  std::vector<std::string>& found) {
-  const auto *a = std::get_if<JsonObject>(&before.value), *b = std::get_if<JsonObject>(&after.value);
-  if (a && b) return find_changed_members(*a, *b, at, found);
-  const auto *list = std::get_if<JsonArray>(&before.value), *other = std::get_if<JsonArray>(&after.value);
-  if (list && other && list->size() == other->size() && !is_numbers(before)) {
-    for (std::size_t i = 0; i < list->size(); ++i)
-      find_changes((*list)[i], (*other)[i], at + "/" + std::to_string(i), found);
-    return;
-  }
-  if (!same(before, after)) found.push_back(at);
 }
 
 }  // namespace
@@ -107,15 +66,6 @@ Scene with_value(const Scene& scene, const std::string& pointer, JsonValue value
   Scene changed = scene_with_pictures(root, scene);
   if (const auto error = check(changed)) throw *error;
   return changed;
-}
-
-std::optional<std::string> pointer_of_change(const Scene& before, const Scene& after) {
-  JsonValue a = scene_json(before), b = scene_json(after);
-  add_sections(a);
-  add_sections(b);
-  std::vector<std::string> found;
-  find_changes(a, b, "", found);
-  return found.size() == 1 ? std::optional(found[0]) : std::nullopt;
 }
 
 }  // namespace tyndall

@@ -20,8 +20,4 @@ std::optional<JsonValue> value_at_pointer(const Scene& scene, const std::string&
 /// The scene with another value there. Throws ParseError if it has no place, or the scene is then not valid.
 Scene with_value(const Scene& scene, const std::string& pointer, JsonValue value);
 
-/// The pointer to the only value in which two scenes differ: a number, a text, or a vector of which one or more
-/// components differ. Nothing if they are equal or differ in more.
-std::optional<std::string> pointer_of_change(const Scene& before, const Scene& after);
-
 }  // namespace tyndall

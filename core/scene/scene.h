@@ -48,11 +48,15 @@ struct Translate {
 };
 inline constexpr auto fields(const RotateY*) {
   return std::tuple{
-      Field{"rotate_y", &RotateY::degrees, any_number(), Slider{-180, 180}, "°", "turn about the y axis", true}};
+      Field{"rotate_y", &RotateY::degrees, any_number(), Slider{-180, 180}, "°", "turn about the y axis", true}
+          .called("Turn")
+          .also("rotate, rotation, rotate y, yaw")};
 }
 inline constexpr auto fields(const Translate*) {
   return std::tuple{
-      Field{"translate", &Translate::offset, any_number(), no_slider(), "", "shift along x, y, z, scene units", true}};
+      Field{"translate", &Translate::offset, any_number(), no_slider(), "", "shift along x, y, z, scene units", true}
+          .called("Move")
+          .also("translation, offset, shift")};
 }
 /// Applied in the order of the list.
 using Transform = std::vector<std::variant<RotateY, Translate>>;
@@ -96,8 +100,10 @@ struct Gradient {
   bool operator==(const Gradient&) const = default;
 };
 inline constexpr auto fields(const Gradient*) {
-  return std::tuple{Field{"bottom", &Gradient::bottom, at_least(0), Slider{0, 2}, "", "radiance straight below", true},
-                    Field{"top", &Gradient::top, at_least(0), Slider{0, 2}, "", "radiance straight above", true}};
+  return std::tuple{
+      Field{"bottom", &Gradient::bottom, at_least(0), Slider{0, 2}, "", "radiance straight below", true}.also(
+          "horizon"),
+      Field{"top", &Gradient::top, at_least(0), Slider{0, 2}, "", "radiance straight above", true}.also("zenith")};
 }
 struct Hemispheres {
   static constexpr const char* type = "hemispheres";
@@ -106,8 +112,12 @@ struct Hemispheres {
   bool operator==(const Hemispheres&) const = default;
 };
 inline constexpr auto fields(const Hemispheres*) {
-  return std::tuple{Field{"up", &Hemispheres::up, at_least(0), Slider{0, 2}, "", "radiance where y > 0", true},
-                    Field{"down", &Hemispheres::down, at_least(0), Slider{0, 2}, "", "radiance where y <= 0", true}};
+  return std::tuple{
+      Field{"up", &Hemispheres::up, at_least(0), Slider{0, 2}, "", "radiance where y > 0", true}.called("Above").also(
+          "sky above"),
+      Field{"down", &Hemispheres::down, at_least(0), Slider{0, 2}, "", "radiance where y <= 0", true}
+          .called("Below")
+          .also("ground color, ground colour")};
 }
 /// A picture of the whole sky by longitude (across) and latitude (down), infinitely far away. As seen from within: the
 /// middle of the picture lies towards -z, the middle of its right half towards +x, its first row around +y. Integrators
@@ -127,8 +137,11 @@ struct SkyPicture {
 };
 inline constexpr auto fields(const SkyPicture*) {
   return std::tuple{
-      Field{"rotate_y", &SkyPicture::rotate_y, any_number(), Slider{-180, 180}, "°", "turn about the y axis"},
-      Field{"scale", &SkyPicture::scale, at_least(0), Slider{0.01, 100, true}, "", "factor on the picture's radiance"}};
+      Field{"rotate_y", &SkyPicture::rotate_y, any_number(), Slider{-180, 180}, "°", "turn about the y axis"}
+          .called("Turn")
+          .also("sky rotation, rotate sky, rotate environment"),
+      Field{"scale", &SkyPicture::scale, at_least(0), Slider{0.01, 100, true}, "", "factor on the picture's radiance"}
+          .also("sky strength, environment strength")};
 }
 using Background = std::variant<Vec3d, Gradient, Hemispheres, SkyPicture>;
 

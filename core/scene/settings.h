@@ -29,14 +29,26 @@ struct Camera {
 
 inline constexpr auto fields(const Camera*) {
   return std::tuple{
-      Field{"look_from", &Camera::look_from, any_number(), no_slider(), "", "position of the eye, scene units"},
-      Field{"look_at", &Camera::look_at, any_number(), no_slider(), "", "the point in the middle of the picture"},
-      Field{"vup", &Camera::vup, any_number(), no_slider(), "", "the direction that is up in the picture"},
-      Field{"vfov", &Camera::vfov, inside(0, 180), Slider{1, 120}, "°", "vertical field of view, full angle"},
+      Field{"look_from", &Camera::look_from, any_number(), no_slider(), "", "position of the eye, scene units"}
+          .called("Position")
+          .also("camera position, eye, look from"),
+      Field{"look_at", &Camera::look_at, any_number(), no_slider(), "", "the point in the middle of the picture"}
+          .called("Target")
+          .also("look at, point of interest"),
+      Field{"vup", &Camera::vup, any_number(), no_slider(), "", "the direction that is up in the picture"}
+          .called("Up")
+          .also("up vector, roll, tilt, vup"),
+      Field{"vfov", &Camera::vfov, inside(0, 180), Slider{1, 120}, "°", "vertical field of view, full angle"}
+          .called("Field of view")
+          .also("fov, vfov, focal, focal length, lens, angle of view, zoom"),
       Field{"defocus_angle", &Camera::defocus_angle, Valid{.low = 0, .high = 180, .high_open = true}, Slider{0, 5}, "°",
-            "opening of the cone of rays that meets in a point in focus; 0: all is sharp"},
+            "opening of the cone of rays that meets in a point in focus; 0: all is sharp"}
+          .called("Defocus")
+          .also("aperture, f-stop, f-number, depth of field, dof, bokeh, lens radius, defocus blur"),
       Field{"focus_distance", &Camera::focus_distance, above(0), Slider{0.1, 100, true}, "",
-            "distance of the plane in focus, along the axis, scene units"}};
+            "distance of the plane in focus, along the axis, scene units"}
+          .called("Focus")
+          .also("focal distance, focus distance, focal plane, focus plane")};
 }
 
 /// How much light a smooth boundary reflects.
@@ -84,19 +96,29 @@ struct RenderSettings {
 inline constexpr auto fields(const RenderSettings*) {
   return std::tuple{
       Field{"max_depth", &RenderSettings::max_depth, at_least(0), Slider{1, 1000, true}, "",
-            "longest path, in scattering events; 0: lights and background only"},
-      Field{"spp", &RenderSettings::spp, between(1, max_samples), Slider{1, 65536, true}, "", "samples per pixel"},
-      Field{"integrator", &RenderSettings::integrator, "how light is found"},
-      Field{"sampler", &RenderSettings::sampler, "where random numbers come from"},
-      Field{"fresnel", &RenderSettings::fresnel, "how much glass reflects"},
+            "longest path, in scattering events; 0: lights and background only"}
+          .called("Depth")
+          .also("bounces, max bounces, ray depth, max depth, path length, recursion"),
+      Field{"spp", &RenderSettings::spp, between(1, max_samples), Slider{1, 65536, true}, "", "samples per pixel"}
+          .called("Limit")
+          .also("samples, spp, samples per pixel, sample count, sampling, quality"),
+      Field{"integrator", &RenderSettings::integrator, "how light is found"}.also(
+          "render engine, method, next event estimation, light sampling"),
+      Field{"sampler", &RenderSettings::sampler, "where random numbers come from"}.also(
+          "sobol, random numbers, quasi monte carlo"),
+      Field{"fresnel", &RenderSettings::fresnel, "how much glass reflects"}.also("schlick, reflectivity"),
       Field{"caustics", &RenderSettings::caustics,
-            "how integrator mis finds light through glass balls and panes and off mirrors"},
+            "how integrator mis finds light through glass balls and panes and off mirrors"}
+          .also("manifold next event estimation, mnee"),
       Field{"sharing", &RenderSettings::sharing,
-            "integrator mis lets light that comes by way of walls reach eight pixels at once, where that pays"},
-      Field{"seed", &RenderSettings::seed, between(0, 4294967295.0), Slider{0, 100}, "", "seed of the random numbers"},
+            "integrator mis lets light that comes by way of walls reach eight pixels at once, where that pays"}
+          .also("path reuse, reuse, restir"),
+      Field{"seed", &RenderSettings::seed, between(0, 4294967295.0), Slider{0, 100}, "", "seed of the random numbers"}
+          .also("random seed"),
       Field{"adaptive", &RenderSettings::adaptive,
             "more samples where the estimated error is, fewer elsewhere; spp is their mean, never exceeded; "
-            "not for shards or merged films"}};
+            "not for shards or merged films"}
+          .also("adaptive sampling")};
 }
 
 /// How linear light becomes a picture; never part of rendering.
@@ -111,10 +133,13 @@ inline constexpr auto fields(const Display*) {
   // 2^100 and 2^-100 leave room for any picture within the range of single precision.
   return std::tuple{
       Field{"exposure", &Display::exposure, between(-100, 100), Slider{-6, 6}, "EV",
-            "stops, of PNG, PPM and window only: light is multiplied by 2 to this power"},
-      Field{"tone_map", &Display::tone_map, "of PNG, PPM and window only: what happens to light that is too bright"},
+            "stops, of PNG, PPM and window only: light is multiplied by 2 to this power"}
+          .also("brightness, ev, gain"),
+      Field{"tone_map", &Display::tone_map, "of PNG, PPM and window only: what happens to light that is too bright"}
+          .also("tonemapping, tone mapping, tone curve, view transform, color management, filmic, aces, agx"),
       Field{"dither", &Display::dither,
-            "of PNG, PPM and window only: rounds to 8 bits by a fixed pattern, so that smooth shades show no bands"}};
+            "of PNG, PPM and window only: rounds to 8 bits by a fixed pattern, so that smooth shades show no bands"}
+          .also("dithering, banding")};
 }
 
 }  // namespace tyndall

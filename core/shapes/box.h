@@ -15,8 +15,12 @@ struct Box {
 
 template <class F>
 constexpr auto fields(const Box<F>*) {
-  return std::tuple{Field{"min", &Box<F>::min, any_number(), no_slider(), "", "lower corner, scene units", true},
-                    Field{"max", &Box<F>::max, any_number(), no_slider(), "", "upper corner, scene units", true}};
+  return std::tuple{Field{"min", &Box<F>::min, any_number(), no_slider(), "", "lower corner, scene units", true}
+                        .called("Low corner")
+                        .also("box size"),
+                    Field{"max", &Box<F>::max, any_number(), no_slider(), "", "upper corner, scene units", true}
+                        .called("High corner")
+                        .also("upper corner")};
 }
 
 /// 1 / d, where |d| < 1e-20 counts as 1e-20 with d's sign: then a line parallel to a slab is either inside or outside

@@ -20,11 +20,19 @@ struct Disk {
 
 template <class F>
 constexpr auto fields(const Disk<F>*) {
-  return std::tuple{Field{"center", &Disk<F>::center, any_number(), no_slider(), "", "centre, scene units", true},
-                    Field{"u", &Disk<F>::u, any_number(), no_slider(), "", "first half axis, scene units", true},
-                    Field{"v", &Disk<F>::v, any_number(), no_slider(), "", "second half axis, scene units", true},
+  return std::tuple{Field{"center", &Disk<F>::center, any_number(), no_slider(), "", "centre, scene units", true}
+                        .called("Centre")
+                        .also("ball center, ball centre, object position"),
+                    Field{"u", &Disk<F>::u, any_number(), no_slider(), "", "first half axis, scene units", true}
+                        .called("Edge u")
+                        .also("quad width"),
+                    Field{"v", &Disk<F>::v, any_number(), no_slider(), "", "second half axis, scene units", true}
+                        .called("Edge v")
+                        .also("quad height"),
                     Field{"inner", &Disk<F>::inner, Valid{.low = 0, .high = 1, .high_open = true}, Slider{0, 0.99}, "",
-                          "radius of the hole over that of the rim; 0: no hole"}};
+                          "radius of the hole over that of the rim; 0: no hole"}
+                        .called("Hole")
+                        .also("inner radius, ring width")};
 }
 
 }  // namespace tyndall

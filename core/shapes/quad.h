@@ -18,9 +18,12 @@ struct Quad {
 
 template <class F>
 constexpr auto fields(const Quad<F>*) {
-  return std::tuple{Field{"corner", &Quad<F>::corner, any_number(), no_slider(), "", "scene units", true},
-                    Field{"u", &Quad<F>::u, any_number(), no_slider(), "", "first edge, scene units", true},
-                    Field{"v", &Quad<F>::v, any_number(), no_slider(), "", "second edge, scene units", true}};
+  return std::tuple{
+      Field{"corner", &Quad<F>::corner, any_number(), no_slider(), "", "scene units", true}.also("quad position"),
+      Field{"u", &Quad<F>::u, any_number(), no_slider(), "", "first edge, scene units", true}.called("Edge u").also(
+          "quad width"),
+      Field{"v", &Quad<F>::v, any_number(), no_slider(), "", "second edge, scene units", true}.called("Edge v").also(
+          "quad height")};
 }
 
 /// Three affine functions of a point: each row gives row·p + offset. For a quad, rows 0 and 1 run from -1 to 1 across

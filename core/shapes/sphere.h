@@ -24,10 +24,15 @@ struct Sphere {
 template <class F>
 constexpr auto fields(const Sphere<F>*) {
   return std::tuple{
-      Field{"center", &Sphere<F>::center, any_number(), no_slider(), "", "centre, scene units", true},
-      Field{"center_end", &Sphere<F>::center_end, any_number(), no_slider(), "", "centre at time 1, scene units"},
+      Field{"center", &Sphere<F>::center, any_number(), no_slider(), "", "centre, scene units", true}
+          .called("Centre")
+          .also("ball center, ball centre, object position"),
+      Field{"center_end", &Sphere<F>::center_end, any_number(), no_slider(), "", "centre at time 1, scene units"}
+          .called("Centre, end")
+          .also("motion blur, movement"),
       Field{"radius", &Sphere<F>::radius, not_zero(), Slider{0.01, 10, true}, "",
-            "scene units; negative: the normal points inward (hollow glass)", true}};
+            "scene units; negative: the normal points inward (hollow glass)", true}
+          .also("diameter, ball size")};
 }
 
 /// Where a line crosses a sphere. to_center: centre - origin; direction: unit; radius > 0. The discriminant is computed

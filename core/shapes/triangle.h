@@ -19,9 +19,13 @@ struct Triangle {
 template <class F>
 constexpr auto fields(const Triangle<F>*) {
   return std::tuple{
-      Field{"corner", &Triangle<F>::corner, any_number(), no_slider(), "", "scene units", true},
-      Field{"u", &Triangle<F>::u, any_number(), no_slider(), "", "edge from the corner, scene units", true},
-      Field{"v", &Triangle<F>::v, any_number(), no_slider(), "", "other edge from the corner, scene units", true}};
+      Field{"corner", &Triangle<F>::corner, any_number(), no_slider(), "", "scene units", true}.also("quad position"),
+      Field{"u", &Triangle<F>::u, any_number(), no_slider(), "", "edge from the corner, scene units", true}
+          .called("Edge u")
+          .also("quad width"),
+      Field{"v", &Triangle<F>::v, any_number(), no_slider(), "", "other edge from the corner, scene units", true}
+          .called("Edge v")
+          .also("quad height")};
 }
 
 }  // namespace tyndall

@@ -22,9 +22,14 @@ struct Checker {
 template <class F>
 constexpr auto fields(const Checker<F>*) {
   return std::tuple{
-      Field{"scale", &Checker<F>::scale, above(0), Slider{0.01, 10, true}, "", "edge of a cube, scene units", true},
-      Field{"even", &Checker<F>::even, between(0, 1), Slider{0, 1}, "", "colour of the even cubes, linear RGB", true},
-      Field{"odd", &Checker<F>::odd, between(0, 1), Slider{0, 1}, "", "colour of the odd cubes, linear RGB", true}};
+      Field{"scale", &Checker<F>::scale, above(0), Slider{0.01, 10, true}, "", "edge of a cube, scene units", true}
+          .also("texture scale, frequency, tiling"),
+      Field{"even", &Checker<F>::even, between(0, 1), Slider{0, 1}, "", "colour of the even cubes, linear RGB", true}
+          .called("Even cubes")
+          .also("checker color, checkerboard"),
+      Field{"odd", &Checker<F>::odd, between(0, 1), Slider{0, 1}, "", "colour of the odd cubes, linear RGB", true}
+          .called("Odd cubes")
+          .also("second checker color")};
 }
 
 /// True in odd cubes. cell: position / scale.

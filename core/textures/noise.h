@@ -37,9 +37,11 @@ struct Noise {
 
 template <class F>
 constexpr auto fields(const Noise<F>*) {
-  return std::tuple{Field{"scale", &Noise<F>::scale, above(0), Slider{0.01, 100, true}, "",
-                          "lattice cells per scene unit; marble: veins per 2π scene units", true},
-                    Field{"style", &Noise<F>::style, "what the noise is made into"}};
+  return std::tuple{
+      Field{"scale", &Noise<F>::scale, above(0), Slider{0.01, 100, true}, "",
+            "lattice cells per scene unit; marble: veins per 2π scene units", true}
+          .also("texture scale, frequency, tiling"),
+      Field{"style", &Noise<F>::style, "what the noise is made into"}.also("noise style, marble, turbulence")};
 }
 
 /// The part of the noise that one lattice point gives: its gradient times the offset from it. The gradient is one of

@@ -19,7 +19,9 @@ struct Solid {
 
 template <class F>
 constexpr auto fields(const Solid<F>*) {
-  return std::tuple{Field{"color", &Solid<F>::color, between(0, 1), Slider{0, 1}, "", "linear RGB", true}};
+  return std::tuple{
+      Field{"color", &Solid<F>::color, between(0, 1), Slider{0, 1}, "", "linear RGB", true}.called("Colour").also(
+          "texture color, texture colour")};
 }
 
 template <class F, class Uv>

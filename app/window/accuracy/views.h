@@ -13,26 +13,31 @@ namespace tyndall {
 /// Something that the window can show in the picture's place.
 struct ViewEntry {
   const char* name;                   ///< on its button
+  const char* words;                  ///< by which the palette finds it, too
   View view = View::beauty;           ///< what the renderer draws
   ErrorView error = ErrorView::none;  ///< a picture of differences over it; it needs something to measure against
   const char* meaning = "";           ///< grey line beneath the buttons
   bool stops = false;                 ///< the picture's luminance in colours, a stop each: see stop_colours
 };
 
-constexpr ViewEntry entry_of(View view) { return {label(view).name, view, ErrorView::none, label(view).help}; }
+constexpr ViewEntry entry_of(View view, const char* words = "") {
+  return {label(view).name, words, view, ErrorView::none, label(view).help};
+}
 
 inline constexpr ViewEntry view_entries[] = {
-    entry_of(View::beauty),
+    entry_of(View::beauty, "combined, rgb"),
     entry_of(View::albedo),
-    entry_of(View::normal),
-    entry_of(View::depth),
-    entry_of(View::noise),
-    entry_of(View::samples),
-    entry_of(View::cost),
-    {"error", View::beauty, ErrorView::error, "black: no error; white: 100 % or more"},
-    {"FLIP", View::beauty, ErrorView::flip, "differences that an eye sees; bright: large ones"},
-    entry_of(View::object),
-    {"false colour", View::beauty, ErrorView::none, "luminance in stops from middle grey, as exposed", true},
+    entry_of(View::normal, "normals"),
+    entry_of(View::depth, "depth buffer, z buffer, distance"),
+    entry_of(View::noise, "variance map, convergence"),
+    entry_of(View::samples, "sample map"),
+    entry_of(View::cost, "heat map of time, time per pixel"),
+    {"error", "difference, error map", View::beauty, ErrorView::error, "black: no error; white: 100 % or more"},
+    {"FLIP", "perceptual difference", View::beauty, ErrorView::flip,
+     "differences that an eye sees; bright: large ones"},
+    entry_of(View::object, "object id, cryptomatte"),
+    {"false colour", "false color, heat map, zebra", View::beauty, ErrorView::none,
+     "luminance in stops from middle grey, as exposed", true},
 };
 
 /// A view is known by its number in the list above. The buttons, the keys 1, 2, 3, … and the help table are loops over

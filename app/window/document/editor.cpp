@@ -2,7 +2,7 @@
 
 #include "app/book/load_program.h"
 #include "core/scene/check.h"
-#include "core/scene/scene.h"
+#include "core/scene/slots.h"
 
 #include <cmath>
 #include <exception>
@@ -27,24 +27,27 @@ Editor::Editor(const LoadedScene& scene, std::function<LoadedScene()> reload, Ed
   watch();
 }
 
-void Editor::edit(Scene next, std::uint64_t gesture) {
-  if (next == scene()) return;
-  move_keys(scene(), next);
+void Editor::edit(Scene next, std::uint64_t gesture, const std::string& pointer) {
+  const bool of_value = !pointer.empty();
+  if (!of_value && next == scene()) return;
+  if (!of_value) move_keys(scene(), next);  // a value moves no object in its list
   if (const auto error = check(next)) {
     messages_.say(error->where + ": found " + error->found + ", expected " + error->expected, true);
     return;
   }
-  const bool same = same_picture(next, scene());
-  history_.record({std::move(next), document().origin}, gesture);
+  const bool of_display = pointer.starts_with("/display/") || pointer.starts_with("/animation/");
+  const bool same = of_value ? of_display : same_picture(next, scene());
+  history_.record({std::move(next), document().origin}, gesture, pointer);
   ++changes_;
+  pointer_ = pointer;
   if (messages_.current().error) drop_message();
   if (!same) events_.picture_changed();
 }
 
 bool Editor::edited() const {
-  if (compared_changes_ != changes_) edited_ = tyndall::edited(document());
-  compared_changes_ = changes_;
-  return edited_;
+  if (std::exchange(compared_changes_, changes_) == changes_) return edited_;
+  const auto now = find_slot(scene(), pointer_), saved = find_slot(document().origin->saved, pointer_);
+  return edited_ = (now && saved && now->value != saved->value) || tyndall::edited(document());
 }
 
 void Editor::undo() { step(&History::undo, "nothing to undo"); }

@@ -42,13 +42,16 @@ class Editor {
 
   const Document& document() const { return history_.current(); }
   const Scene& scene() const { return history_.current().scene; }
+  /// The scene for all who go on using it; never changes.
+  std::shared_ptr<const Scene> shared() const { return history_.shared(); }
 
   /// Whether the scene differs from what its file holds; found out once after each change.
   bool edited() const;
 
   /// Takes an edited scene: checks and remembers it. What is broken is refused with a message. gesture: edits of the
-  /// same number that follow each other are one step to undo; 0: none.
-  void edit(Scene scene, std::uint64_t gesture);
+  /// same number that follow each other are one step to undo; 0: none. pointer: of the value in which it differs, by
+  /// which no scenes need to be compared; "": it may differ in anything.
+  void edit(Scene scene, std::uint64_t gesture, const std::string& pointer = "");
   void undo();
   void redo();
   /// What is selected. Edits, undo and redo keep it, wherever it stands then; what undo or redo take away gives place
@@ -59,7 +62,7 @@ class Editor {
   std::uint64_t changes() const { return changes_; }
 
   /// Edits that no file has, see History::unsaved; null: there are none.
-  const Document* unsaved() const { return history_.unsaved(); }
+  const Document* unsaved() const { return edited() ? &document() : history_.unsaved(); }
   /// Shows these edits, if another scene was opened since.
   void go_to_unsaved();
   /// Goes on with edits of an earlier window; one undo goes back to the scene as it was opened. file_changed: another
@@ -109,6 +112,7 @@ class Editor {
   std::uint64_t changes_ = 0;
   mutable std::optional<std::uint64_t> compared_changes_;  ///< when edited_ was found out
   mutable bool edited_ = false;
+  std::string pointer_;                   ///< of the value that the last edit has set; "": it was another one
   std::string unreadable_;                ///< what is wrong with the files as they are now; empty: nothing
   std::optional<Document> changed_file_;  ///< what the file holds, while the user is asked about it
   std::atomic<bool> file_changed_ = false;

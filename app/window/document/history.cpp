@@ -1,6 +1,7 @@
 #include "app/window/document/history.h"
 
 #include "core/scene/load.h"
+#include "core/scene/slots.h"
 
 #include <map>
 #include <memory>
@@ -9,24 +10,39 @@
 
 namespace tyndall {
 
-History::History(Document start) { steps_.push_back({std::move(start), {}}); }
+namespace {
 
-bool History::record(Document next, std::uint64_t gesture) {
-  if (next == current()) return false;
+std::shared_ptr<const Document> shared_document(Document document) {
+  return std::make_shared<const Document>(std::move(document));
+}
+
+/// Whether both are the same, known to differ in the value at the pointer at most; "": in anything.
+bool is_same(const Document& a, const Document& b, const std::string& pointer) {
+  const auto now = pointer.empty() ? std::nullopt : find_slot(a.scene, pointer);
+  const auto before = pointer.empty() ? std::nullopt : find_slot(b.scene, pointer);
+  return now && before && now->value != before->value ? false : a == b;
+}
+
+}  // namespace
+
+History::History(Document start) { steps_.push_back({shared_document(std::move(start)), {}}); }
+
+bool History::record(Document next, std::uint64_t gesture, const std::string& pointer) {
+  if (is_same(next, current(), pointer)) return false;
   ObjectPaths selected = selection();
   steps_.resize(at_ + 1);
   if (open_ && gesture != 0 && gesture == gesture_) {
-    if (at_ > 0 && next == steps_[at_ - 1].document) {
+    if (at_ > 0 && is_same(next, *steps_[at_ - 1].document, pointer)) {
       steps_.pop_back();
       --at_;
       open_ = false;
     } else {
-      steps_[at_].document = std::move(next);
+      steps_[at_].document = shared_document(std::move(next));
       select(std::move(selected));
     }
     return true;
   }
-  steps_.push_back({std::move(next), {}});
+  steps_.push_back({shared_document(std::move(next)), {}});
   if (steps_.size() > max_steps) steps_.erase(steps_.begin());
   at_ = steps_.size() - 1;
   select(std::move(selected));
@@ -44,9 +60,8 @@ void History::set_origin(const std::shared_ptr<const Origin>& origin) {
   // Every step of the same file is now compared with what was saved.
   const auto before = current().origin;
   for (auto& [document, selection] : steps_) {
-    if (document.origin != before) continue;
-    document.scene = move_textures(std::move(document.scene), before->folder, origin->folder);
-    document.origin = origin;
+    if (document->origin != before) continue;
+    document = shared_document({move_textures(document->scene, before->folder, origin->folder), origin});
   }
 }
 
@@ -74,9 +89,10 @@ bool History::take_pictures(const Scene& read) {
   auto origin = std::make_shared<Origin>(*before);
   take(origin->saved);
   for (Step& step : steps_) {
-    if (step.document.origin != before) continue;
-    take(step.document.scene);
-    step.document.origin = origin;
+    if (step.document->origin != before) continue;
+    Scene scene = step.document->scene;
+    take(scene);
+    step.document = shared_document({std::move(scene), origin});
   }
   return true;
 }
@@ -84,8 +100,8 @@ bool History::take_pictures(const Scene& read) {
 /// The number of the step that unsaved() returns; steps_.size(): none.
 std::size_t History::unsaved_step() const {
   for (std::size_t step = at_ + 1; step-- > 0;) {
-    const Document& document = steps_[step].document;
-    const bool last_of_its_scene = step == at_ || document.origin->what != steps_[step + 1].document.origin->what;
+    const Document& document = *steps_[step].document;
+    const bool last_of_its_scene = step == at_ || document.origin->what != steps_[step + 1].document->origin->what;
     if (last_of_its_scene && edited(document)) return step;
   }
   return steps_.size();
@@ -93,7 +109,7 @@ std::size_t History::unsaved_step() const {
 
 const Document* History::unsaved() const {
   const std::size_t step = unsaved_step();
-  return step < steps_.size() ? &steps_[step].document : nullptr;
+  return step < steps_.size() ? steps_[step].document.get() : nullptr;
 }
 
 /// Goes to a step, where there is one.

@@ -2,6 +2,8 @@
 #include "app/window/document/document.h"
 
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
 /// Undo and redo.
@@ -12,7 +14,9 @@ class History {
  public:
   explicit History(Document start);
 
-  const Document& current() const { return steps_[at_].document; }
+  const Document& current() const { return *steps_[at_].document; }
+  /// Its scene, which never changes: the next edit makes another one.
+  std::shared_ptr<const Scene> shared() const { return {steps_[at_].document, &current().scene}; }
   /// What is selected; each step has its own, so that undo and redo select what was selected there.
   const ObjectPaths& selection() const { return steps_[at_].selection; }
   /// Paths that lead nowhere are left out.
@@ -24,8 +28,10 @@ class History {
   bool go_to_unsaved();
   /// Makes `next` the current document and forgets what was undone; nothing happens if it equals the current one.
   /// Edits of the same gesture (a drag, a turn of the wheel; 0: none) that follow each other are one step; no step is
-  /// left of a gesture that ends as it began. The selection stays. Returns whether it differs.
-  bool record(Document next, std::uint64_t gesture);
+  /// left of a gesture that ends as it began. The selection stays. pointer: of the value in which it is known to
+  /// differ;
+  /// "": it may equal the current one. Returns whether it differs.
+  bool record(Document next, std::uint64_t gesture, const std::string& pointer = "");
   /// The file was written, maybe to another folder: all steps that came from it are from now on compared with what it
   /// holds, and their textures are respelt for its folder. No step.
   void set_origin(const std::shared_ptr<const Origin>& origin);
@@ -46,7 +52,7 @@ class History {
   bool go_to(bool there_is, std::size_t step);
 
   struct Step {
-    Document document;
+    std::shared_ptr<const Document> document;
     ObjectPaths selection;
   };
   std::vector<Step> steps_;

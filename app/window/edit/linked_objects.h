@@ -2,6 +2,7 @@
 #include "app/window/tools/selection.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 /// Objects that belong to a sphere or box: the fog within it, and the inner spheres of a shell of glass.
@@ -25,14 +26,13 @@ class GestureStart {
  public:
   /// Lets the companions of what was changed follow. now: the scene before this drawing's edits; next: with them.
   /// gesture: see Gestures.
-  void finish_edit(const Scene& now, Scene& next, std::uint64_t gesture) {
-    if (next.objects == now.objects) return;
-    if (gesture != gesture_ || start_.objects.empty()) start_ = now, gesture_ = gesture;
-    move_linked_objects(start_, now, next);
+  void finish_edit(const std::shared_ptr<const Scene>& now, Scene& next, std::uint64_t gesture) {
+    if (gesture != gesture_ || !start_) start_ = now, gesture_ = gesture;
+    move_linked_objects(*start_, *now, next);
   }
 
  private:
-  Scene start_;
+  std::shared_ptr<const Scene> start_;
   std::uint64_t gesture_ = 0;
 };
 

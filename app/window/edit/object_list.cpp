@@ -54,15 +54,6 @@ void delete_unused_materials(Scene& scene, const std::vector<Material>& kept) {
   }
 }
 
-constexpr AdditionEntry entries[] = {{Addition::sphere, "sphere", "a matt ball"},
-                                     {Addition::hollow_sphere, "hollow ball", "a thin shell of glass"},
-                                     {Addition::box, "box", "a matt box"},
-                                     {Addition::quad, "quad", "a matt square that lies flat"},
-                                     {Addition::triangle, "triangle", "a matt triangle that lies flat"},
-                                     {Addition::disk, "disk", "a matt disk that lies flat"},
-                                     {Addition::light, "lamp", "a square that shines"},
-                                     {Addition::medium, "fog", "a ball of mist"}};
-
 constexpr double fraction_of_picture = 0.2;  // of a new object's size in the picture's height
 
 /// The scene's material of that name and kind, else a new one with a name that is free.
@@ -89,6 +80,62 @@ ObjectPath append(Scene& scene, const char* name, std::variant<Solid3d, Volume, 
   scene.objects.push_back({free_name(scene, name), std::move(kind), {}});
   return {static_cast<int>(scene.objects.size()) - 1};
 }
+
+/// Shapes that stand on a spot, by numbers that print short.
+struct Standing {
+  const Spot& spot;
+  double size = spot.size, half = 0.5 * size;
+  DragRounding rounding{1, decimal_below(size).exponent - 2};
+
+  Vec3d lifted(double by) const { return rounded(spot.point + by * spot.normal, rounding); }
+  Sphere<> sphere(double radius) const { return {lifted(half), without_noise(radius), {}}; }
+  Quad<> flat(double height) const {
+    return {rounded(lifted(height) - Vec3d{half, 0, -half}, rounding), {size, 0, 0}, {0, 0, -size}};
+  }
+  Box<> box() const {
+    const Vec3d low = rounded(lifted(half) - Vec3d{half, half, half}, rounding);
+    return {low, without_noise(low + Vec3d{size, size, size})};
+  }
+  Triangle<> triangle() const {
+    const Quad<> frame = flat(0.05 * size);
+    return {frame.corner, frame.u, frame.v};
+  }
+};
+
+ObjectPaths add_matt(Scene& scene, const char* name, const decltype(Solid3d::shape)& shape) {
+  return {append(scene, name, Solid3d{shape, matt(scene)})};
+}
+
+ObjectPaths add_hollow_ball(Scene& scene, const Spot& spot) {
+  const Standing standing{spot};
+  const int material = glass(scene);
+  const ObjectPath outer = append(scene, "shell", Solid3d{standing.sphere(standing.half), material});
+  return {outer, append(scene, "shell inside", Solid3d{standing.sphere(-0.9 * standing.half), material})};
+}
+
+constexpr Addition all_additions[] = {
+    {"a sphere", "add a ball, sphere, ball",
+     [](Scene& scene, const Spot& spot) { return add_matt(scene, "ball", Standing{spot}.sphere(0.5 * spot.size)); }},
+    {"a hollow ball", "hollow glass, bubble", add_hollow_ball},
+    {"a box", "cube, box, add a cube",
+     [](Scene& scene, const Spot& spot) { return add_matt(scene, "box", Standing{spot}.box()); }},
+    {"a quad", "plane, quad, add a plane",
+     [](Scene& scene, const Spot& spot) { return add_matt(scene, "quad", Standing{spot}.flat(0.05 * spot.size)); }},
+    {"a triangle", "triangle, polygon",
+     [](Scene& scene, const Spot& spot) { return add_matt(scene, "triangle", Standing{spot}.triangle()); }},
+    {"a disk", "disk, disc, circle, ring, ellipse, annulus",
+     [](Scene& scene, const Spot& spot) {
+       const double half = 0.5 * spot.size;
+       return add_matt(scene, "disk", Disk<>{Standing{spot}.lifted(0.05 * spot.size), {half, 0, 0}, {0, 0, -half}, 0});
+     }},
+    {"a lamp", "light, lamp, add light, area light",
+     [](Scene& scene, const Spot& spot) -> ObjectPaths {
+       return {append(scene, "lamp", Solid3d{Standing{spot}.flat(2 * spot.size), light_material(scene)})};
+     }},
+    {"fog", "volume, fog, smoke, mist, add a volume", [](Scene& scene, const Spot& spot) -> ObjectPaths {
+       const Medium<> medium{nice_below(1 / spot.size).size(), 0};
+       return {append(scene, "fog", Volume{Standing{spot}.sphere(spot.size), {}, medium, Vec3d{1, 1, 1}})};
+     }}};
 
 }  // namespace
 
@@ -154,8 +201,6 @@ int delete_objects(Scene& scene, const ObjectPaths& paths, const std::vector<Mat
   return static_cast<int>(all.size());
 }
 
-std::span<const AdditionEntry> additions() { return entries; }
-
 Vec3d normal_at(const Scene& scene, const ObjectPath& path, Vec3d point) {
   const Object* object = find_object(scene, path);
   const Solid3d* solid = object ? std::get_if<Solid3d>(&object->kind) : nullptr;
@@ -194,43 +239,11 @@ Spot spot_at(const Scene& scene, ImagePoint at, const ObjectPath& object, Vec3d 
   return spot;
 }
 
-ObjectPaths add_object(Scene& scene, Addition what, const Spot& spot) {
-  const double size = spot.size, half = 0.5 * size;
-  const DragRounding drag_rounding{1, decimal_below(size).exponent - 2};
-  const auto lifted = [&](double by) { return rounded(spot.point + by * spot.normal, drag_rounding); };
-  const Vec3d on = lifted(half);
-  const auto sphere = [&](double radius) { return Sphere<>{on, without_noise(radius), {}}; };
-  const auto flat = [&](Vec3d middle) {
-    return Quad<>{rounded(middle - Vec3d{half, 0, -half}, drag_rounding), {size, 0, 0}, {0, 0, -size}};
-  };
-  switch (what) {
-    case Addition::sphere:
-      return {append(scene, "ball", Solid3d{sphere(half), matt(scene)})};
-    case Addition::hollow_sphere: {
-      const int material = glass(scene);
-      const ObjectPath outer = append(scene, "shell", Solid3d{sphere(half), material});
-      return {outer, append(scene, "shell inside", Solid3d{sphere(-0.9 * half), material})};
-    }
-    case Addition::box: {
-      const Vec3d low = rounded(on - Vec3d{half, half, half}, drag_rounding);
-      return {append(scene, "box", Solid3d{Box<>{low, without_noise(low + Vec3d{size, size, size})}, matt(scene)})};
-    }
-    case Addition::quad:
-      return {append(scene, "quad", Solid3d{flat(lifted(0.05 * size)), matt(scene)})};
-    case Addition::triangle: {
-      const Quad<> frame = flat(lifted(0.05 * size));
-      return {append(scene, "triangle", Solid3d{Triangle<>{frame.corner, frame.u, frame.v}, matt(scene)})};
-    }
-    case Addition::disk: {
-      const Disk<> disk{lifted(0.05 * size), {half, 0, 0}, {0, 0, -half}, 0};
-      return {append(scene, "disk", Solid3d{disk, matt(scene)})};
-    }
-    case Addition::light:
-      return {append(scene, "lamp", Solid3d{flat(lifted(2 * size)), light_material(scene)})};
-    case Addition::medium:
-      return {append(scene, "fog", Volume{sphere(size), {}, {nice_below(1 / size).size(), 0}, Vec3d{1, 1, 1}})};
-  }
-  return {};
+std::span<const Addition> additions() { return all_additions; }
+
+const Addition& addition_named(std::string_view name) {
+  return *std::find_if(std::begin(all_additions), std::end(all_additions),
+                       [&](const Addition& one) { return one.name == name; });
 }
 
 }  // namespace tyndall

@@ -26,17 +26,6 @@ int delete_objects(Scene& scene, const ObjectPaths& paths, const std::vector<Mat
 /// "ball", else "ball 2" and so on: the first that no object has. A number at the end of the wish counts on.
 std::string free_name(const Scene& scene, const std::string& wish);
 
-/// What can be added.
-enum class Addition { sphere, hollow_sphere, box, quad, triangle, disk, light, medium };
-
-struct AdditionEntry {
-  Addition what;
-  const char* name;  ///< "hollow ball"
-  const char* help;
-};
-/// All there is to add, in the order of the menu.
-std::span<const AdditionEntry> additions();
-
 /// Where something is added: on a surface.
 struct Spot {
   Vec3d point;            ///< in the world
@@ -51,9 +40,17 @@ Vec3d normal_at(const Scene& scene, const ObjectPath& path, Vec3d point);
 /// the camera looks at. seen: the point of the object.
 Spot spot_at(const Scene& scene, ImagePoint at, const ObjectPath& object, Vec3d seen);
 
-/// Adds an object at the end of the list, so that it stands on the spot, with a material of its kind: one that the
-/// scene has under the usual name and with the usual values, else a new one. Returns the new objects, the largest
-/// first.
-ObjectPaths add_object(Scene& scene, Addition what, const Spot& spot);
+/// Something that can be added.
+struct Addition {
+  const char* name;   ///< "a hollow ball"
+  const char* words;  ///< other words for it, separated by ", "
+  /// Adds it at the end of the list, so that it stands on the spot, with a material of its kind: one that the scene has
+  /// under the usual name and with the usual values, else a new one. Returns the new objects, the largest first.
+  ObjectPaths (*add)(Scene& scene, const Spot& spot);
+};
+/// All there is to add, in the order of the menu.
+std::span<const Addition> additions();
+/// The one of that name, which is there.
+const Addition& addition_named(std::string_view name);
 
 }  // namespace tyndall

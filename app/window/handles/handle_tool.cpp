@@ -206,7 +206,7 @@ void HandleTool::end() {
   grabbed_ = moved_ = confirmed_ = cancelled_ = false;
 }
 
-void HandleTool::follow_mouse(const Mouse& mouse, const PictureFrame& frame, Scene& scene) {
+void HandleTool::follow_mouse(const Mouse& mouse, const PictureFrame& frame, EditedScene& edited) {
   const double fraction = mouse.shift ? fine_fraction : 1.0;
   drag_->to.x += fraction * static_cast<double>(mouse.dx);
   drag_->to.y += fraction * static_cast<double>(mouse.dy);
@@ -214,6 +214,7 @@ void HandleTool::follow_mouse(const Mouse& mouse, const PictureFrame& frame, Sce
   const double moved = std::hypot(drag_->to.x - drag_->from.x, drag_->to.y - drag_->from.y);
   moved_ = moved_ || drag_->typed || moved > click_distance * frame.scale;
   if (!moved_) return;
+  Scene& scene = edited.change();
   scene.objects = start_;
   said_ = apply_drag(scene, frame, *drag_).said;
   if (!typed_.empty()) said_ += "  (typed: " + typed_ + ")";
@@ -231,7 +232,8 @@ bool HandleTool::begin(const Mouse& mouse, const PictureFrame& frame, const Obje
 }
 
 bool HandleTool::update(const Mouse& mouse, const Layout& layout, float scale, bool free, const ObjectPaths& selected,
-                        Scene& scene) {
+                        EditedScene& edited) {
+  const Scene& scene = *edited;
   const PictureFrame frame = frame_of(scene, layout.image, static_cast<double>(scale));
   clicked_through_ = false;
   if (waits_for_release_) return waits_for_release_ = mouse.any_down();
@@ -242,11 +244,11 @@ bool HandleTool::update(const Mouse& mouse, const Layout& layout, float scale, b
     const bool over = free && layout.area.contains(mouse.x, mouse.y);
     if (selected.empty() || !over || !begin(mouse, frame, selected, scene)) return false;
   } else {
-    follow_mouse(mouse, frame, scene);
+    follow_mouse(mouse, frame, edited);
   }
   hovered_ = drag_->handle;
   const bool gone = (grabbed_ && mouse.clicked[1]) || cancelled_;
-  if (gone) scene.objects = start_;
+  if (gone) edited.change().objects = start_;
   const bool done = grabbed_ ? confirmed_ || mouse.clicked[0] : confirmed_ || !mouse.down[0];
   clicked_through_ = done && !gone && !moved_;
   if (gone || done) {

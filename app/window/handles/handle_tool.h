@@ -1,4 +1,5 @@
 #pragma once
+#include "app/window/document/edited_scene.h"
 #include "app/window/handles/handles.h"
 #include "app/window/system/input_events.h"
 
@@ -35,7 +36,7 @@ class HandleTool {
   /// To be called in each drawing, before the tool that orbits; changes the objects of the scene. free: nothing else
   /// has the mouse. Returns whether the handles have it.
   bool update(const Mouse& mouse, const Layout& layout, float scale, bool free, const ObjectPaths& selected,
-              Scene& scene);
+              EditedScene& scene);
 
   /// Begins to move the selection with the mouse, without a button: until a click or Enter, or Esc or a right click,
   /// which takes it back. Nothing happens without a selection.
@@ -65,7 +66,7 @@ class HandleTool {
 
  private:
   bool begin(const Mouse& mouse, const PictureFrame& frame, const ObjectPaths& selected, const Scene& scene);
-  void follow_mouse(const Mouse& mouse, const PictureFrame& frame, Scene& scene);
+  void follow_mouse(const Mouse& mouse, const PictureFrame& frame, EditedScene& scene);
   void choose_axis(HandleKind kind);
   void read_typed();
   void end();

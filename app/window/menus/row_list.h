@@ -1,8 +1,8 @@
 #pragma once
 #include "app/window/tools/selection.h"
 
-#include <span>
 #include <string>
+#include <vector>
 
 /// The rows of the column that the palette leads to, with the words by which users of other programs know them.
 namespace tyndall {
@@ -11,15 +11,14 @@ namespace tyndall {
 struct RowEntry {
   std::string part;     ///< of the column: "Object", "Camera", "Image", "Render", "Background", "Histogram", "Window"
   std::string label;    ///< as the column shows it: "Refractive index"
-  std::string also;     ///< other words for it, separated by ", "
-  std::string missing;  ///< what to do where the column does not show it: "select fog first"; "": it always does
+  std::string words;    ///< other words for it, separated by ", "
+  std::string owner;    ///< whose it is: the title of an object, else its part
+  std::string missing;  ///< what to do first, as the column does not show it: "select fog first"; "": it does
 };
 
-/// All of them: a row for each field of what the panels show, in the order of the column.
-std::span<const RowEntry> row_entries();
-
-/// Whose row it is while this object is selected (an empty path: nothing is): for rows of objects the title of the
-/// first object that has it, for others their part. Empty: the column does not show it.
-std::string owner_of(const RowEntry& row, const Scene& scene, const ObjectPath& selected);
+/// The rows that the column has while this object is selected (an empty path: nothing is), in its order, then those
+/// that it has at other times. Of rows of one part with the same label there is one: the first, to which the column
+/// goes.
+std::vector<RowEntry> row_entries(const Scene& scene, const ObjectPath& selected);
 
 }  // namespace tyndall

@@ -33,7 +33,7 @@ bool slot_button(Ui& ui, const CameraSlot& slot, std::size_t number, bool on, bo
   }
   if (on || hovered) draw->AddRect(at, end, shade(on ? palette::blue : palette::dim), 3 * s, 0, 2 * s);
   tooltip(ui, "look through this camera; a right click forgets it");
-  return changed_if(ui, pressed);
+  return pressed;
 }
 
 }  // namespace

@@ -238,10 +238,10 @@ void chart_panel(Ui& ui, PanelState& state, float height) {
     all += (all.empty() ? "" : " | ") + line.text;
   }
   if (ui.log) ui.log->changed("accuracy", all);
-  if (small_button(ui, "chart.reference", "Reference…")) state.requests.push_back({Action::reference});
+  if (small_button(ui, "chart.reference", "Reference…")) ui.requests.push_back({"reference picture"});
   tooltip(ui, "an image to measure the true error against");
   ImGui::SameLine();
-  if (small_button(ui, "chart.export", "Export CSV, SVG")) state.requests.push_back({Action::export_chart});
+  if (small_button(ui, "chart.export", "Export CSV, SVG")) ui.requests.push_back({"export the chart"});
   tooltip(ui, "the curves, as numbered files in the current folder");
 }
 

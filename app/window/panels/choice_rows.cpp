@@ -78,7 +78,7 @@ bool choice_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& ch
   ImGui::PopFont();
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().ItemSpacing.y - space);
   end_row(ui, row);
-  return changed_if(ui, changed);
+  return changed;
 }
 
 bool combo_row(Ui& ui, const Row& row, std::span<const std::string> names, int& chosen) {
@@ -108,7 +108,7 @@ bool combo_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& cho
     ImGui::EndCombo();
   }
   end_row(ui, row);
-  return changed_if(ui, changed);
+  return changed;
 }
 
 bool name_row(Ui& ui, const Row& row, const std::string& hint, bool begin, std::string& value) {
@@ -139,7 +139,7 @@ bool name_row(Ui& ui, const Row& row, const std::string& hint, bool begin, std::
     log_item(ui, row.name, value);
   }
   end_row(ui, row);
-  return changed_if(ui, changed);
+  return changed;
 }
 
 }  // namespace tyndall

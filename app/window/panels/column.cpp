@@ -10,13 +10,13 @@
 namespace tyndall {
 namespace {
 
-constexpr Tab tabs[] = {{"Object", ""},
-                        {"Camera", "Camera"},
-                        {"Image", "Image"},
-                        {"Render", "Render"},
-                        {"Accuracy", "Speed and accuracy"},
-                        {"Objects", "Objects"},
-                        {"Scenes", "Scenes"}};
+constexpr Tab tabs[] = {{"Object", "properties, selected object", ""},
+                        {"Camera", "camera settings", "Camera"},
+                        {"Image", "image settings", "Image"},
+                        {"Render", "render settings", "Render"},
+                        {"Accuracy", "chart, statistics, graph", "Speed and accuracy"},
+                        {"Objects", "outliner, hierarchy, object list, tree", "Objects"},
+                        {"Scenes", "examples, recent files, gallery", "Scenes"}};
 
 bool is_shown(const PanelState& state, std::string_view part) {
   return state.model.has_scene || !is_part_of_scene(part);
@@ -61,7 +61,7 @@ void draw_tabs(Ui& ui, PanelState& state) {
     ImGui::SameLine();
   }
   ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
-  if (ImGui::Button("...", {ImGui::CalcTextSize("...").x + spare, 0})) state.requests.push_back({Action::palette});
+  if (ImGui::Button("...", {ImGui::CalcTextSize("...").x + spare, 0})) ui.requests.push_back({"all actions by name"});
   ImGui::PopStyleColor();
   log_item(ui, "tab.actions", "button");
   ImGui::PopStyleVar(2);
@@ -81,7 +81,7 @@ void begin_jump(Ui& ui, PanelState& state) {
   if (!section.empty())
     ui.folded.erase(std::string(section));
   else if (!state.selected.empty())
-    ui.folded.erase(title_of(state.scene, state.selected));
+    ui.folded.erase(title_of(*state.scene, state.selected));
   ui.wake_in = 0;
 }
 
@@ -92,7 +92,7 @@ struct Part {
 };
 
 void histogram_part(Ui& ui, PanelState& state) {
-  histogram_section(ui, state.histogram, state.model.frame.get(), state.scene.display);
+  histogram_section(ui, state.histogram, state.model.frame.get(), state.scene->display);
 }
 
 /// Draws the parts; scrolls to the one that the column is sent to, and finds out which one is at its head.
@@ -183,6 +183,11 @@ bool is_part_of_scene(std::string_view part) {
 }
 
 std::span<const Tab> column_tabs() { return tabs; }
+
+int tab_named(std::string_view name) {
+  const auto found = std::find_if(std::begin(tabs), std::end(tabs), [&](const Tab& tab) { return tab.name == name; });
+  return static_cast<int>(found - std::begin(tabs));
+}
 
 std::span<const char* const> lasting_sections() {
   static constexpr const char* sections[] = {"Camera",     "Image",   "Film",   "Render", "Speed and accuracy",

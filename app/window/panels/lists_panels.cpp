@@ -29,9 +29,9 @@ void add_lines(const PanelState& state, const std::vector<Object>& objects, Obje
   const std::string wanted = lower_case(state.objects.search);
   for (std::size_t i = 0; i < objects.size(); ++i) {
     path.push_back(static_cast<int>(i));
-    const Material* material = material_of(state.scene, objects[i]);
+    const Material* material = material_of(*state.scene, objects[i]);
     const Group* group = std::get_if<Group>(&objects[i].kind);
-    ObjectLine line{path, title_of(state.scene, path), material ? material->name : kind_name(objects[i]),
+    ObjectLine line{path, title_of(*state.scene, path), material ? material->name : kind_name(objects[i]),
                     group != nullptr,
                     group && (!wanted.empty() || is_open(state.objects, path, group->objects.size()))};
     if (group) line.note = std::to_string(group->objects.size()) + " in " + line.note;
@@ -48,7 +48,7 @@ void unfold_around(PanelState& state, const ObjectPath& path) {
   ObjectPath group;
   for (std::size_t k = 0; k + 1 < path.size(); ++k) {
     group.push_back(path[k]);
-    const auto size = std::get<Group>(find_object(state.scene, group)->kind).objects.size();
+    const auto size = std::get<Group>(find_object(*state.scene, group)->kind).objects.size();
     if (is_open(state.objects, group, size)) continue;
     if (!state.objects.toggled.erase(group)) state.objects.toggled.insert(group);
   }
@@ -186,7 +186,7 @@ std::vector<SceneRow> rows_of(const std::vector<std::filesystem::path>& files) {
 
 void scene_list(Ui& ui, PanelState& state, const char* name, const std::vector<SceneRow>& rows, std::size_t maximum) {
   list(ui, name, row_height * ui.scale, rows.size(), std::min(rows.size(), maximum), [&](std::size_t k) {
-    if (scene_row(ui, state, rows[k])) state.requests.push_back({Action::scene, 0, rows[k].what});
+    if (scene_row(ui, state, rows[k])) ui.requests.push_back({"scene", rows[k].what});
   });
 }
 
@@ -198,8 +198,8 @@ void objects_panel(Ui& ui, PanelState& state) {
   if (state.objects.shown != state.selected) unfold_around(state, state.selected);
   std::vector<ObjectLine> lines;
   ObjectPath path;
-  add_lines(state, state.scene.objects, path, lines);
-  const bool searches = leaves(state.scene).size() >= searched || !state.objects.search.empty();
+  add_lines(state, state.scene->objects, path, lines);
+  const bool searches = leaves(*state.scene).size() >= searched || !state.objects.search.empty();
   if (searches) search_row(ui, state);
   const float line = ImGui::GetTextLineHeight() + 4 * ui.scale;
   list(

@@ -34,39 +34,6 @@ std::string degrees_text(double degrees) { return format_short(std::round(10 * d
 
 }  // namespace
 
-std::string label_of(std::string_view field) {
-  static constexpr std::pair<std::string_view, const char*> words[] = {{"g", "Asymmetry g"},
-                                                                       {"vfov", "Field of view"},
-                                                                       {"defocus_angle", "Defocus"},
-                                                                       {"focus_distance", "Focus"},
-                                                                       {"look_from", "Position"},
-                                                                       {"look_at", "Target"},
-                                                                       {"vup", "Up"},
-                                                                       {"center", "Centre"},
-                                                                       {"center_end", "Centre, end"},
-                                                                       {"u", "Edge u"},
-                                                                       {"v", "Edge v"},
-                                                                       {"inner", "Hole"},
-                                                                       {"min", "Low corner"},
-                                                                       {"max", "High corner"},
-                                                                       {"even", "Even cubes"},
-                                                                       {"odd", "Odd cubes"},
-                                                                       {"color", "Colour"},
-                                                                       {"up", "Above"},
-                                                                       {"down", "Below"},
-                                                                       {"rotate_y", "Turn"},
-                                                                       {"translate", "Move"},
-                                                                       {"max_depth", "Depth"},
-                                                                       {"spp", "Limit"}};
-  for (const auto& [name, label] : words)
-    if (name == field) return label;
-  std::string label(field);
-  for (char& c : label)
-    if (c == '_') c = ' ';
-  if (!label.empty()) label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
-  return label;
-}
-
 double fuzz_loss(double fuzz) { return 0.1 * fuzz * fuzz; }
 
 double forward_fraction(double g) {

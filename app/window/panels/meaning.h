@@ -4,11 +4,8 @@
 #include <string>
 #include <string_view>
 
-/// What a value means, in words: the label and the grey line beneath a slider. Pure.
+/// What a value means, in words: the grey line beneath a slider. Pure.
 namespace tyndall {
-
-/// "refractive_index" -> "Refractive index"; names that need it get better words.
-std::string label_of(std::string_view field);
 
 /// Fraction of white light, spread over directions as from a bright sky, that a fuzzy metal loses below its surface:
 /// 1 - metal_survival averaged over the cosine, which is fuzz² / 10. In [0, 0.1].

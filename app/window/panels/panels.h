@@ -1,6 +1,6 @@
 #pragma once
 #include "app/window/accuracy/live_accuracy.h"
-#include "app/window/actions/actions.h"
+#include "app/window/document/edited_scene.h"
 #include "app/window/edit/material_edits.h"
 #include "app/window/gallery/gallery.h"
 #include "app/window/panels/camera_slots.h"
@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-/// The column of panels. Panels change the scene that they are given (a copy) and leave requests; they start nothing.
+/// The column of panels. Panels change the scene that they are given and leave requests; they start nothing.
 namespace tyndall {
 
 /// What panels show of the window, besides the scene.
@@ -35,7 +35,7 @@ struct PanelModel {
   std::string title;                          ///< of the open scene
   bool has_scene = true;                      ///< false: a picture without one is shown
   bool renders = true;                        ///< false: what is shown has no samples that could still be taken
-  int clean = 0;                              ///< see Action::clean_as
+  int clean = 0;                              ///< 0 off, 1 on, 2 beside the raw picture
   int threads = 1;
   bool at_window = false;  ///< the picture has as many pixels as the window shows; else as the file says
   int view = 0;            ///< see view_entry()
@@ -51,9 +51,12 @@ struct ObjectsView {
 /// The parts of the column that its tabs lead to.
 struct Tab {
   const char* name;
+  const char* words;    ///< by which the palette finds it, too
   const char* section;  ///< its heading; "": that of the selected object
 };
 std::span<const Tab> column_tabs();
+/// The number of the tab of that name, which is there.
+int tab_named(std::string_view name);
 /// Whether a part of the column is about the scene, so that a picture without one does not have it.
 bool is_part_of_scene(std::string_view part);
 /// The sections that stay folded from one start to the next: all but those of objects, and the histogram, which begins
@@ -72,7 +75,7 @@ struct ColumnTabs {
 struct PanelState {
   PanelModel model;
   // Panels change these in place.
-  Scene scene;
+  EditedScene scene;
   ObjectPath selected;           ///< whose values the panels show; empty: nothing is selected
   std::vector<ObjectPath> also;  ///< further objects that are selected with it
   bool rename = false;           ///< the name of the selected object is to be typed
@@ -90,7 +93,6 @@ struct PanelState {
   std::optional<RowPlace> seek;              ///< the column goes to that row in the next drawings, see SoughtRow
   bool row_has_keys = false;                 ///< the arrow keys go through the choices of a row
   bool leave_row = false;                    ///< they do not from the next drawing on
-  std::vector<Request> requests;             ///< of panels, menus, palette and dialogs, until they are carried out
   std::vector<std::string> wanted_pictures;  ///< of these scenes, that are to be seen
 };
 

@@ -2,8 +2,8 @@
 #include "app/report/contents.h"
 #include "app/text/values.h"
 #include "app/window/accuracy/views.h"
-#include "app/window/panels/field_rows.h"
-#include "app/window/panels/panels.h"
+#include "app/window/panels/meaning.h"
+#include "app/window/panels/rows.h"
 #include "app/window/tools/camera_control.h"
 #include "core/base/kinds.h"
 #include "core/base/thread_pool.h"
@@ -23,18 +23,6 @@ std::string focus_meaning(const Scene& scene) {
   const SharpRange sharp = sharp_range(camera, scene.height);
   if (!std::isfinite(sharp.far)) return "sharp from " + format_short(sharp.near) + " on";
   return "sharp from " + format_short(sharp.near) + " to " + format_short(sharp.far);
-}
-
-/// Shows the distance that is in use, also where the scene leaves it open.
-void focus_row(Ui& ui, Scene& scene, const Camera& saved) {
-  Camera shown = scene.camera, original = saved;
-  const double before = focus_distance(shown);
-  shown.focus_distance = before;
-  original.focus_distance = focus_distance(saved);
-  field_rows(
-      ui, shown, &original, [](const auto& value, auto name) { return is_any_of<std::optional<double>>(value, name); },
-      [&](std::string_view) { return focus_meaning(scene); });
-  if (*shown.focus_distance != before) scene.camera.focus_distance = shown.focus_distance;
 }
 
 /// What a background can be, by the kind's place in the variant. A picture can be chosen once there has been one.
@@ -75,7 +63,7 @@ std::string caustics_meaning(const RenderSettings& render, const Frame* frame) {
 
 /// The grey line beneath a setting's row.
 std::string setting_meaning(const PanelState& state, std::string_view name) {
-  const RenderSettings& render = state.scene.render;
+  const RenderSettings& render = state.scene->render;
   if (name == "integrator") return label(render.integrator).help;
   if (name == "caustics") return caustics_meaning(render, state.model.frame.get());
   if (name == "sharing") return sharing_meaning(render, state.model.frame.get());
@@ -87,15 +75,16 @@ std::string setting_meaning(const PanelState& state, std::string_view name) {
 }
 
 void threads_row(Ui& ui, PanelState& state) {
-  int threads = state.model.threads;
+  double threads = state.model.threads;
   static const double cores = std::max(2, thread_count().count);  // asking takes longer than drawing the row
-  const Row row{"threads", "Threads", between(1, max_threads), {1, cores}, "", "never changes the picture", ""};
-  if (value_row(ui, row, threads)) state.requests.push_back({Action::threads, threads});
+  Row row{"threads", "Threads", between(1, max_threads), {1, cores}, "", "never changes the picture", ""};
+  row.whole = true;
+  if (slider_row(ui, row, threads)) ui.requests.push_back({"threads", std::to_string(static_cast<int>(threads))});
 }
 
 /// Width and height of the picture. Sizes that do not fit into memory are refused.
 void pixels_row(Ui& ui, PanelState& state) {
-  Scene& scene = state.scene;
+  const Scene& scene = *state.scene;
   Row row{"size", "Image size", between(1, 65536), {0, 4000}, "", "width and height in pixels, also of snapshots", ""};
   row.whole = true;
   double width = scene.width, height = scene.height;
@@ -108,22 +97,21 @@ void pixels_row(Ui& ui, PanelState& state) {
   changed = value_box(ui, "height", row, height, box, false) || changed;
   end_row(ui, row);
   if (!changed) return;
-  const int old_width = scene.width, old_height = scene.height;
-  scene.width = static_cast<int>(width), scene.height = static_cast<int>(height);
   try {
-    const bool clean = state.model.clean > 0;
-    check_memory(WindowPlan{scene.width, scene.height, has_lights(scene), clean}, free_memory(),
+    const int wide = static_cast<int>(width), high = static_cast<int>(height);
+    check_memory(WindowPlan{wide, high, has_lights(scene), state.model.clean > 0}, free_memory(),
                  "switch the clean view off");
+    Scene& next = state.scene.change();
+    next.width = wide, next.height = high;
   } catch (const UsageError& error) {
     ui.problem = error.what();
-    scene.width = old_width, scene.height = old_height;
   }
 }
 
-/// A choice that changes nothing by itself: another one is asked for, by its number.
-void request_row(Ui& ui, PanelState& state, const Row& row, std::span<const Choice> choices, int chosen, Action action,
-                 int columns = 0) {
-  if (choice_row(ui, row, choices, chosen, columns)) state.requests.push_back({action, chosen});
+/// A choice that changes nothing by itself: a command is asked for with the name of another one.
+void request_row(Ui& ui, const Row& row, std::span<const Choice> choices, int chosen, const char* command) {
+  if (choice_row(ui, row, choices, chosen))
+    ui.requests.push_back({command, choices[static_cast<std::size_t>(chosen)].name});
 }
 
 void size_row(Ui& ui, PanelState& state) {
@@ -132,7 +120,7 @@ void size_row(Ui& ui, PanelState& state) {
   const std::string meaning = frame ? fmt::format("{} x {} pixels", frame->width, frame->height) : "";
   const char* help = "the picture has the size that the scene's file says, or as many pixels as the window shows";
   const Row row{"at", "Render at", {}, {}, "", help, meaning};
-  request_row(ui, state, row, choices, state.model.at_window ? 1 : 0, Action::render_at);
+  request_row(ui, row, choices, state.model.at_window ? 1 : 0, "render at");
 }
 
 void split_row(Ui& ui, PanelState& state) {
@@ -141,7 +129,7 @@ void split_row(Ui& ui, PanelState& state) {
   const char* help = "A keeps these settings, B takes what you change; both get the same processor time";
   const Row row{"split", "Split", {}, {}, "", help, kept.empty() ? "" : "A keeps " + kept + "; above: B"};
   int chosen = kept.empty() ? 0 : 1;
-  if (choice_row(ui, row, choices, chosen)) state.requests.push_back({Action::split});
+  if (choice_row(ui, row, choices, chosen)) ui.requests.push_back({"split view"});
 }
 
 std::string clean_meaning(const PanelState& state) {
@@ -156,7 +144,7 @@ void clean_row(Ui& ui, PanelState& state) {
   static constexpr Choice choices[] = {{"off"}, {"on"}, {"beside raw"}};
   const char* help = "filters noise away where the samples show that it is noise: key N";
   const Row row{"clean", "Clean", {}, {}, "", help, clean_meaning(state)};
-  request_row(ui, state, row, choices, state.model.clean, Action::clean_as);
+  request_row(ui, row, choices, state.model.clean, "clean");
 }
 
 /// "7 spheres, 1 quad, 1 medium, 1 light".
@@ -188,79 +176,70 @@ std::string kernel_note(const Frame* frame) { return frame ? frame->isa + " × "
 void camera_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Camera", "Home: reset")) return;
   const Scope scope(ui, "camera");
-  Camera& camera = state.scene.camera;
-  const Camera* saved = &state.model.saved->camera;
-  field_rows(ui, camera, saved, [](const auto& value, auto name) { return is_any_of<double>(value, name); });
-  focus_row(ui, state.scene, *saved);
-  const bool plain_up = camera.vup == Vec3d{0, 1, 0} && !is_sought(ui, label_of("vup"));
-  field_rows(ui, camera, saved, [&](const auto& value, std::string_view name) {
-    return is_any_of<Vec3d>(value, name) && !(plain_up && name == "vup");
+  const Camera& camera = state.scene->camera;
+  const bool plain_up = camera.vup == Vec3d{0, 1, 0};
+  const auto said = [&](const Slot& slot, const std::string& meaning) {
+    return slot.name == std::string_view("focus_distance") ? focus_meaning(*state.scene) : meaning;
+  };
+  part_rows(
+      ui, state, "/camera", [](const Slot& slot) { return slot.form == ValueForm::number; }, said);
+  part_rows(ui, state, "/camera", [&](const Slot& slot) {
+    const bool hidden = plain_up && slot.name == std::string_view("vup") && !is_sought(ui, slot.label);
+    return slot.form == ValueForm::place && !hidden;
   });
   CameraSlots& slots = state.cameras[state.model.title];
   const SlotWish wish = camera_slots_row(ui, slots, camera);
-  if (wish.recall) camera = slots[*wish.recall].camera;
-  if (wish.store) store_camera(slots, camera, state.model.frame.get(), state.scene.display);
+  if (wish.recall) state.scene.change().camera = slots[*wish.recall].camera;
+  if (wish.store) store_camera(slots, camera, state.model.frame.get(), state.scene->display);
 }
 
 void background_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Background", "seen beyond all objects")) return;
   const Scope scope(ui, "background");
-  Background& background = state.scene.background;
-  const Background& saved = state.model.saved->background;
+  const Background& background = state.scene->background;
   int kind = static_cast<int>(background.index());
   const std::vector<Choice> kinds = sky_choices(background, state.backgrounds);
   const int columns = kinds.size() > 3 ? 2 : 0;  // the names of four do not fit side by side
   if (choice_row(ui, {"kind", "Kind", {}, {}, "", "", ""}, kinds, kind, columns))
-    set_background_kind(background, kind, state.backgrounds);
-  std::visit(Overloaded{[&](Vec3d& constant) {
-                          Meaning radiance = colour_meaning("radiance");
-                          radiance.slider.high = 2;
-                          Row row = row_of("colour", radiance, "");
-                          if (const Vec3d* original = std::get_if<Vec3d>(&saved)) row.original = *original;
-                          colour_row(ui, row, constant);
-                        },
-                        [&](auto& sky) {
-                          if constexpr (std::is_same_v<std::decay_t<decltype(sky)>, SkyPicture>)
-                            text_row(ui, {"file", "Picture", {}, {}, "", sky.file, ""}, sky.file);
-                          field_rows(ui, sky, same_kind(sky, &saved));
-                        }},
-             background);
+    set_background_kind(state.scene.change().background, kind, state.backgrounds);
+  const Background& now = state.scene->background;
+  if (const SkyPicture* sky = std::get_if<SkyPicture>(&now))
+    text_row(ui, {"file", "Picture", {}, {}, "", sky->file, ""}, sky->file);
+  part_rows(ui, state, std::holds_alternative<Vec3d>(now) ? "" : "/background");
 }
 
 void image_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Image", state.model.renders ? "rendering goes on" : "")) return;
   const Scope scope(ui, "image");
-  field_rows(ui, state.scene.display, &state.model.saved->display);
+  part_rows(ui, state, "/display");
   if (state.model.has_scene) clean_row(ui, state);
   Choice choices[view_count];
   for (int k = 0; k < view_count; ++k) choices[k] = {view_entry(k).name, missing_for_view(state.model, k)};
   const Row row{"view", "View", {}, {}, "", "keys 1 to 9", view_meaning(state)};
-  request_row(ui, state, row, choices, state.model.view, Action::view, 3);
+  int view = state.model.view;
+  if (choice_row(ui, row, choices, view, 3)) ui.requests.push_back({std::string("view: ") + view_entry(view).name});
 }
 
 void film_panel(Ui& ui, PanelState& state) {
-  std::optional<Animation>& animation = state.scene.animation;
+  const std::optional<Animation>& animation = state.scene->animation;
   if (!animation || !section(ui, "Film", std::to_string(animation->keyed.size()) + " values have keys")) return;
   const Scope scope(ui, "film");
-  const std::optional<Animation>& saved = state.model.saved->animation;
-  field_rows(ui, *animation, saved ? &*saved : nullptr);
+  part_rows(ui, state, "/animation");
 }
 
 void render_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Render", kernel_note(state.model.frame.get()))) return;
   const Scope scope(ui, "render");
-  RenderSettings& render = state.scene.render;
-  const auto said = [&state](std::string_view name) { return setting_meaning(state, name); };
-  const auto is_choice = []<class T>(const T&, std::string_view) { return NamedEnum<T> || std::is_same_v<T, bool>; };
-  const RenderSettings* saved = &state.model.saved->render;
-  field_rows(ui, render, saved, is_choice, said);
+  const auto said = [&](const Slot& slot, const std::string&) { return setting_meaning(state, slot.name); };
+  part_rows(
+      ui, state, "/render", [](const Slot& slot) { return !slot.choices.empty(); }, said);
   split_row(ui, state);
-  field_rows(
-      ui, render, saved, [&](const auto& value, auto name) { return !is_choice(value, name); }, said);
+  part_rows(
+      ui, state, "/render", [](const Slot& slot) { return slot.choices.empty(); }, said);
   pixels_row(ui, state);
   size_row(ui, state);
   threads_row(ui, state);
-  note(ui, contents_text(state.scene), false);
+  note(ui, contents_text(*state.scene), false);
 }
 
 }  // namespace tyndall

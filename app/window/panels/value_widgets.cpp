@@ -159,7 +159,8 @@ bool three_boxes(Ui& ui, const Row& row, Vec3d& value, float width, const char* 
     changed = value_box(ui, names[k], part, *components[k], (width - 2 * space) / 3, fixed_digits) || changed;
   }
   ImGui::EndGroup();
-  return row_menu(ui, row, false, value.x) || changed;
+  row_menu(ui, row, false);
+  return changed;
 }
 
 }  // namespace
@@ -197,7 +198,7 @@ bool slider(Ui& ui, const Row& row, double& value, float width) {
     draw->AddRectFilled({from - 0.5f, b.y - 6 * ui.scale}, {from + 0.5f, b.y - pad}, shade(palette::dim));
   draw->AddRectFilled({at - grab / 2, a.y + pad}, {at + grab / 2, b.y - pad},
                       shade(ImGui::IsItemActive() ? palette::amber : palette::blue), 4 * ui.scale);
-  return changed_if(ui, changed);
+  return changed;
 }
 
 bool value_box(Ui& ui, const char* id, const Row& row, double& value, float width, bool fixed_digits) {
@@ -208,7 +209,7 @@ bool value_box(Ui& ui, const char* id, const Row& row, double& value, float widt
   if (ui.edit.id == item) {
     const bool typed = edit_box(ui, row, value, width);
     log_item(ui, row.name + "." + id, "typing");
-    return changed_if(ui, typed);
+    return typed;
   }
   ImGui::InvisibleButton(id, {std::max(width, 1.0f), ImGui::GetFrameHeight()});
   if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
@@ -230,7 +231,7 @@ bool value_box(Ui& ui, const char* id, const Row& row, double& value, float widt
   ImGui::GetWindowDrawList()->PopClipRect();
   ImGui::PopFont();
   log_item(ui, row.name + "." + id, format_short(value));
-  return changed_if(ui, changed);
+  return changed;
 }
 
 bool vector_row(Ui& ui, const Row& row, Vec3d& value) {
@@ -250,7 +251,7 @@ bool colour_row(Ui& ui, const Row& row, Vec3d& value) {
   if (ImGui::ColorButton("##swatch", swatch_colour(value), ImGuiColorEditFlags_NoTooltip, {side, side}))
     ImGui::OpenPopup("picker");
   log_item(ui, row.name + ".swatch", "button");
-  changed = changed_if(ui, colour_picker(ui, value)) || changed;
+  changed = colour_picker(ui, value) || changed;
   end_row(ui, row);
   return changed;
 }

@@ -171,6 +171,7 @@ bool section(Ui& ui, const std::string& name, const std::string& note_text) {
 void begin_row(Ui& ui, const Row& row) {
   ui.sought.here = is_sought(ui, row.label) && !ui.sought.met;
   if (ui.sought.here) meet_sought(ui, 0.3f);
+  if (ui.rows) ui.rows->push_back({ui.drawn.part, row.label});
   ImGui::PushID(row.name.c_str());
   ImGui::AlignTextToFramePadding();
   clipped_text(row.label, label_column * ui.scale - ImGui::GetCursorPosX() - 4 * ui.scale);
@@ -188,35 +189,24 @@ void end_row(Ui& ui, const Row& row) {
   if (std::exchange(ui.sought.here, false) && ui.sought.has_keys) draw_keyboard_frame(ui);
 }
 
-/// Another valid value.
-double other_value(const Row& row, double value) {
-  const Slider range = widened(row.slider, row.valid, value);
-  for (const double other : {range.low, range.high, (range.low + range.high) / 2, value + 1, value - 1})
-    if (const double v = row.whole ? std::round(other) : other; v != value && row.valid.contains(v)) return v;
-  return value;
-}
-
-bool row_menu(Ui& ui, const Row& row, bool can_vary, double& value) {
-  if (!row.of_scene) return false;
+void row_menu(Ui& ui, const Row& row, bool can_vary) {
+  if (row.pointer.empty()) return;
   if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(1)) ImGui::OpenPopup("row");
-  if (!ImGui::BeginPopup("row")) return false;
-  const auto item = [&](const char* name, const char* label, RowWish::Kind kind) {
-    if (ImGui::MenuItem(label)) ui.wish = {kind, row, value};
-    log_item(ui, row.name + "." + name, "menu");
+  if (!ImGui::BeginPopup("row")) return;
+  const auto item = [&](const char* label, const char* command) {
+    if (ImGui::MenuItem(label)) ui.requests.push_back({command, row.pointer});
+    log_item(ui, row.name + "." + command, "menu");
   };
-  if (can_vary) item("vary", "Vary …", RowWish::Kind::vary);
-  item("key", "Key", RowWish::Kind::key);
+  if (can_vary) item("Vary …", "vary");
+  item("Key", "key");
   if (ui.close_popup) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
-  if (ui.wish.kind == RowWish::Kind::none) return false;
-  value = other_value(row, value);
-  return changed_if(ui, true);
 }
 
 bool slider_row(Ui& ui, const Row& row, double& value) {
   begin_row(ui, row);
   bool changed = slider(ui, row, value, value_width(ui) - (box_width + gap) * ui.scale);
-  changed = row_menu(ui, row, true, value) || changed;
+  row_menu(ui, row, true);
   log_item(ui, row.name, format_short(value));
   tooltip(ui, row.help);
   ImGui::SameLine(0, gap * ui.scale);
@@ -233,11 +223,6 @@ void text_row(Ui& ui, const Row& row, const std::string& text) {
   end_row(ui, row);
 }
 
-bool changed_if(Ui& ui, bool changed) {
-  ui.changed |= changed;
-  return changed;
-}
-
 bool popup_is_open() { return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup); }
 
 bool small_button(Ui& ui, const std::string& name, const std::string& label, float width) {
@@ -245,7 +230,7 @@ bool small_button(Ui& ui, const std::string& name, const std::string& label, flo
   const bool pressed = ImGui::Button((label + "##" + name).c_str(), {width, ImGui::GetFontSize() + 10 * ui.scale});
   ImGui::PopFont();
   log_item(ui, name, "button");
-  return changed_if(ui, pressed);
+  return pressed;
 }
 
 }  // namespace tyndall

@@ -10,6 +10,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <vector>
 
 /// The controls that panels are made of: each a row with a label on the left and, beneath it, what the value means.
 namespace tyndall {
@@ -68,6 +69,12 @@ struct WheelOwner {
   bool used = false;  ///< in this drawing, by a list
 };
 
+/// What is asked for: a command by its name, with an argument where it takes one.
+struct Request {
+  std::string command, argument{};
+  bool operator==(const Request&) const = default;
+};
+
 /// What a row of a number shows.
 struct Row {
   std::string name;  ///< in the log and in messages: "fuzz"
@@ -81,15 +88,7 @@ struct Row {
   bool warning = false;  ///< the line beneath is one
   std::optional<Vec3d> original =
       std::nullopt;       ///< what a double click sets: what the scene's file has; of single numbers x
-  bool of_scene = false;  ///< a value of the scene itself: its menu has Vary and Key
-};
-
-/// What was chosen in the menu of a row. In that drawing the row has changed its value to another valid one, for no
-/// reason but to show which value of the scene it is: whoever looks at the wish takes that back.
-struct RowWish {
-  enum class Kind { none, vary, key } kind = Kind::none;
-  Row row;
-  double present = 0;  ///< the value before; of a vector x
+  std::string pointer{};  ///< of the scene's value that it shows: its menu has Vary and Key; "": it shows none
 };
 
 /// What all controls share. One per window; lives as long as it.
@@ -105,14 +104,14 @@ struct Ui {
   HoveredItem hovered;
   WheelOwner wheel;
   SoughtRow sought;
-  RowPlace drawn;                ///< the part of the column that is being drawn, and its section
-  double wake_in = 1e300;        ///< seconds until something appears by itself
-  bool has_question = false;     ///< a dialog waits for an answer: the column takes no input
-  bool close_popup = false;      ///< a list or a picker that is open closes in this drawing
-  bool changed = false;          ///< a control has changed its value in this drawing: the scene may be another one
-  RowWish wish;                  ///< chosen in this drawing
-  std::string problem;           ///< why a typed value was refused: one line; "": it was not
-  std::set<std::string> folded;  ///< sections that are closed
+  RowPlace drawn;                         ///< the part of the column that is being drawn, and its section
+  double wake_in = 1e300;                 ///< seconds until something appears by itself
+  bool has_question = false;              ///< a dialog waits for an answer: the column takes no input
+  bool close_popup = false;               ///< a list or a picker that is open closes in this drawing
+  std::vector<RowPlace>* rows = nullptr;  ///< gets the place of each row that is drawn; null: nobody asks
+  std::vector<Request> requests;          ///< of controls, until they are carried out
+  std::string problem;                    ///< why a typed value was refused: one line; "": it was not
+  std::set<std::string> folded;           ///< sections that are closed
 };
 
 /// Puts a prefix before the names of controls in the log, and makes them distinct, as long as it lives.
@@ -183,14 +182,12 @@ void clipped_text_at(const std::string& text, ImVec2 at, float width, Tone colou
 /// Whether a list or a colour picker is open.
 bool popup_is_open();
 
-/// Parts that rows are made of. What changes a value says so by the first.
-bool changed_if(Ui& ui, bool changed);
+/// Parts that rows are made of.
 bool slider(Ui& ui, const Row& row, double& value, float width);
 bool value_box(Ui& ui, const char* id, const Row& row, double& value, float width, bool fixed_digits);
 void begin_row(Ui& ui, const Row& row);
-/// Opens the menu of a row by a right click on the last item, and draws it. can_vary: it has Vary, too. value: see
-/// RowWish. Returns whether the value was changed.
-bool row_menu(Ui& ui, const Row& row, bool can_vary, double& value);
+/// Opens the menu of a row by a right click on the last item, and draws it. can_vary: it has Vary, too.
+void row_menu(Ui& ui, const Row& row, bool can_vary);
 void end_row(Ui& ui, const Row& row);
 /// Shows a tooltip over the last item after a moment.
 void tooltip(Ui& ui, const std::string& text);

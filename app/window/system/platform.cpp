@@ -56,42 +56,67 @@ GLFWwindow* open_window(int image_width, int image_height) {
   return glfwCreateWindow(std::min(width, room_width), std::min(height, room_height), "Tyndall", nullptr, nullptr);
 }
 
-}  // namespace
+/// By GLFW and Dear ImGui's backends, which are used here only.
+class GlfwPlatform : public Platform {
+ public:
+  GlfwPlatform(int image_width, int image_height);
+  ~GlfwPlatform() override;
 
-Platform::Platform(int image_width, int image_height) : state_(std::make_unique<WindowState>()) {
+  void wait(double seconds) override;
+  InputEvents take_events() override;
+  bool take_close_wish() override;
+  void hide() override { glfwHideWindow(state_.window); }
+  WindowSize size() const override;
+  const std::set<int>& held() const override { return state_.held; }
+  bool shift_held() const override;
+  void set_title(const std::string& title) override;
+  void toggle_full_screen() override;
+  void begin_frame() override;
+  void clear() override;
+  void end_frame() override;
+  void drop_frame() override;
+  void skip_frame() override { end_input_frame(state_); }
+  void renew_fonts() override;
+  void wake() override { glfwPostEmptyEvent(); }
+
+ private:
+  WindowState state_;
+};
+
+GlfwPlatform::GlfwPlatform(int image_width, int image_height) {
   if (!glfwInit()) throw IoError("the display cannot be used: " + last_glfw_error());
-  state_->window = open_window(image_width, image_height);
-  if (!state_->window) {
+  state_.window = open_window(image_width, image_height);
+  if (!state_.window) {
     const std::string why = last_glfw_error();
     glfwTerminate();
     throw IoError("no window with OpenGL 3.3: " + why);
   }
-  glfwMakeContextCurrent(state_->window);
+  glfwMakeContextCurrent(state_.window);
   if (!gladLoadGL(glfwGetProcAddress)) {
     glfwTerminate();
     throw IoError("no window: OpenGL's functions cannot be loaded");
   }
   glfwSwapInterval(draws_in_software() ? 0 : 1);
-  glfwSetWindowUserPointer(state_->window, state_.get());
-  glfwSetWindowSizeLimits(state_->window, 160, 120, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  glfwSetWindowUserPointer(state_.window, &state_);
+  glfwSetWindowSizeLimits(state_.window, 160, 120, GLFW_DONT_CARE, GLFW_DONT_CARE);
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
 #if IMGUI_VERSION_NUM >= 18700
   ImGui::GetIO().ConfigInputTrickleEventQueue = false;  // InputQueue says what belongs to a frame
 #endif
-  ImGui_ImplGlfw_InitForOpenGL(state_->window, false);
+  ImGui_ImplGlfw_InitForOpenGL(state_.window, false);
   ImGui_ImplOpenGL3_Init("#version 330 core");
-  install_callbacks(state_->window);
+  install_callbacks(state_.window);
 }
 
-Platform::~Platform() {
+GlfwPlatform::~GlfwPlatform() {
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
   glfwTerminate();
 }
 
-void Platform::wait(double seconds) {
+void GlfwPlatform::wait(double seconds) {
   if (seconds <= 0)
     glfwPollEvents();
   else if (seconds > 1e6)
@@ -100,25 +125,21 @@ void Platform::wait(double seconds) {
     glfwWaitEventsTimeout(seconds);
 }
 
-void Platform::wake() { glfwPostEmptyEvent(); }
-
-InputEvents Platform::take_events() {
-  deliver_input(*state_);
-  return std::exchange(state_->events, {});
+InputEvents GlfwPlatform::take_events() {
+  deliver_input(state_);
+  return std::exchange(state_.events, {});
 }
 
-bool Platform::take_close_wish() {
-  if (!glfwWindowShouldClose(state_->window)) return false;
-  glfwSetWindowShouldClose(state_->window, GLFW_FALSE);
-  if (glfwGetWindowAttrib(state_->window, GLFW_ICONIFIED)) glfwRestoreWindow(state_->window);
+bool GlfwPlatform::take_close_wish() {
+  if (!glfwWindowShouldClose(state_.window)) return false;
+  glfwSetWindowShouldClose(state_.window, GLFW_FALSE);
+  if (glfwGetWindowAttrib(state_.window, GLFW_ICONIFIED)) glfwRestoreWindow(state_.window);
   return true;
 }
 
-void Platform::hide() { glfwHideWindow(state_->window); }
-
-WindowSize Platform::size() const {
+WindowSize GlfwPlatform::size() const {
   WindowSize size;
-  GLFWwindow* window = state_->window;
+  GLFWwindow* window = state_.window;
   glfwGetWindowSize(window, &size.width, &size.height);
   if (!glfwGetWindowAttrib(window, GLFW_ICONIFIED))
     glfwGetFramebufferSize(window, &size.framebuffer_width, &size.framebuffer_height);
@@ -131,21 +152,20 @@ WindowSize Platform::size() const {
   return size;
 }
 
-const std::set<int>& Platform::held() const { return state_->held; }
-bool Platform::shift_held() const {
-  return state_->held.contains(GLFW_KEY_LEFT_SHIFT) || state_->held.contains(GLFW_KEY_RIGHT_SHIFT);
+bool GlfwPlatform::shift_held() const {
+  return state_.held.contains(GLFW_KEY_LEFT_SHIFT) || state_.held.contains(GLFW_KEY_RIGHT_SHIFT);
 }
 
-void Platform::set_title(const std::string& title) {
-  if (title == state_->title) return;
-  glfwSetWindowTitle(state_->window, title.c_str());
-  state_->title = title;
+void GlfwPlatform::set_title(const std::string& title) {
+  if (title == state_.title) return;
+  glfwSetWindowTitle(state_.window, title.c_str());
+  state_.title = title;
 }
 
-void Platform::toggle_full_screen() {
-  GLFWwindow* window = state_->window;
+void GlfwPlatform::toggle_full_screen() {
+  GLFWwindow* window = state_.window;
   if (glfwGetWindowMonitor(window)) {
-    const Rect& r = state_->windowed;
+    const Rect& r = state_.windowed;
     const auto whole = [](float v) { return static_cast<int>(v); };
     glfwSetWindowMonitor(window, nullptr, whole(r.x0), whole(r.y0), whole(r.width()), whole(r.height()),
                          GLFW_DONT_CARE);
@@ -158,18 +178,18 @@ void Platform::toggle_full_screen() {
   glfwGetWindowPos(window, &x, &y);
   const auto real = [](int v) { return static_cast<float>(v); };
   const WindowSize now = size();
-  state_->windowed = {real(x), real(y), real(x + now.width), real(y + now.height)};
+  state_.windowed = {real(x), real(y), real(x + now.width), real(y + now.height)};
   glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
-void Platform::begin_frame() {
+void GlfwPlatform::begin_frame() {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
-  set_delivered_input(*state_);
+  set_delivered_input(state_);
   compat::new_frame();
 }
 
-void Platform::clear() {
+void GlfwPlatform::clear() {
   glDisable(GL_SCISSOR_TEST);
   const WindowSize now = size();
   glViewport(0, 0, now.framebuffer_width, now.framebuffer_height);
@@ -178,25 +198,29 @@ void Platform::clear() {
   glClear(GL_COLOR_BUFFER_BIT);
 }
 
-void Platform::end_frame() {
+void GlfwPlatform::end_frame() {
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  glfwSwapBuffers(state_->window);
-  end_input_frame(*state_);
+  glfwSwapBuffers(state_.window);
+  end_input_frame(state_);
 }
 
-void Platform::drop_frame() {
+void GlfwPlatform::drop_frame() {
   ImGui::EndFrame();
-  end_input_frame(*state_);
+  end_input_frame(state_);
 }
 
-void Platform::skip_frame() { end_input_frame(*state_); }
-
-void Platform::renew_fonts() {
+void GlfwPlatform::renew_fonts() {
 #if IMGUI_VERSION_NUM < 19200
   ImGui_ImplOpenGL3_DestroyFontsTexture();
   ImGui_ImplOpenGL3_CreateFontsTexture();
 #endif
+}
+
+}  // namespace
+
+std::unique_ptr<Platform> open_platform(int image_width, int image_height) {
+  return std::make_unique<GlfwPlatform>(image_width, image_height);
 }
 
 }  // namespace tyndall

@@ -9,8 +9,6 @@
 /// know: the layout, the style, when to draw, what the log says.
 namespace tyndall {
 
-struct WindowState;
-
 /// How large a window is.
 struct WindowSize {
   int width = 0, height = 0;                          ///< window units
@@ -19,45 +17,43 @@ struct WindowSize {
   float pixels = 1;                                   ///< font pixels per unit of the design
 };
 
-/// The window of the system, its OpenGL context and its events. GLFW and Dear ImGui's backends are used here only.
+/// The window of the system, its OpenGL context and its events. Tests have one that shows nothing.
 class Platform {
  public:
-  /// A window whose image area has the given size at scale 1, smaller if the screen is. Throws IoError.
-  Platform(int image_width, int image_height);
-  ~Platform();
+  virtual ~Platform() = default;
 
   /// Waits for events up to `seconds`; infinite: until one comes. 0: only looks.
-  void wait(double seconds);
-  InputEvents take_events();
+  virtual void wait(double seconds) = 0;
+  virtual InputEvents take_events() = 0;
   /// Whether the user has asked the window system to close the window; the window stays, and shows if it was minimised.
-  bool take_close_wish();
+  virtual bool take_close_wish() = 0;
   /// Takes the window off the screen: what is left to be done needs none.
-  void hide();
+  virtual void hide() = 0;
 
-  WindowSize size() const;
+  virtual WindowSize size() const = 0;
   /// Keys that are held down, were pressed without Ctrl or Alt, and no control wants.
-  const std::set<int>& held() const;
-  bool shift_held() const;
+  virtual const std::set<int>& held() const = 0;
+  virtual bool shift_held() const = 0;
 
-  void set_title(const std::string& title);
-  void toggle_full_screen();
+  virtual void set_title(const std::string& title) = 0;
+  virtual void toggle_full_screen() = 0;
 
   /// Dear ImGui's frame: begins one; draws it over what is in the framebuffer and shows it.
-  void begin_frame();
-  void clear();
-  void end_frame();
+  virtual void begin_frame() = 0;
+  virtual void clear() = 0;
+  virtual void end_frame() = 0;
   /// Ends the frame without showing it: what it did to controls and scene counts, the screen stays as it is.
-  void drop_frame();
+  virtual void drop_frame() = 0;
   /// No frame is drawn because nobody would see it: what waits for one goes on.
-  void skip_frame();
+  virtual void skip_frame() = 0;
   /// To be called after the fonts were loaded again: they are drawn from then on.
-  void renew_fonts();
+  virtual void renew_fonts() = 0;
 
   /// Wakes wait(). May be called from any thread while a Platform lives.
-  static void wake();
-
- private:
-  std::unique_ptr<WindowState> state_;
+  virtual void wake() = 0;
 };
+
+/// A window whose image area has the given size at scale 1, smaller if the screen is. Throws IoError.
+std::unique_ptr<Platform> open_platform(int image_width, int image_height);
 
 }  // namespace tyndall

@@ -2,7 +2,6 @@
 
 #include "app/window/system/imgui_compat.h"
 #include "core/scene/frames.h"
-#include "core/scene/pointer_values.h"
 
 #include <fmt/core.h>
 
@@ -14,16 +13,6 @@ namespace {
 
 constexpr float bar_height = 36, button_width = 58, number_width = 92;  // units of the design
 constexpr int frames_between_cameras = 48;
-
-/// The numbers of a value; nothing: it is none.
-std::vector<double> numbers_of(const JsonValue& json) {
-  if (const auto* number = std::get_if<double>(&json.value)) return {*number};
-  std::vector<double> numbers;
-  if (const auto* array = std::get_if<JsonArray>(&json.value))
-    for (const JsonValue& item : *array)
-      if (const auto* number = std::get_if<double>(&item.value)) numbers.push_back(*number);
-  return numbers;
-}
 
 bool has_key(const KeyedValue& keyed, int frame) {
   return std::any_of(keyed.keys.begin(), keyed.keys.end(), [&](const KeyFrame& key) { return key.frame == frame; });
@@ -44,14 +33,12 @@ Scene at_frame_with_keys(const Scene& scene, double frame) {
   return made;
 }
 
-bool add_key(Scene& scene, const std::string& pointer, int frame) {
-  const auto value = value_at_pointer(scene, pointer);
-  const std::vector<double> numbers = value ? numbers_of(*value) : std::vector<double>();
-  if (numbers.empty()) return false;
+void add_key(Scene& scene, const Slot& slot, int frame) {
   if (!scene.animation) scene.animation.emplace();
   scene.animation->frames = std::max(scene.animation->frames, frame + 1);
-  set_key(*scene.animation, pointer, {frame, numbers});
-  return true;
+  const Vec3d* vector = std::get_if<Vec3d>(&slot.value);
+  set_key(*scene.animation, slot.pointer,
+          {frame, vector ? std::vector{vector->x, vector->y, vector->z} : std::vector{std::get<double>(slot.value)}});
 }
 
 void remove_keys(Scene& scene, int frame) {

@@ -1,7 +1,7 @@
 #pragma once
 #include "app/window/panels/camera_slots.h"
 #include "app/window/panels/widgets.h"
-#include "core/scene/scene.h"
+#include "core/scene/slots.h"
 
 #include <optional>
 #include <string>
@@ -12,9 +12,8 @@ namespace tyndall {
 /// The scene with the values of that frame, and its keys. Throws ParseError.
 Scene at_frame_with_keys(const Scene& scene, double frame);
 
-/// Gives the value at that pointer, as the scene has it, a key at the frame. A scene without an animation gets one. Of
-/// a vector all components get one. Returns whether there is such a number or vector.
-bool add_key(Scene& scene, const std::string& pointer, int frame);
+/// Gives a value, as it is, a key at the frame. A scene without an animation gets one.
+void add_key(Scene& scene, const Slot& slot, int frame);
 /// Takes away the keys of a frame; without any left the animation goes.
 void remove_keys(Scene& scene, int frame);
 /// Whether a value has a key at that frame.

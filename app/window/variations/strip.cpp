@@ -3,8 +3,7 @@
 #include "app/window/document/editor.h"
 #include "app/window/system/imgui_compat.h"
 #include "core/image/tonemap.h"
-#include "core/scene/place.h"
-#include "core/scene/pointer_values.h"
+#include "core/scene/check.h"
 
 #include <fmt/core.h>
 
@@ -19,16 +18,9 @@ namespace {
 constexpr float gap = 6, head = 22, label_height = 18;                        // units of the design
 constexpr int key_right = 262, key_left = 263, key_down = 264, key_up = 265;  // GLFW's numbers
 
-/// The number of a value of the scene; nothing: it has no such number.
-std::optional<double> number_at(const Scene& scene, const std::string& pointer) {
-  const auto value = value_at_pointer(scene, pointer);
-  const auto* number = value ? std::get_if<double>(&value->value) : nullptr;
-  return number ? std::optional(*number) : std::nullopt;
-}
-
-std::string value_text(const Row& row, double value) {
-  const bool spelled = std::isalpha(static_cast<unsigned char>(*row.unit)) != 0;
-  return (row.whole ? std::to_string(std::llround(value)) : format_short(value)) + (spelled ? " " : "") + row.unit;
+std::string value_text(const Slot& slot, double value) {
+  const bool spelled = std::isalpha(static_cast<unsigned char>(*slot.unit)) != 0, whole = slot.form == ValueForm::whole;
+  return (whole ? std::to_string(std::llround(value)) : format_short(value)) + (spelled ? " " : "") + slot.unit;
 }
 
 /// The step that the value is; -1: it is none of them.
@@ -40,28 +32,23 @@ int step_of(const VariedValue& axis, double value) {
 /// The scene with the values of a step; nothing: it cannot have them, or there is no such step.
 std::optional<Scene> varied_scene(const Scene& scene, const std::vector<VariedValue>& axes, std::size_t index) {
   const std::size_t steps[] = {index % strip_columns, index / strip_columns};
-  try {
-    Scene made = scene;
-    for (std::size_t k = 0; k < axes.size(); ++k) {
-      if (steps[k] >= axes[k].values.size()) return {};
-      made = with_value(made, axes[k].pointer, {axes[k].values[steps[k]]});
-    }
-    return made;
-  } catch (const ParseError&) {
-    return {};
-  }
+  Scene made = scene;
+  for (std::size_t k = 0; k < axes.size(); ++k)
+    if (steps[k] >= axes[k].values.size() || !put_value(made, axes[k].slot.pointer, axes[k].values[steps[k]]))
+      return {};
+  return check(made) ? std::nullopt : std::optional(std::move(made));
 }
 
 }  // namespace
 
-std::vector<double> varied_values(const Row& row, double present, int steps) {
-  const Slider range = widened(row.slider, row.valid, present);
+std::vector<double> varied_values(const Slot& slot, double present, int steps) {
+  const Slider range = widened(slot.slider, slot.valid, present);
   std::vector<double> values;
   for (int k = 0; k < steps; ++k) {
     double value = slider_value(range, static_cast<double>(k) / (steps - 1), present);
-    if (row.whole) value = std::round(value);
+    if (slot.form == ValueForm::whole) value = std::round(value);
     const bool known = std::find(values.begin(), values.end(), value) != values.end();
-    if (row.valid.contains(value) && !known) values.push_back(value);
+    if (slot.valid.contains(value) && !known) values.push_back(value);
   }
   const auto distance = [&](double value) {
     return std::abs(slider_position(range, value) - slider_position(range, present));
@@ -72,13 +59,13 @@ std::vector<double> varied_values(const Row& row, double present, int steps) {
   return values;
 }
 
-void VariationStrip::vary(const VariedValue& value, double present) {
-  const auto is_it = [&](const VariedValue& axis) { return axis.pointer == value.pointer; };
+void VariationStrip::vary(const Slot& slot) {
+  const auto is_it = [&](const VariedValue& axis) { return axis.slot.pointer == slot.pointer; };
   const auto shown = std::find_if(axes_.begin(), axes_.end(), is_it);
   if (shown == axes_.end()) {
     axes_.resize(std::min<std::size_t>(axes_.size(), 1));
-    axes_.push_back(value);
-    axes_.back().values = varied_values(value.row, present, axes_.size() == 1 ? strip_columns : strip_rows);
+    const int steps = axes_.empty() ? strip_columns : strip_rows;
+    axes_.push_back({slot, varied_values(slot, std::get<double>(slot.value), steps)});
   } else {
     const bool first = shown == axes_.begin();
     axes_.erase(shown);
@@ -86,7 +73,7 @@ void VariationStrip::vary(const VariedValue& value, double present) {
     VariedValue& left = axes_[0];
     const int marked = first && marked_.size() > 1 ? marked_[1] : -1;
     if (first)
-      left.values = varied_values(left.row, left.values[static_cast<std::size_t>(std::max(marked, 0))], strip_columns);
+      left.values = varied_values(left.slot, left.values[static_cast<std::size_t>(std::max(marked, 0))], strip_columns);
   }
   base_.reset();
   stale_ = true;
@@ -118,9 +105,9 @@ Rect VariationStrip::cell_at(const Rect& rect, std::size_t index, float scale) c
 void VariationStrip::look_at(const Scene& scene) {
   marked_.assign(axes_.size(), -1);
   for (std::size_t k = 0; k < axes_.size(); ++k) {
-    const auto value = number_at(scene, axes_[k].pointer);
-    if (!value) return close();  // what it belongs to is gone
-    marked_[k] = step_of(axes_[k], *value);
+    const auto slot = find_slot(scene, axes_[k].slot.pointer);
+    if (!slot) return close();  // what it belongs to is gone
+    marked_[k] = step_of(axes_[k], std::get<double>(slot->value));
   }
 }
 
@@ -183,7 +170,7 @@ std::string VariationStrip::label_of_cell(std::size_t index) const {
   const std::size_t steps[] = {index % strip_columns, index / strip_columns};
   for (std::size_t k = 0; k < axes_.size(); ++k)
     if (steps[k] < axes_[k].values.size())
-      text += (text.empty() ? "" : ", ") + value_text(axes_[k].row, axes_[k].values[steps[k]]);
+      text += (text.empty() ? "" : ", ") + value_text(axes_[k].slot, axes_[k].values[steps[k]]);
   return text;
 }
 
@@ -222,7 +209,7 @@ std::optional<Scene> VariationStrip::draw(Ui& ui, const Rect& rect, const Scene&
   bool open = true;
   if (ImGui::Begin("##strip", nullptr, flags)) {
     std::string title;
-    for (const VariedValue& axis : axes_) title += (title.empty() ? "" : " and ") + axis.row.label;
+    for (const VariedValue& axis : axes_) title += (title.empty() ? "" : " and ") + axis.slot.label;
     compat::push_font(ui.fonts.small);
     ImGui::TextColored(
         palette::dim, "%s%s", title.c_str(),

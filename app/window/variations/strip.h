@@ -2,6 +2,7 @@
 #include "app/window/panels/widgets.h"
 #include "app/window/picture/display.h"
 #include "app/window/variations/small_renders.h"
+#include "core/scene/slots.h"
 
 #include <memory>
 #include <optional>
@@ -12,8 +13,7 @@ namespace tyndall {
 
 /// A value of the scene and the steps in which it is shown.
 struct VariedValue {
-  std::string pointer;  ///< of the value in the scene's document
-  Row row;              ///< how it is labelled and written
+  Slot slot;
   std::vector<double> values{};
 };
 
@@ -21,7 +21,7 @@ inline constexpr int strip_columns = 9, strip_rows = 3;
 
 /// Even steps over the slider's range, or over the power of ten around a value beyond it. The step next to the present
 /// value is that value.
-std::vector<double> varied_values(const Row& row, double present, int steps);
+std::vector<double> varied_values(const Slot& slot, double present, int steps);
 
 /// The strip of small pictures along the bottom of the window: one row of them, and three where a second value varies.
 /// Lives within the window's OpenGL context; for the main thread.
@@ -32,8 +32,8 @@ class VariationStrip {
 
   bool is_open() const { return !axes_.empty(); }
   /// Opens the strip for a value of the scene; once it is open, another value becomes the second one, and one that is
-  /// shown already goes. value: as it is now.
-  void vary(const VariedValue& value, double present);
+  /// shown already goes. slot: of a number, as it is now.
+  void vary(const Slot& slot);
   void close();
 
   /// Height in window units of a strip of that width, for a picture of that shape.

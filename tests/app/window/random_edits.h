@@ -48,7 +48,7 @@ class RandomEdits {
   Scene edited(Scene scene) {
     if (scene.objects.empty() || (scene.objects.size() < 12 && below(4) == 0)) {
       const Spot spot{in_cube(engine_, 2), {0, 1, 0}, between(0.2, 1)};
-      add_object(scene, static_cast<Addition>(below(static_cast<int>(additions().size()))), spot);
+      additions()[static_cast<std::size_t>(below(static_cast<int>(additions().size())))].add(scene, spot);
       return scene;
     }
     switch (below(8)) {

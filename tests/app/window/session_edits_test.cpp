@@ -1,3 +1,4 @@
+#include "app/window/document/edited_scene.h"
 #include "tests/app/window/opened_session.h"
 #include "tests/support/allocations.h"
 
@@ -24,7 +25,7 @@ TEST_CASE("an edit goes to the renderer, the same value again does not") {
   CHECK(opened.session->renderers().edit(Half::current) == 3);
 }
 
-TEST_CASE("an edit copies the scene to change it and to share it, and its kept file once more, on another thread") {
+TEST_CASE("an edit copies the scene once, and its kept file once more, on another thread") {
   constexpr std::size_t many = 997;
   OpenedSession opened("copies");
   Scene large = opened.session->editor().scene();
@@ -33,13 +34,13 @@ TEST_CASE("an edit copies the scene to change it and to share it, and its kept f
   REQUIRE(opened.finishes());
   opened.session->flush_edits();  // the file of the edit before, which would else be counted now and then
   const test::AllocationCount copies(many * sizeof(Object));
-  Scene next = opened.session->editor().scene();
-  next.camera.vfov -= 1;
-  opened.session->editor().edit(std::move(next), 0);
+  EditedScene next(opened.session->editor().shared());
+  next.set("/camera/vfov", next->camera.vfov - 1);
+  opened.session->editor().edit(next.take(), 0, "/camera/vfov");
   REQUIRE(opened.finishes());
   opened.session->flush_edits();
   CHECK(opened.session->renderers().edit(Half::current) == 3);
-  CHECK(copies.count() == 3);
+  CHECK(copies.count() == 2);
 }
 
 TEST_CASE("exposure, tone map and name start nothing over, but can be undone") {

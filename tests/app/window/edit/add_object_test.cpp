@@ -25,9 +25,9 @@ Scene example() {
 }  // namespace
 
 TEST_CASE("everything that can be added gives a valid scene that reads back the same, and selects something") {
-  for (const AdditionEntry& entry : additions()) {
+  for (const Addition& what : additions()) {
     Scene scene = example();
-    const ObjectPaths added = add_object(scene, entry.what, {{0.123456, 0, 0.3}, {0, 1, 0}, 0.5});
+    const ObjectPaths added = what.add(scene, {{0.123456, 0, 0.3}, {0, 1, 0}, 0.5});
     REQUIRE_FALSE(added.empty());
     CHECK(find_object(scene, added.front()) != nullptr);
     CHECK_FALSE(check(scene).has_value());
@@ -37,13 +37,13 @@ TEST_CASE("everything that can be added gives a valid scene that reads back the 
 
 TEST_CASE("a ball stands on the spot, by numbers that print short") {
   Scene scene = example();
-  add_object(scene, Addition::sphere, {{0.123456, 0.0000001, 0.3}, {0, 1, 0}, 0.5});
+  addition_named("a sphere").add(scene, {{0.123456, 0.0000001, 0.3}, {0, 1, 0}, 0.5});
   const auto& ball = std::get<Sphere<>>(std::get<Solid3d>(scene.objects.back().kind).shape);
   CHECK(ball.radius == 0.25);
   CHECK(ball.center == Vec3d{0.123, 0.25, 0.3});
   CHECK(scene.objects.back().name == "ball");
   CHECK(scene.materials.back().name == "matt");
-  add_object(scene, Addition::sphere, {{1, 0, 0}, {0, 1, 0}, 0.5});
+  addition_named("a sphere").add(scene, {{1, 0, 0}, {0, 1, 0}, 0.5});
   CHECK(scene.objects.back().name == "ball 2");
   CHECK(scene.materials.size() == 2);  // both have the same material
 }
@@ -51,14 +51,14 @@ TEST_CASE("a ball stands on the spot, by numbers that print short") {
 TEST_CASE("a material of the usual name but with other values is left alone") {
   Scene scene = example();
   scene.materials.push_back({"matt", Vec3d{1, 0, 0}, Lambertian<>{}});
-  add_object(scene, Addition::box, {});
+  addition_named("a box").add(scene, {});
   CHECK(scene.materials.size() == 3);
   CHECK(scene.materials.back().name == "matt 2");
 }
 
 TEST_CASE("a hollow ball's inside goes along with it") {
   Scene scene = example();
-  const ObjectPaths added = add_object(scene, Addition::hollow_sphere, {});
+  const ObjectPaths added = addition_named("a hollow ball").add(scene, {});
   REQUIRE(added.size() == 2);
   CHECK(linked_objects(scene, added[0]) == ObjectPaths{added[1]});
 }

@@ -81,12 +81,12 @@ TEST_CASE("nothing adds up over the drawings of a drag: the companions follow fr
   for (int k = 1; k <= 1000; ++k) {
     Scene next = now;
     sphere(next, 0).radius = 1 + 0.003 * k / 7;
-    start.finish_edit(now, next, 5);
+    start.finish_edit(std::make_shared<const Scene>(now), next, 5);
     now = next;
   }
   Scene next = now;
   sphere(next, 0).radius = 1;
-  start.finish_edit(now, next, 5);
+  start.finish_edit(std::make_shared<const Scene>(now), next, 5);
   CHECK(next == before);
 }
 

@@ -26,7 +26,9 @@ struct Hand {
     mouse.x = 200, mouse.y = 150;
   }
   bool update(bool free = true) {
-    const bool taken = tool.update(mouse, layout, 1, free, selected, scene);
+    EditedScene edited(std::make_shared<const Scene>(scene));
+    const bool taken = tool.update(mouse, layout, 1, free, selected, edited);
+    if (edited.is_changed()) scene = edited.take();
     mouse.dx = mouse.dy = 0;
     for (bool& button : mouse.clicked) button = false;
     return taken;

@@ -1,4 +1,5 @@
 #pragma once
+#include "app/window/accuracy/views.h"
 #include "app/window/panels/panels.h"
 #include "app/window/system/style.h"
 #include "app/window/system/ui_log.h"
@@ -20,12 +21,12 @@ class Column {
   Column() : log_("/dev/null") {
     set_style(1);
     ui.log = &log_;
-    state.scene.materials = {{"gold", Vec3d{0.9, 0.6, 0.3}, Metal<>{0.18}}, {"glass", {}, Dielectric<>{2.0 / 3}}};
-    state.scene.objects = {{"ball", Solid3d{Sphere<>{{0, 0, 0}, 0.7, {}}, 0}, {}},
-                           {"bubble", Solid3d{Sphere<>{{2, 0, 0}, -0.9, {}}, 1}, {RotateY{30}}},
-                           {"fog", Volume{Box<>{}, {}, Medium<>{1.1, 0}, Vec3d{1, 1, 1}}, {}}};
-    state.scene.camera.look_from = {0, 1, 6};
-    saved = state.scene;
+    scene().materials = {{"gold", Vec3d{0.9, 0.6, 0.3}, Metal<>{0.18}}, {"glass", {}, Dielectric<>{2.0 / 3}}};
+    scene().objects = {{"ball", Solid3d{Sphere<>{{0, 0, 0}, 0.7, {}}, 0}, {}},
+                       {"bubble", Solid3d{Sphere<>{{2, 0, 0}, -0.9, {}}, 1}, {RotateY{30}}},
+                       {"fog", Volume{Box<>{}, {}, Medium<>{1.1, 0}, Vec3d{1, 1, 1}}, {}}};
+    scene().camera.look_from = {0, 1, 6};
+    saved = scene();
     state.model.saved = &saved;
     state.model.accuracy = &accuracy_;
     state.model.scenes = {{"showroom", "Showroom", "", "showroom.json"},
@@ -38,15 +39,14 @@ class Column {
   void draw() {
     imgui_.frame([&] {
       ui.problem.clear();
-      ui.changed = false;
-      const Scene before = state.scene;
+      if (state.scene.is_changed()) state.scene = EditedScene(std::make_shared<const Scene>(state.scene.take()));
       state.wanted_pictures.clear();
       draw_column(ui, state, {0, 0, 372, height});
       log_.end_of_widgets();
-      CHECK((ui.changed || state.scene == before));  // no control edits the scene without a word
+      changed = state.scene.is_changed();
       if (!ui.problem.empty()) problem = ui.problem;
-      for (const Request& request : std::exchange(state.requests, {})) {
-        if (request.action == Action::view) state.model.view = request.number;
+      for (const Request& request : std::exchange(ui.requests, {})) {
+        if (request.command.starts_with("view: ")) state.model.view = view_named(request.command.substr(6));
         requested.push_back(request);
       }
     });
@@ -95,12 +95,16 @@ class Column {
     draw();
   }
 
-  Metal<>& gold() { return std::get<Metal<>>(state.scene.materials[0].kind); }
-  Dielectric<>& glass() { return std::get<Dielectric<>>(state.scene.materials[1].kind); }
+  /// The scene under edit; the next drawing finds it as it is left here.
+  Scene& scene() { return state.scene.change(); }
+  const Scene& scene() const { return *state.scene; }
+  Metal<>& gold() { return std::get<Metal<>>(scene().materials[0].kind); }
+  Dielectric<>& glass() { return std::get<Dielectric<>>(scene().materials[1].kind); }
 
   Ui ui;
   PanelState state;
-  Scene saved;  ///< what the file holds
+  bool changed = false;  ///< the last drawing has edited the scene
+  Scene saved;           ///< what the file holds
   float height = 2400;
   std::string problem;
   std::vector<Request> requested;  ///< all that it has asked for

@@ -8,9 +8,7 @@ namespace tyndall::test::grammar_test {
 
 namespace {
 
-const Solid3d& solid(const Column& column, std::size_t k) {
-  return std::get<Solid3d>(column.state.scene.objects[k].kind);
-}
+const Solid3d& solid(const Column& column, std::size_t k) { return std::get<Solid3d>(column.scene().objects[k].kind); }
 
 }  // namespace
 
@@ -23,12 +21,12 @@ TEST_CASE("a double click sets sliders and numbers back to what the file has") {
   column.click_twice("gold.fuzz.value");
   CHECK(column.gold().fuzz == 0.18);
   CHECK(column.ui.edit.id == 0);
-  column.state.scene.camera.look_from = {3, 4, 5};
+  column.scene().camera.look_from = {3, 4, 5};
   column.click_twice("camera.look_from.y");
-  CHECK(column.state.scene.camera.look_from == Vec3d{3, 1, 5});
-  column.state.scene.materials[0].colour = Vec3d{0, 0, 0};
+  CHECK(column.scene().camera.look_from == Vec3d{3, 1, 5});
+  column.scene().materials[0].colour = Vec3d{0, 0, 0};
   column.click_twice("gold.albedo.g");
-  CHECK(std::get<Vec3d>(column.state.scene.materials[0].colour) == Vec3d{0, 0.6, 0});
+  CHECK(std::get<Vec3d>(column.scene().materials[0].colour) == Vec3d{0, 0.6, 0});
 }
 
 TEST_CASE("what the file does not have goes back to its default") {
@@ -70,7 +68,7 @@ TEST_CASE("Ctrl snaps to round numbers, on sliders and on numbers") {
   column.aim("camera.vfov.value", 0.5);
   column.button(true);
   column.aim("camera.vfov.value", 1.3);
-  CHECK(column.state.scene.camera.vfov == std::round(column.state.scene.camera.vfov));
+  CHECK(column.scene().camera.vfov == std::round(column.scene().camera.vfov));
   column.button(false);
   ImGui::GetIO().KeyCtrl = false;
 }
@@ -89,16 +87,16 @@ TEST_CASE("the type of a material is chosen from a list, and fog within makes a 
   column.draw();
   column.click("Ball.type");
   column.click("Ball.type.lambertian");
-  CHECK(std::holds_alternative<Lambertian<>>(column.state.scene.materials[0].kind));
+  CHECK(std::holds_alternative<Lambertian<>>(column.scene().materials[0].kind));
   column.click("Ball.type");
   column.click("Ball.type.fog within");
-  CHECK(linked_objects(column.state.scene, {0}) == std::vector<ObjectPath>{{1}});
-  CHECK_FALSE(check(column.state.scene));
+  CHECK(linked_objects(column.scene(), {0}) == std::vector<ObjectPath>{{1}});
+  CHECK_FALSE(check(column.scene()));
   column.state.selected = {2};  // the bubble
   column.draw();
   column.click("Bubble.type");
   column.click("Bubble.type.fog within");
-  CHECK(column.state.scene.objects.size() == 4);  // a negative radius has no inside
+  CHECK(column.scene().objects.size() == 4);  // a negative radius has no inside
 }
 
 TEST_CASE("Esc closes a list, and nothing is chosen") {
@@ -126,19 +124,19 @@ TEST_CASE("a shared material can be made a single user's") {
   column.state.selected = {0};
   column.draw();
   CHECK_FALSE(column.has("Ball.single_user"));
-  std::get<Solid3d>(column.state.scene.objects[1].kind).material = 0;
+  std::get<Solid3d>(column.scene().objects[1].kind).material = 0;
   column.draw();
   column.click("Ball.single_user");
-  CHECK(column.state.scene.materials[static_cast<std::size_t>(solid(column, 0).material)].name == "gold 2");
+  CHECK(column.scene().materials[static_cast<std::size_t>(solid(column, 0).material)].name == "gold 2");
   CHECK(solid(column, 1).material == 0);
 }
 
 TEST_CASE("a lamp has a colour and a power: the power keeps the colour, and stops double it") {
   Column column;
-  column.state.scene.materials[0] = {"lamp", Vec3d{4, 2, 1}, Light<>{}};
+  column.scene().materials[0] = {"lamp", Vec3d{4, 2, 1}, Light<>{}};
   column.state.selected = {0};
   column.draw();
-  const auto radiance = [&] { return std::get<Vec3d>(column.state.scene.materials[0].colour); };
+  const auto radiance = [&] { return std::get<Vec3d>(column.scene().materials[0].colour); };
   column.type("lamp.power.value", "10");
   CHECK(radiance() == Vec3d{10, 5, 2.5});
   column.click("lamp.stops.+ 1");
@@ -150,14 +148,14 @@ TEST_CASE("a lamp has a colour and a power: the power keeps the colour, and stop
 
 TEST_CASE("a background keeps its colours when its kind changes, and has its own ones again when it changes back") {
   Column column;
-  column.state.scene.background = Gradient{{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}};
+  column.scene().background = Gradient{{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}};
   column.click("background.kind.hemispheres");
-  CHECK(column.state.scene.background == Background(Hemispheres{{0.4, 0.5, 0.6}, {0.1, 0.2, 0.3}}));
+  CHECK(column.scene().background == Background(Hemispheres{{0.4, 0.5, 0.6}, {0.1, 0.2, 0.3}}));
   column.click("background.kind.colour");
   column.click("background.kind.gradient");
-  CHECK(column.state.scene.background == Background(Gradient{{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}}));
+  CHECK(column.scene().background == Background(Gradient{{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}}));
   column.click("background.kind.image");  // there has been no picture yet
-  CHECK(std::holds_alternative<Gradient>(column.state.scene.background));
+  CHECK(std::holds_alternative<Gradient>(column.scene().background));
 }
 
 TEST_CASE("a name is typed where it is shown, or by the key for it; Esc leaves it") {
@@ -165,7 +163,7 @@ TEST_CASE("a name is typed where it is shown, or by the key for it; Esc leaves i
   column.state.selected = {0};
   column.draw();
   column.type("Ball.name", "marble");
-  CHECK(column.state.scene.objects[0].name == "marble");
+  CHECK(column.scene().objects[0].name == "marble");
   column.state.rename = true;
   column.draw();
   CHECK_FALSE(column.state.rename);
@@ -173,7 +171,7 @@ TEST_CASE("a name is typed where it is shown, or by the key for it; Esc leaves i
   ImGui::GetIO().AddInputCharacter('x');
   column.draw();
   column.press(ImGuiKey_Escape);
-  CHECK(column.state.scene.objects[0].name == "marble");
+  CHECK(column.scene().objects[0].name == "marble");
   CHECK(column.ui.edit.id == 0);
 }
 

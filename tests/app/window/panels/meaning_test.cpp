@@ -76,10 +76,4 @@ TEST_CASE("a full-frame lens of 24 mm sees 53 degrees") {
   CHECK(meaning(camera, "vfov") == "as a 24 mm lens on 35 mm film");
 }
 
-TEST_CASE("labels name fields in plain words") {
-  CHECK(label_of("refractive_index") == "Refractive index");
-  CHECK(label_of("g") == "Asymmetry g");
-  CHECK(label_of("vfov") == "Field of view");
-}
-
 }  // namespace tyndall::test::meaning_test

@@ -8,7 +8,7 @@ namespace {
 void fill(Column& column) {
   std::vector<Object> many(30, Object{"", Solid3d{Sphere<>{}, 1}, {}});
   many[29].name = "pearl";
-  column.state.scene.objects = {
+  column.scene().objects = {
       {"ball", Solid3d{Sphere<>{}, 0}, {}}, {"beads", Group{many}, {}}, {"pair", Group{{many[0], many[1]}}, {}}};
   column.draw();
   column.draw();

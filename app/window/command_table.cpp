@@ -1,0 +1,233 @@
+#include "app/window/commands.h"
+
+#include "app/window/accuracy/views.h"
+#include "app/window/edit/object_list.h"
+
+#include <utility>
+
+/// The table of commands, in the order of the palette and of the help table.
+namespace tyndall {
+namespace {
+
+constexpr Key no_key{}, esc_key{256}, tab_key{258}, insert_key{260}, delete_key{261}, home_key{268}, f1_key{290},
+    f2_key{291}, f11_key{300};
+constexpr Key plain(char letter) { return {letter}; }
+constexpr Key ctrl(char letter) { return {letter, true}; }
+constexpr Key shift(char letter) { return {letter, false, true}; }
+constexpr Key ctrl_shift(char letter) { return {letter, true, true}; }
+
+Theme other_theme(Theme theme) { return theme == Theme::dark ? Theme::light : Theme::dark; }
+
+}  // namespace
+
+const char* Commands::needs_scene(const Commands& c, const std::string&) {
+  const char* why = "this is a picture without a scene: it can be looked at, compared and saved";
+  return c.session_.shows_picture() ? why : "";
+}
+
+const char* Commands::needs_rendering(const Commands& c, const std::string& none) {
+  return c.session_.renders() ? "" : needs_scene(c, none);
+}
+
+const char* Commands::needs_selection(const Commands& c, const std::string& none) {
+  const char* why = needs_scene(c, none);
+  return *why || !c.panels_.selected.empty() ? why : "select an object first: click on it";
+}
+
+/// A view of errors needs something to measure against.
+const char* Commands::needs_of_view(const Commands& c, const std::string& name) {
+  const int number = view_named(name);
+  const bool of_scene = is_view_of_scene(number), of_beauty = view_entry(number).view == View::beauty;
+  const char* why = of_scene ? needs_scene(c, name) : of_beauty ? "" : needs_rendering(c, name);
+  const bool measures = !shows_errors(number) || c.session_.can_show_errors();
+  return *why || measures ? why : "load a reference first: see Speed and accuracy";
+}
+
+const char* Commands::needs_of_part(const Commands& c, const std::string& part) {
+  return is_part_of_scene(part) ? needs_scene(c, part) : "";
+}
+
+std::vector<Command> Commands::table_of_objects() {
+  constexpr unsigned to_object = in_object_menu;
+  std::vector<Command> table = {
+      {"deselect", "unselect, select none, clear selection", esc_key, 0, [](Commands& c, auto&) { c.escape(); }},
+      {"move the selection", "move, translate the selection, drag", plain('G'), to_object,
+       [](Commands& c, auto&) { c.objects_.grab(); }, needs_selection,
+       "then X, Y or Z, the mouse or a number; Enter or Esc"},
+      {"add an object", "new object, create, insert", insert_key, 0,
+       [](Commands& c, auto&) { c.objects_.look_under_mouse(), c.open_menu("Add here", in_add_menu); }, needs_scene,
+       "at the cursor"},
+      {"duplicate", "copy, clone", ctrl('D'), to_object | beside_previous,
+       [](Commands& c, auto&) { c.objects_.duplicate(); }, needs_selection},
+      {"delete", "remove, erase", delete_key, to_object | beside_previous,
+       [](Commands& c, auto&) { c.objects_.remove(); }, needs_selection},
+      {"rename", "name, object name, title", f2_key, to_object | beside_previous,
+       [](Commands& c, auto&) { c.panels_.rename = c.shows_panels_ = true; }, needs_selection},
+      {"make single user", "copy the material, unlink", no_key, to_object,
+       [](Commands& c, auto&) { c.objects_.own_material(); }, needs_selection}};
+  for (const Addition& what : additions())
+    table.push_back({std::string("add ") + what.name,
+                     what.words,
+                     no_key,
+                     in_add_menu | to_object,
+                     [](Commands& c, const std::string& name) { c.objects_.add(addition_named(name)); },
+                     needs_scene,
+                     "",
+                     {},
+                     what.name});
+  return table;
+}
+
+std::vector<Command> Commands::table_of_picture() {
+  return {
+      {"frame the selection", "zoom to, centre, center, frame selected, view selected, zoom selected", plain('F'),
+       in_object_menu, [](Commands& c, auto&) { c.frame_selection(); }, needs_selection},
+      {"reset the camera", "home, reset view", home_key, beside_previous, [](Commands& c, auto&) { c.reset_camera(); },
+       needs_scene},
+      {"inspect pixels", "pick, probe, pixel value, eyedropper, color picker", plain('I'), 0,
+       [](Commands& c, auto&) { c.picture_.inspect(); }, nullptr, "value, error and object under the cursor"},
+      {"why noisy", "path, fireflies, variance, light paths", shift('I'), beside_previous,
+       [](Commands& c, auto&) { c.picture_.find_path(); }, needs_scene, "the path that adds most to that pixel"},
+      {"actual size", "1:1, zoom 1:1, 100 %, pixel for pixel", plain('0'), 0,
+       [](Commands& c, auto&) { c.picture_.toggle_actual_size(); }, nullptr,
+       "one pixel for each of the screen's; again: all of it"},
+      {"refine a rectangle first", "region, crop, render region, render border, border, region of interest", ctrl('B'),
+       0, [](Commands& c, auto&) { c.picture_.refine(); }, needs_scene, "then drag; again: the whole picture"},
+      {"store the camera", "bookmark, camera bookmark, save camera", no_key, 0,
+       [](Commands& c, auto&) { c.picture_.store_camera(); }, needs_scene},
+      {"next stored camera", "switch camera, cycle cameras", no_key, 0,
+       [](Commands& c, auto&) { c.picture_.look_through_next(); }, needs_scene},
+      {"play or stop the film", "play, animate, animation, film", plain('P'), 0, [](Commands& c, auto&) { c.play(); },
+       needs_scene, "of values with keys: right click on a row"},
+      {"film through the stored cameras", "animate the cameras, camera path, fly through", no_key, 0,
+       [](Commands& c, auto&) { c.key_cameras(); }, needs_scene},
+      {"pause or go on", "stop, resume, continue", plain(' '), 0,
+       [](Commands& c, auto&) { c.session_.wanted().paused = !c.session_.wanted().paused; }, needs_rendering},
+      {"start over", "restart, render again, clear", plain('R'), beside_previous | begins_picture,
+       [](Commands& c, auto&) { ++c.session_.wanted().restarts; }, needs_rendering}};
+}
+
+std::vector<Command> Commands::table_of_files() {
+  return {{"undo", "back, revert", ctrl('Z'), 0, [](Commands& c, auto&) { c.session_.editor().undo(); }},
+          {"redo", "repeat", ctrl_shift('Z'), beside_previous, [](Commands& c, auto&) { c.session_.editor().redo(); },
+           nullptr, "", ctrl('Y')},
+          {"open a file", "load, import, browse", ctrl('O'), 0, [](Commands& c, auto&) { c.dialog_ = open_dialog(); },
+           nullptr, "a scene, or an image that Tyndall made"},
+          {"save the scene", "write", ctrl('S'), 0, [](Commands& c, auto&) { c.save(); }, needs_scene},
+          {"save as", "save a copy, export the scene", ctrl_shift('S'), beside_previous,
+           [](Commands& c, auto&) { c.save_as(); }, needs_scene},
+          {"snapshot", "screenshot, export, export image, save image, save picture", ctrl('P'), 0,
+           [](Commands& c, auto&) { c.session_.snapshot(); }, nullptr, "PNG and EXR, numbered"}};
+}
+
+std::vector<Command> Commands::table_of_views() {
+  std::vector<Command> table = {
+      {"clean view on or off", "clean, denoise, denoiser, denoising, filter", plain('N'), begins_picture,
+       [](Commands& c, auto&) { c.session_.set_clean(!c.session_.clean()); }, needs_scene, "noise filtered away"},
+      {"clean beside raw", "compare clean and raw, denoise beside raw", shift('N'), beside_previous | begins_picture,
+       [](Commands& c, auto&) { c.session_.set_clean_beside_raw(!c.session_.clean_beside_raw()); }, needs_scene},
+      {"split view", "split, split screen, A/B, compare, compare settings, side by side", no_key, begins_picture,
+       [](Commands& c, auto&) { c.session_.split() ? c.end_split() : c.session_.set_split(true); }, needs_scene},
+      {"reference picture", "reference, reference image, ground truth, compare with an image, true error", no_key, 0,
+       [](Commands& c, auto&) { c.dialog_ = reference_dialog(c.session_.accuracy().reference() != nullptr); }},
+      {"export the chart", "csv, svg, export csv, save the chart", no_key, 0,
+       [](Commands& c, auto&) { c.session_.export_chart(); }}};
+  for (int k = 0; k < view_count; ++k)
+    table.push_back({std::string("view: ") + view_entry(k).name,
+                     view_entry(k).words,
+                     k < keyed_views ? plain(static_cast<char>('1' + k)) : no_key,
+                     begins_picture | shows_view,
+                     [](Commands& c, const std::string& name) { c.show_view(view_named(name)); },
+                     needs_of_view,
+                     "",
+                     {},
+                     view_entry(k).name});
+  return table;
+}
+
+std::vector<Command> Commands::table_of_window() {
+  return {
+      {"hide the panels", "show the panels, show the column, sidebar, toggle sidebar, hide ui", tab_key, 0,
+       [](Commands& c, auto&) { c.shows_panels_ = !c.shows_panels_; }},
+      {"full screen", "maximize, maximise", f11_key, beside_previous,
+       [](Commands& c, auto&) { c.platform_.toggle_full_screen(); }},
+      {"larger text", "font size, larger font, bigger text, preferences, settings", ctrl('+'), 0,
+       [](Commands& c, auto&) { c.step_text_size(1); }},
+      {"smaller text", "smaller font", ctrl('-'), beside_previous, [](Commands& c, auto&) { c.step_text_size(-1); }},
+      {"usual text", "reset font size", ctrl('0'), beside_previous,
+       [](Commands& c, auto&) { c.panels_.look.text_size = 1; }},
+      {"dark or light theme", "dark mode, light mode, colours of the window, colors of the window", no_key, 0,
+       [](Commands& c, auto&) { c.panels_.look.theme = other_theme(c.panels_.look.theme); }},
+      {"close the window", "exit, quit", ctrl('Q'), 0, [](Commands& c, auto&) { c.ask_to_close(); }},
+      {"all actions by name", "", ctrl('K'), 0, [](Commands& c, auto&) { c.open_palette(); }, nullptr,
+       "and all rows: ior, roughness, fov"},
+      {"this table", "help, keys, shortcuts, hotkeys, keymap, manual", f1_key, 0,
+       [](Commands& c, auto&) { c.shows_help_ = !c.shows_help_; }, nullptr, "", plain('H')}};
+}
+
+/// What only controls, answers to questions and lines of the palette ask for.
+std::vector<Command> Commands::unlisted_table() {
+  return {
+      {"menu", "", no_key, unlisted,  // of what is selected
+       [](Commands& c, auto&) {
+         const bool none = c.panels_.selected.empty();
+         c.open_menu(none ? "Add here" : title_of(c.session_.editor().scene(), c.panels_.selected), in_object_menu);
+       }},
+      {"part", "", no_key, unlisted,  // of the column; argument: its tab
+       [](Commands& c, const std::string& name) { c.panels_.tabs.jump = tab_named(name), c.shows_panels_ = true; },
+       needs_of_part},
+      {"row", "", no_key, unlisted,  // of the column; argument: its part and its label, "Camera/Focus"
+       [](Commands& c, const std::string& place) { c.go_to_row(place); },
+       [](const Commands& c, const std::string& place) { return needs_of_part(c, place.substr(0, place.find('/'))); }},
+      {"vary", "", no_key, unlisted, [](Commands& c, const std::string& pointer) { c.vary(pointer); }},
+      {"key", "", no_key, unlisted, [](Commands& c, const std::string& pointer) { c.add_key(pointer); }, needs_scene},
+      {"scene", "", no_key, unlisted,  // argument: as load_scene takes it
+       [](Commands& c, const std::string& what) { c.session_.editor().open(what); }},
+      {"clean", "", no_key, unlisted | begins_picture,  // argument: off, on or beside raw
+       [](Commands& c, const std::string& how) {
+         c.session_.set_clean(how != "off"), c.session_.set_clean_beside_raw(how == "beside raw");
+       },
+       needs_scene},
+      {"render at", "", no_key, unlisted | begins_picture,  // argument: the size of the file or of the window
+       [](Commands& c, const std::string& size) { c.panels_.model.at_window = size == "window"; }},
+      {"threads", "", no_key, unlisted,
+       [](Commands& c, const std::string& count) { c.session_.wanted().threads = std::stoi(count); }},
+      {"keep half", "", no_key, unlisted | begins_picture,  // argument: A, the left one, or B
+       [](Commands& c, const std::string& half) { c.session_.keep_half(half == "A" ? Half::kept : Half::current); }},
+      {"keep the edits", "", no_key, unlisted,  // another program has changed the file
+       [](Commands& c, auto&) { c.session_.editor().answer_about_file(false); }},
+      {"take the file", "", no_key, unlisted, [](Commands& c, auto&) { c.session_.editor().answer_about_file(true); }},
+      {"open", "", no_key, unlisted,  // argument: the file of a scene, a picture of one, or a reference
+       [](Commands& c, const std::string& file) {
+         c.session_.references().open_dropped(std::filesystem::absolute(file));
+       }},
+      {"sky", "", no_key, unlisted,  // argument: its file
+       [](Commands& c, const std::string& file) { c.session_.editor().set_sky(file); }},
+      {"save to", "", no_key, unlisted,  // argument: the file, which is replaced if it exists
+       [](Commands& c, const std::string& file) { c.save_to(file); }},
+      {"save named", "", no_key, unlisted,  // argument: the file, as the user has typed it
+       [](Commands& c, const std::string& file) { c.save_named(file); }},
+      {"save and close", "", no_key, unlisted,  // the edits that no file has, wherever they are
+       [](Commands& c, auto&) { c.closing_.save(), c.session_.editor().go_to_unsaved(), c.save(); }},
+      {"discard and close", "", no_key, unlisted, [](Commands& c, auto&) { c.closing_.discard(); }},
+      {"open the reference", "", no_key, unlisted,  // argument: its file
+       [](Commands& c, const std::string& file) { c.session_.references().open(file); }},
+      {"render a reference", "", no_key, unlisted, [](Commands& c, auto&) { c.session_.render_reference(); },
+       needs_scene},
+      {"drop the reference", "", no_key, unlisted, [](Commands& c, auto&) { c.session_.references().drop(); }}};
+}
+
+std::vector<Command> Commands::table() {
+  std::vector<Command> all;
+  for (const auto& part : {table_of_objects(), table_of_picture(), table_of_files(), table_of_views(),
+                           table_of_window(), unlisted_table()})
+    all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+const std::vector<Command>& commands() {
+  static const std::vector<Command> all = Commands::table();
+  return all;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,93 @@
+#pragma once
+#include "app/window/system/imgui_compat.h"
+#include "app/window/system/platform.h"
+
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <cstring>
+#include <mutex>
+#include <set>
+#include <string>
+#include <utility>
+
+/// A window system and an OpenGL of nothing: frames are built and thrown away.
+namespace tyndall::test {
+
+inline const unsigned char* version_text(GLenum) { return reinterpret_cast<const unsigned char*>("3.3"); }
+inline void give_number(GLenum what, GLint* number) { *number = what == GL_MAX_TEXTURE_SIZE ? 16384 : 0; }
+inline void give_number_of(GLuint, GLenum, GLint* number) { *number = 1; }
+inline void do_nothing() {}
+
+inline GLADapiproc null_function(const char* name) {
+  const auto is = [&](const char* other) { return std::strcmp(name, other) == 0; };
+  if (is("glGetString")) return reinterpret_cast<GLADapiproc>(version_text);
+  if (is("glGetIntegerv")) return reinterpret_cast<GLADapiproc>(give_number);
+  if (is("glGetShaderiv") || is("glGetProgramiv")) return reinterpret_cast<GLADapiproc>(give_number_of);
+  return reinterpret_cast<GLADapiproc>(do_nothing);
+}
+
+/// A window system that shows nothing. Input comes from a Driver, one event before each frame.
+class NullPlatform : public Platform {
+ public:
+  NullPlatform();
+  ~NullPlatform() override { ImGui::DestroyContext(); }
+
+  void wait(double seconds) override;
+  InputEvents take_events() override { return std::exchange(events, {}); }
+  bool take_close_wish() override { return false; }
+  void hide() override {}
+  WindowSize size() const override { return {1280, 2640, 1280, 2640, 1, 1}; }
+  const std::set<int>& held() const override { return held_; }
+  bool shift_held() const override { return false; }
+  void set_title(const std::string&) override {}
+  void toggle_full_screen() override {}
+  void begin_frame() override { compat::new_frame(); }
+  void clear() override {}
+  void end_frame() override;
+  void drop_frame() override { ImGui::EndFrame(); }
+  void skip_frame() override {}
+  void renew_fonts() override;
+  void wake() override;
+
+  InputEvents events;  ///< for the next frame
+
+ private:
+  std::set<int> held_;
+  std::mutex mutex_;
+  std::condition_variable news_;
+  bool woken_ = false;
+};
+
+inline NullPlatform::NullPlatform() {
+  gladLoadGL(null_function);
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = io.LogFilename = nullptr;
+  io.DisplaySize = {1280, 2640};
+  io.DeltaTime = 1.0f / 60;
+  compat::init_without_window(io);
+}
+
+inline void NullPlatform::wait(double seconds) {
+  std::unique_lock lock(mutex_);
+  news_.wait_for(lock, std::chrono::duration<double>(std::min(seconds, 0.02)), [&] { return woken_; });
+  woken_ = false;
+}
+
+inline void NullPlatform::wake() {
+  const std::lock_guard lock(mutex_);
+  woken_ = true;
+  news_.notify_one();
+}
+
+inline void NullPlatform::end_frame() {
+  ImGui::Render();
+  compat::textures_without_window();
+}
+
+inline void NullPlatform::renew_fonts() { compat::init_without_window(ImGui::GetIO()); }
+
+}  // namespace tyndall::test

@@ -1,0 +1,92 @@
+#include "core/scene/slots.h"
+
+#include "core/scene/pointer_values.h"
+#include "tests/scene/random_scene.h"
+
+#include <doctest/doctest.h>
+
+namespace tyndall::test::slots_test {
+
+namespace {
+
+void add_parts(const std::vector<Object>& objects, const std::string& before, std::vector<std::string>& parts) {
+  const auto add_steps = [&](const std::string& owner, const Transform& transform) {
+    for (std::size_t k = 0; k < transform.size(); ++k) parts.push_back(owner + "/transform/" + std::to_string(k));
+  };
+  for (std::size_t k = 0; k < objects.size(); ++k) {
+    const std::string part = before + "/objects/" + std::to_string(k);
+    parts.push_back(part);
+    add_steps(part, objects[k].transform);
+    if (const Volume* volume = std::get_if<Volume>(&objects[k].kind)) {
+      parts.push_back(part + "/boundary");
+      add_steps(part + "/boundary", volume->boundary_transform);
+    }
+    if (const Group* group = std::get_if<Group>(&objects[k].kind)) add_parts(group->objects, part, parts);
+  }
+}
+
+/// All parts of a scene.
+std::vector<std::string> parts_of(const Scene& scene) {
+  std::vector<std::string> parts{"", "/camera", "/render", "/display", "/image", "/animation", "/background"};
+  for (const Material& material : scene.materials) parts.push_back("/materials/" + pointer_step(material.name));
+  for (const Texture& texture : scene.textures) parts.push_back("/textures/" + pointer_step(texture.name));
+  add_parts(scene.objects, "", parts);
+  return parts;
+}
+
+/// As a scene's file has it.
+JsonValue json_of(const Slot& slot) {
+  if (slot.form == ValueForm::choice)
+    return {std::string(slot.choices[static_cast<std::size_t>(std::get<double>(slot.value))].name)};
+  if (slot.form == ValueForm::flag) return {std::get<double>(slot.value) != 0};
+  if (const double* number = std::get_if<double>(&slot.value)) return {*number};
+  const Vec3d vector = std::get<Vec3d>(slot.value);
+  return {JsonArray{{vector.x}, {vector.y}, {vector.z}}};
+}
+
+}  // namespace
+
+TEST_CASE("slots: values by their pointers are those of the scene's document, and are set as there") {
+  int seen = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    const Scene scene = SceneGenerator(seed).scene();
+    for (const std::string& part : parts_of(scene))
+      for (const Slot& slot : slots_of(scene, part)) {
+        const auto written = value_at_pointer(scene, slot.pointer);
+        const bool open = !slot.given || slot.pointer == "/render/spp";
+        if (!open) REQUIRE_MESSAGE(written, slot.pointer);
+        if (!written || !slot.given || (open && std::get<double>(slot.value) == 0)) continue;
+        CHECK_MESSAGE(print_json(*written) == print_json(json_of(slot)), slot.pointer);
+        Scene again = scene;
+        CHECK(put_value(again, slot.pointer, slot.standard));
+        CHECK(put_value(again, slot.pointer, slot.value));
+        CHECK_MESSAGE(again == scene, slot.pointer);
+        ++seen;
+      }
+  }
+  CHECK(seen > 3000);
+}
+
+TEST_CASE("slots: what a scene does not have is not found and not set") {
+  Scene scene;
+  const Scene before = scene;
+  for (const char* pointer :
+       {"/camera/fov", "/materials/gold/fuzz", "/objects/0/radius", "/animation/frames", "camera", ""}) {
+    CHECK_FALSE(find_slot(scene, pointer));
+    CHECK_FALSE(put_value(scene, pointer, 1.0));
+  }
+  CHECK(scene == before);
+}
+
+TEST_CASE("slots: a sample limit of 0 is none, and labels name fields in plain words") {
+  Scene scene;
+  CHECK(put_value(scene, "/render/spp", 16.0));
+  CHECK(scene.render.spp == 16);
+  CHECK(put_value(scene, "/render/spp", 0.0));
+  CHECK_FALSE(scene.render.spp);
+  CHECK(find_slot(scene, "/render/spp")->label == "Limit");
+  CHECK(find_slot(scene, "/camera/vfov")->label == "Field of view");
+  CHECK_FALSE(find_slot(scene, "/camera/focus_distance")->given);
+}
+
+}  // namespace tyndall::test::slots_test
