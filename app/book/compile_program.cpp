@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <regex>
 #include <sstream>
 #include <system_error>
 
@@ -110,6 +111,24 @@ fs::path source_beside(const fs::path& header) {
   return {};
 }
 
+/// The header that no folder has, from what a compiler says; empty: it says something else.
+std::string missing_header(const std::string& errors) {
+  static const std::regex gcc("fatal error: ([^\\s]+): No such file"), clang("fatal error: '([^']+)' file not found");
+  std::smatch found;
+  return std::regex_search(errors, found, gcc) || std::regex_search(errors, found, clang) ? found[1].str() : "";
+}
+
+/// The folder in the program's own, or in the one or two above it, that holds a header, such as ../common; empty: none.
+fs::path folder_with(const std::string& header, const fs::path& program) {
+  std::error_code error;
+  fs::path above = program.parent_path(), first;
+  for (int up = 0; up < 3 && !header.empty() && first.empty(); ++up, above = above.parent_path())
+    for (const fs::directory_entry& entry : fs::directory_iterator(above, error))
+      if (fs::is_regular_file(entry.path() / header, error) && (first.empty() || entry.path() < first))
+        first = entry.path();
+  return first;
+}
+
 class Compilation {
  public:
   Compilation(const ProgramTask& task, const ProgramSources& sources)
@@ -153,7 +172,14 @@ class Compilation {
       for (const fs::path& source : sources_) all += "#include \"" + source.string() + "\"\n";
       write_text(task_.folder / "all.cc", all);
       const ChildEnd end = call({"-E", "all.cc", "-o", "all.ii"});
-      if (!end.succeeded()) return all_printable(first_error(end.errors, main_));
+      if (!end.succeeded()) {
+        const fs::path folder = folder_with(missing_header(end.errors), sources_.front());
+        if (folder.empty() || std::find(options_.begin(), options_.end(), folder) != options_.end())
+          return all_printable(first_error(end.errors, main_));
+        options_.insert(options_.end(), {"-I", folder.string()});
+        known = 0;
+        continue;
+      }
       text_ = read_text(task_.folder / "all.ii");
       outline_ = outline_of(text_, {headers_, task_.folder});
       add_sources();

@@ -11,6 +11,9 @@ expect 0 "$tyndall" chart several/main.cc -I several/include --size 8x6 --budget
 # A source file beside the header that announces its functions is found; one of another name is not.
 expect 0 "$tyndall" convert several/main.cc -Iseveral/include -o beside.json
 same 'the source file beside world.h' "$(cat beside.json)" "$(cat several.json)"
+# So is a folder of headers beside main.cc, or beside its folder.
+expect 0 "$tyndall" convert several/main.cc -o beside.json
+same 'the folder of headers' "$(cat beside.json)" "$(cat several.json)"
 mv several/world.cc several/balls.cc
 expect 2 "$tyndall" convert several/main.cc -Iseveral/include -o several.json
 complains 'several/main.cc: undefined reference to' 'balls()' 'name that, too'
