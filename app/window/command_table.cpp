@@ -20,31 +20,31 @@ Theme other_theme(Theme theme) { return theme == Theme::dark ? Theme::light : Th
 
 }  // namespace
 
-const char* Commands::needs_scene(const Commands& c, const std::string&) {
+const char* Commands::requires_scene(const Commands& c, const std::string&) {
   const char* why = "this is a picture without a scene: it can be looked at, compared and saved";
   return c.session_.shows_picture() ? why : "";
 }
 
-const char* Commands::needs_rendering(const Commands& c, const std::string& none) {
-  return c.session_.renders() ? "" : needs_scene(c, none);
+const char* Commands::requires_rendering(const Commands& c, const std::string& none) {
+  return c.session_.renders() ? "" : requires_scene(c, none);
 }
 
-const char* Commands::needs_selection(const Commands& c, const std::string& none) {
-  const char* why = needs_scene(c, none);
+const char* Commands::requires_selection(const Commands& c, const std::string& none) {
+  const char* why = requires_scene(c, none);
   return *why || !c.panels_.selected.empty() ? why : "select an object first: click on it";
 }
 
 /// A view of errors needs something to measure against.
-const char* Commands::needs_of_view(const Commands& c, const std::string& name) {
+const char* Commands::requires_of_view(const Commands& c, const std::string& name) {
   const int number = view_named(name);
   const bool of_scene = is_view_of_scene(number), of_beauty = view_entry(number).view == View::beauty;
-  const char* why = of_scene ? needs_scene(c, name) : of_beauty ? "" : needs_rendering(c, name);
+  const char* why = of_scene ? requires_scene(c, name) : of_beauty ? "" : requires_rendering(c, name);
   const bool measures = !shows_errors(number) || c.session_.can_show_errors();
   return *why || measures ? why : "load a reference first: see Speed and accuracy";
 }
 
-const char* Commands::needs_of_part(const Commands& c, const std::string& part) {
-  return is_part_of_scene(part) ? needs_scene(c, part) : "";
+const char* Commands::requires_of_part(const Commands& c, const std::string& part) {
+  return is_part_of_scene(part) ? requires_scene(c, part) : "";
 }
 
 std::vector<Command> Commands::table_of_objects() {
@@ -52,26 +52,26 @@ std::vector<Command> Commands::table_of_objects() {
   std::vector<Command> table = {
       {"deselect", "unselect, select none, clear selection", esc_key, 0, [](Commands& c, auto&) { c.escape(); }},
       {"move the selection", "move, translate the selection, drag", plain('G'), to_object,
-       [](Commands& c, auto&) { c.objects_.grab(); }, needs_selection,
+       [](Commands& c, auto&) { c.objects_.grab(); }, requires_selection,
        "then X, Y or Z, the mouse or a number; Enter or Esc"},
       {"add an object", "new object, create, insert", insert_key, 0,
-       [](Commands& c, auto&) { c.objects_.look_under_mouse(), c.open_menu("Add here", in_add_menu); }, needs_scene,
+       [](Commands& c, auto&) { c.objects_.look_under_mouse(), c.open_menu("Add here", in_add_menu); }, requires_scene,
        "at the cursor"},
       {"duplicate", "copy, clone", ctrl('D'), to_object | beside_previous,
-       [](Commands& c, auto&) { c.objects_.duplicate(); }, needs_selection},
+       [](Commands& c, auto&) { c.objects_.duplicate(); }, requires_selection},
       {"delete", "remove, erase", delete_key, to_object | beside_previous,
-       [](Commands& c, auto&) { c.objects_.remove(); }, needs_selection},
+       [](Commands& c, auto&) { c.objects_.remove(); }, requires_selection},
       {"rename", "name, object name, title", f2_key, to_object | beside_previous,
-       [](Commands& c, auto&) { c.panels_.rename = c.shows_panels_ = true; }, needs_selection},
+       [](Commands& c, auto&) { c.panels_.rename = c.shows_panels_ = true; }, requires_selection},
       {"make single user", "copy the material, unlink", no_key, to_object,
-       [](Commands& c, auto&) { c.objects_.own_material(); }, needs_selection}};
+       [](Commands& c, auto&) { c.objects_.own_material(); }, requires_selection}};
   for (const Addition& what : additions())
     table.push_back({std::string("add ") + what.name,
                      what.words,
                      no_key,
                      in_add_menu | to_object,
                      [](Commands& c, const std::string& name) { c.objects_.add(addition_named(name)); },
-                     needs_scene,
+                     requires_scene,
                      "",
                      {},
                      what.name});
@@ -81,30 +81,30 @@ std::vector<Command> Commands::table_of_objects() {
 std::vector<Command> Commands::table_of_picture() {
   return {
       {"frame the selection", "zoom to, centre, center, frame selected, view selected, zoom selected", plain('F'),
-       in_object_menu, [](Commands& c, auto&) { c.frame_selection(); }, needs_selection},
+       in_object_menu, [](Commands& c, auto&) { c.frame_selection(); }, requires_selection},
       {"reset the camera", "home, reset view", home_key, beside_previous, [](Commands& c, auto&) { c.reset_camera(); },
-       needs_scene},
+       requires_scene},
       {"inspect pixels", "pick, probe, pixel value, eyedropper, color picker", plain('I'), 0,
        [](Commands& c, auto&) { c.picture_.inspect(); }, nullptr, "value, error and object under the cursor"},
       {"why noisy", "path, fireflies, variance, light paths", shift('I'), beside_previous,
-       [](Commands& c, auto&) { c.picture_.find_path(); }, needs_scene, "the path that adds most to that pixel"},
+       [](Commands& c, auto&) { c.picture_.find_path(); }, requires_scene, "the path that adds most to that pixel"},
       {"actual size", "1:1, zoom 1:1, 100 %, pixel for pixel", plain('0'), 0,
        [](Commands& c, auto&) { c.picture_.toggle_actual_size(); }, nullptr,
        "one pixel for each of the screen's; again: all of it"},
       {"refine a rectangle first", "region, crop, render region, render border, border, region of interest", ctrl('B'),
-       0, [](Commands& c, auto&) { c.picture_.refine(); }, needs_scene, "then drag; again: the whole picture"},
+       0, [](Commands& c, auto&) { c.picture_.refine(); }, requires_scene, "then drag; again: the whole picture"},
       {"store the camera", "bookmark, camera bookmark, save camera", no_key, 0,
-       [](Commands& c, auto&) { c.picture_.store_camera(); }, needs_scene},
+       [](Commands& c, auto&) { c.picture_.store_camera(); }, requires_scene},
       {"next stored camera", "switch camera, cycle cameras", no_key, 0,
-       [](Commands& c, auto&) { c.picture_.look_through_next(); }, needs_scene},
+       [](Commands& c, auto&) { c.picture_.look_through_next(); }, requires_scene},
       {"play or stop the film", "play, animate, animation, film", plain('P'), 0, [](Commands& c, auto&) { c.play(); },
-       needs_scene, "of values with keys: right click on a row"},
+       requires_scene, "of values with keys: right click on a row"},
       {"film through the stored cameras", "animate the cameras, camera path, fly through", no_key, 0,
-       [](Commands& c, auto&) { c.key_cameras(); }, needs_scene},
+       [](Commands& c, auto&) { c.key_cameras(); }, requires_scene},
       {"pause or go on", "stop, resume, continue", plain(' '), 0,
-       [](Commands& c, auto&) { c.session_.wanted().paused = !c.session_.wanted().paused; }, needs_rendering},
+       [](Commands& c, auto&) { c.session_.wanted().paused = !c.session_.wanted().paused; }, requires_rendering},
       {"start over", "restart, render again, clear", plain('R'), beside_previous | begins_picture,
-       [](Commands& c, auto&) { ++c.session_.wanted().restarts; }, needs_rendering}};
+       [](Commands& c, auto&) { ++c.session_.wanted().restarts; }, requires_rendering}};
 }
 
 std::vector<Command> Commands::table_of_files() {
@@ -113,9 +113,9 @@ std::vector<Command> Commands::table_of_files() {
            nullptr, "", ctrl('Y')},
           {"open a file", "load, import, browse", ctrl('O'), 0, [](Commands& c, auto&) { c.dialog_ = open_dialog(); },
            nullptr, "a scene, or an image that Tyndall made"},
-          {"save the scene", "write", ctrl('S'), 0, [](Commands& c, auto&) { c.save(); }, needs_scene},
+          {"save the scene", "write", ctrl('S'), 0, [](Commands& c, auto&) { c.save(); }, requires_scene},
           {"save as", "save a copy, export the scene", ctrl_shift('S'), beside_previous,
-           [](Commands& c, auto&) { c.save_as(); }, needs_scene},
+           [](Commands& c, auto&) { c.save_as(); }, requires_scene},
           {"snapshot", "screenshot, export, export image, save image, save picture", ctrl('P'), 0,
            [](Commands& c, auto&) { c.session_.snapshot(); }, nullptr, "PNG and EXR, numbered"}};
 }
@@ -123,11 +123,11 @@ std::vector<Command> Commands::table_of_files() {
 std::vector<Command> Commands::table_of_views() {
   std::vector<Command> table = {
       {"clean view on or off", "clean, denoise, denoiser, denoising, filter", plain('N'), begins_picture,
-       [](Commands& c, auto&) { c.session_.set_clean(!c.session_.clean()); }, needs_scene, "noise filtered away"},
+       [](Commands& c, auto&) { c.session_.set_clean(!c.session_.clean()); }, requires_scene, "noise filtered away"},
       {"clean beside raw", "compare clean and raw, denoise beside raw", shift('N'), beside_previous | begins_picture,
-       [](Commands& c, auto&) { c.session_.set_clean_beside_raw(!c.session_.clean_beside_raw()); }, needs_scene},
+       [](Commands& c, auto&) { c.session_.set_clean_beside_raw(!c.session_.clean_beside_raw()); }, requires_scene},
       {"split view", "split, split screen, A/B, compare, compare settings, side by side", no_key, begins_picture,
-       [](Commands& c, auto&) { c.session_.split() ? c.end_split() : c.session_.set_split(true); }, needs_scene},
+       [](Commands& c, auto&) { c.session_.split() ? c.end_split() : c.session_.set_split(true); }, requires_scene},
       {"reference picture", "reference, reference image, ground truth, compare with an image, true error", no_key, 0,
        [](Commands& c, auto&) { c.dialog_ = reference_dialog(c.session_.accuracy().reference() != nullptr); }},
       {"export the chart", "csv, svg, export csv, save the chart", no_key, 0,
@@ -138,7 +138,7 @@ std::vector<Command> Commands::table_of_views() {
                      k < keyed_views ? plain(static_cast<char>('1' + k)) : no_key,
                      begins_picture | shows_view,
                      [](Commands& c, const std::string& name) { c.show_view(view_named(name)); },
-                     needs_of_view,
+                     requires_of_view,
                      "",
                      {},
                      view_entry(k).name});
@@ -175,19 +175,22 @@ std::vector<Command> Commands::unlisted_table() {
        }},
       {"part", "", no_key, unlisted,  // of the column; argument: its tab
        [](Commands& c, const std::string& name) { c.panels_.tabs.jump = tab_named(name), c.shows_panels_ = true; },
-       needs_of_part},
+       requires_of_part},
       {"row", "", no_key, unlisted,  // of the column; argument: its part and its label, "Camera/Focus"
        [](Commands& c, const std::string& place) { c.go_to_row(place); },
-       [](const Commands& c, const std::string& place) { return needs_of_part(c, place.substr(0, place.find('/'))); }},
+       [](const Commands& c, const std::string& place) {
+         return requires_of_part(c, place.substr(0, place.find('/')));
+       }},
       {"vary", "", no_key, unlisted, [](Commands& c, const std::string& pointer) { c.vary(pointer); }},
-      {"key", "", no_key, unlisted, [](Commands& c, const std::string& pointer) { c.add_key(pointer); }, needs_scene},
+      {"key", "", no_key, unlisted, [](Commands& c, const std::string& pointer) { c.add_key(pointer); },
+       requires_scene},
       {"scene", "", no_key, unlisted,  // argument: as load_scene takes it
        [](Commands& c, const std::string& what) { c.session_.editor().open(what); }},
       {"clean", "", no_key, unlisted | begins_picture,  // argument: off, on or beside raw
        [](Commands& c, const std::string& how) {
          c.session_.set_clean(how != "off"), c.session_.set_clean_beside_raw(how == "beside raw");
        },
-       needs_scene},
+       requires_scene},
       {"render at", "", no_key, unlisted | begins_picture,  // argument: the size of the file or of the window
        [](Commands& c, const std::string& size) { c.panels_.model.at_window = size == "window"; }},
       {"threads", "", no_key, unlisted,
@@ -213,7 +216,7 @@ std::vector<Command> Commands::unlisted_table() {
       {"open the reference", "", no_key, unlisted,  // argument: its file
        [](Commands& c, const std::string& file) { c.session_.references().open(file); }},
       {"render a reference", "", no_key, unlisted, [](Commands& c, auto&) { c.session_.render_reference(); },
-       needs_scene},
+       requires_scene},
       {"drop the reference", "", no_key, unlisted, [](Commands& c, auto&) { c.session_.references().drop(); }}};
 }
 

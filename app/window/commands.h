@@ -72,11 +72,11 @@ class Commands {
   static std::vector<Command> table_of_window();
   static std::vector<Command> unlisted_table();
   // See Command::why_not.
-  static const char* needs_scene(const Commands& commands, const std::string& argument);
-  static const char* needs_rendering(const Commands& commands, const std::string& argument);
-  static const char* needs_selection(const Commands& commands, const std::string& argument);
-  static const char* needs_of_view(const Commands& commands, const std::string& name);
-  static const char* needs_of_part(const Commands& commands, const std::string& part);
+  static const char* requires_scene(const Commands& commands, const std::string& argument);
+  static const char* requires_rendering(const Commands& commands, const std::string& argument);
+  static const char* requires_selection(const Commands& commands, const std::string& argument);
+  static const char* requires_of_view(const Commands& commands, const std::string& name);
+  static const char* requires_of_part(const Commands& commands, const std::string& part);
 
   std::string why_not(const Command& command, const std::string& argument) const;
   bool take_key(const KeyPress& press);

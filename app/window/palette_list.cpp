@@ -32,7 +32,7 @@ std::vector<PaletteItem> palette_items(const Scene& scene, const ObjectPath& sel
   for (const RowEntry& row : row_entries(scene, selected))
     lines.push_back({name_of_row(row),
                      row.missing.empty() ? row.owner : row.missing,
-                     row.words,
+                     row.synonyms,
                      {"row", row.part + "/" + row.label}});
   add_commands(true);
   for (const Tab& tab : column_tabs())

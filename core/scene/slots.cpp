@@ -6,20 +6,20 @@
 namespace tyndall {
 
 std::string label_of(const char* name, const char* label) {
-  std::string words = *label ? label : name;
-  std::replace(words.begin(), words.end(), '_', ' ');
-  if (!words.empty()) words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
-  return words;
+  std::string text = *label ? label : name;
+  std::replace(text.begin(), text.end(), '_', ' ');
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
 }
 
 Slot colour_slot(std::string pointer, const char* name, Vec3d value) {
   const bool background = std::string_view(name) == "colour", shines = std::string_view(name) == "radiance";
   const Meaning meaning = colour_meaning(background ? "radiance" : name);
-  const char* words = background ? "background color, background colour, sky color, sky colour"
-                      : shines   ? "light texture, emission texture"
-                                 : "color, colour, base color, base colour, diffuse, tint, reflectance, texture";
-  Slot slot{std::move(pointer), label_of(name, ""), name, words, meaning.unit, meaning.help, meaning.valid,
-            meaning.slider,     ValueForm::colour};
+  const char* synonyms = background ? "background color, background colour, sky color, sky colour"
+                         : shines   ? "light texture, emission texture"
+                                    : "color, colour, base color, base colour, diffuse, tint, reflectance, texture";
+  Slot slot{std::move(pointer), label_of(name, ""), name,           synonyms,         "",
+            meaning.help,       meaning.valid,      meaning.slider, ValueForm::colour};
   if (background) slot.slider.high = 2;
   slot.value = value;
   slot.standard = background ? Vec3d{} : Vec3d{0.5, 0.5, 0.5};

@@ -25,7 +25,7 @@ enum class ValueForm { number, whole, flag, choice, place, colour };
 /// What is known of a value, whatever it is of.
 struct Slot {
   std::string pointer, label;
-  const char *name, *words;  ///< its key in files; what other programs call it, separated by ", "
+  const char *name, *synonyms;  ///< its key in files; what other programs call it, separated by ", "
   const char *unit, *help;
   Valid valid;
   Slider slider;

@@ -106,7 +106,7 @@ ObjectPaths add_matt(Scene& scene, const char* name, const decltype(Solid3d::sha
   return {append(scene, name, Solid3d{shape, matt(scene)})};
 }
 
-ObjectPaths add_hollow_ball(Scene& scene, const Spot& spot) {
+ObjectPaths add_hollow_sphere(Scene& scene, const Spot& spot) {
   const Standing standing{spot};
   const int material = glass(scene);
   const ObjectPath outer = append(scene, "shell", Solid3d{standing.sphere(standing.half), material});
@@ -116,7 +116,7 @@ ObjectPaths add_hollow_ball(Scene& scene, const Spot& spot) {
 constexpr Addition all_additions[] = {
     {"a sphere", "add a ball, sphere, ball",
      [](Scene& scene, const Spot& spot) { return add_matt(scene, "ball", Standing{spot}.sphere(0.5 * spot.size)); }},
-    {"a hollow ball", "hollow glass, bubble", add_hollow_ball},
+    {"a hollow ball", "hollow glass, bubble", add_hollow_sphere},
     {"a box", "cube, box, add a cube",
      [](Scene& scene, const Spot& spot) { return add_matt(scene, "box", Standing{spot}.box()); }},
     {"a quad", "plane, quad, add a plane",

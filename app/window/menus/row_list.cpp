@@ -11,7 +11,7 @@ namespace {
 
 /// A row that is no single value of the scene.
 struct SpecialRow {
-  const char *part, *label, *words;
+  const char *part, *label, *synonyms;
 };
 constexpr SpecialRow special_rows[] = {
     {"Camera", "Cameras", "stored cameras, camera slots"},
@@ -31,7 +31,7 @@ constexpr SpecialRow surface_rows[] = {
     {"Object", "Type", "material type, shader, bsdf, surface, metallic, metalness, transmission, glass"},
     {"Object", "Material", "assign material, materials"}};
 constexpr SpecialRow name_row_entry{"Object", "Name", "object title"};
-constexpr SpecialRow lamp_rows[] = {
+constexpr SpecialRow light_rows[] = {
     {"Object", "Colour", "light color, light colour, lamp color, lamp colour"},
     {"Object", "Power", "emission, emissive, intensity, strength, luminance, lamp power, light power"},
     {"Object", "Stops", "light stops"}};
@@ -40,21 +40,21 @@ constexpr SpecialRow lamp_rows[] = {
 class RowList {
  public:
   /// who: what must be selected for it, "fog"; of other parts than Object what to do first; "": the column has it now.
-  void add(const std::string& part, const std::string& label, const std::string& words, const std::string& owner,
+  void add(const std::string& part, const std::string& label, const std::string& synonyms, const std::string& owner,
            const std::string& who = "") {
     const auto found = std::find_if(rows_.begin(), rows_.end(),
                                     [&](const RowEntry& row) { return row.part == part && row.label == label; });
     if (found == rows_.end())
-      rows_.push_back({part, label, words, owner, who});
+      rows_.push_back({part, label, synonyms, owner, who});
     else if (!found->missing.empty() && found->missing.find(who) == std::string::npos)
       found->missing += " or " + who;
   }
   void add(const SpecialRow& row, const std::string& owner, const std::string& who = "") {
-    add(row.part, row.label, row.words, owner, who);
+    add(row.part, row.label, row.synonyms, owner, who);
   }
   void add(const char* part, const std::vector<Slot>& slots, const std::string& owner) {
     for (const Slot& slot : slots)
-      if (slot.given || slot.name == std::string_view("focus_distance")) add(part, slot.label, slot.words, owner);
+      if (slot.given || slot.name == std::string_view("focus_distance")) add(part, slot.label, slot.synonyms, owner);
   }
   /// The fields of a kind.
   template <class Kind>
@@ -62,7 +62,7 @@ class RowList {
     if constexpr (requires { fields(static_cast<const Kind*>(nullptr)); }) {
       const Kind kind{};
       each_in("", kind, [&](const Slot& slot, const Kind&) {
-        add(part, slot.label, slot.words, "", slot.given ? who : who + " that moves");
+        add(part, slot.label, slot.synonyms, "", slot.given ? who : who + " that moves");
         return false;
       });
     }
@@ -82,10 +82,10 @@ void add_colour(RowList& rows, const Scene& scene, const ColourOrTexture& colour
                 const std::string& owner) {
   const Slot slot = colour_slot("", name, {});
   const TextureIndex* index = std::get_if<TextureIndex>(&colour);
-  const bool lamp = name == std::string_view("radiance") && !index;
-  for (const SpecialRow& row : lamp_rows)
-    if (lamp) rows.add(row, owner);
-  if (!lamp) rows.add("Object", slot.label, slot.words, owner);
+  const bool light = name == std::string_view("radiance") && !index;
+  for (const SpecialRow& row : light_rows)
+    if (light) rows.add(row, owner);
+  if (!light) rows.add("Object", slot.label, slot.synonyms, owner);
   if (!index) return;
   const Texture& texture = scene.textures[static_cast<std::size_t>(index->index)];
   if (std::holds_alternative<Image>(texture.kind)) rows.add(picture_row, owner);
@@ -110,10 +110,10 @@ void add_object(RowList& rows, const Scene& scene, const ObjectPath& path, bool 
     rows.add("Object", own, owner);
     if (const char* name = colour_name(material->kind)) add_colour(rows, scene, material->colour, name, owner);
   }
-  const bool metal_ball = shape_of<Sphere<>>(object) && material && std::holds_alternative<Metal<>>(material->kind);
+  const bool metal_sphere = shape_of<Sphere<>>(object) && material && std::holds_alternative<Metal<>>(material->kind);
   std::erase_if(slots, is_colour);
   if (brief && !volume)
-    std::erase_if(slots, [&](const Slot& slot) { return !metal_ball || slot.name != std::string_view("radius"); });
+    std::erase_if(slots, [&](const Slot& slot) { return !metal_sphere || slot.name != std::string_view("radius"); });
   if (!brief && material)
     for (const SpecialRow& row : surface_rows) rows.add(row, owner);
   rows.add("Object", slots, owner);
@@ -142,10 +142,10 @@ void add_missing(RowList& rows) {
   rows.add_kind<Dielectric<>>("Object", "an object of glass");
   for (const char* colour : {"albedo", "radiance"}) {
     const Slot slot = colour_slot("", colour, {});
-    rows.add("Object", slot.label, slot.words, "",
+    rows.add("Object", slot.label, slot.synonyms, "",
              *colour == 'a' ? "an object with a colour" : "a lamp with a texture");
   }
-  for (const SpecialRow& row : lamp_rows) rows.add(row, "", "a lamp");
+  for (const SpecialRow& row : light_rows) rows.add(row, "", "a lamp");
   rows.add_kind<Checker<>>("Object", "an object with a checker texture");
   rows.add_kind<Noise<>>("Object", "an object with a noise texture");
   rows.add_kind<Solid<>>("Object", "an object with a texture of one colour");
@@ -160,7 +160,7 @@ void add_missing(RowList& rows) {
   rows.add(name_row_entry, "", "an object");
   rows.add_kind<Animation>("Film", "give a value a key first: right click on its row");
   const Slot colour = colour_slot("", "colour", {});
-  rows.add("Background", colour.label, colour.words, "", "choose colour as the background's kind first");
+  rows.add("Background", colour.label, colour.synonyms, "", "choose colour as the background's kind first");
   rows.add_kind<Gradient>("Background", "choose gradient as the background's kind first");
   rows.add_kind<Hemispheres>("Background", "choose hemispheres as the background's kind first");
   const char* no_sky = "drop a picture of the sky on the window first";

@@ -135,11 +135,11 @@ void brief_section(Ui& ui, PanelState& state, const ObjectPath& path) {
   if (!section(ui, title, kinds_of(*state.scene, object))) return;
   const Solid3d* solid = std::get_if<Solid3d>(&object.kind);
   if (solid) material_rows(ui, state, solid->material, true);
-  const bool metal_ball =
+  const bool metal_sphere =
       shape_of<Sphere<>>(object) && solid && std::holds_alternative<Metal<>>(material_of(*state.scene, object)->kind);
   const Scope scope(ui, title);
   part_rows(ui, state, part, [&](const Slot& slot) {
-    return solid ? metal_ball && slot.name == std::string_view("radius") : slot.form != ValueForm::colour;
+    return solid ? metal_sphere && slot.name == std::string_view("radius") : slot.form != ValueForm::colour;
   });
 }
 

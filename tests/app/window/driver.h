@@ -12,6 +12,7 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <utility>
 
 /// The whole window within a test: no display, no OpenGL, input by the names that controls have in its log.
 namespace tyndall::test {
@@ -34,7 +35,7 @@ class Driver {
   explicit Driver(const std::string& name);
   ~Driver();
 
-  /// Draws until nothing will change any more.
+  /// Draws what input leads to; after an edit until its picture is finished and nothing will change any more.
   void settle();
   /// Puts the mouse on a control; across and down: from 0 to 1.
   void point(const std::string& name, double across = 0.5, double down = 0.5);
@@ -72,8 +73,9 @@ class Driver {
   std::ifstream log_;
   std::map<std::string, Widget> widgets_;
   std::map<std::string, std::string> last_;
-  std::string newest_;  ///< the last line
-  int submits_ = 0;
+  std::string newest_;              ///< the last line
+  int drawn_ = 0;                   ///< how often
+  int submits_ = 0, settled_ = -1;  ///< now, and when it had settled last
 };
 
 inline Driver::Driver(const std::string& name)
@@ -82,9 +84,9 @@ inline Driver::Driver(const std::string& name)
   std::filesystem::create_directories(folder_ / "config/tyndall");
   std::filesystem::current_path(folder_);
   std::ofstream("config/tyndall/window.txt") << "clean off\n";
-  for (const auto& [variable, place] :
-       {std::pair{"XDG_STATE_HOME", "state"}, {"XDG_CONFIG_HOME", "config"}, {"XDG_CACHE_HOME", "cache"}})
+  for (const auto& [variable, place] : {std::pair{"XDG_STATE_HOME", "state"}, {"XDG_CONFIG_HOME", "config"}})
     setenv(variable, (folder_ / place).c_str(), 1);
+  setenv("XDG_CACHE_HOME", (scratch_folder() / "window_cache").c_str(), 1);  // small pictures of scenes, made once
   std::ofstream("scene.json") << scene_text;
   WindowOptions options;
   options.scene = load_scene("scene.json");
@@ -104,13 +106,20 @@ inline Driver::~Driver() {
 }
 
 inline void Driver::step() {
+  const int before = drawn_;
   platform_->events.any = true;
-  window_->step();
-  read_log();
+  for (int k = 0; k < 100 && drawn_ == before; ++k) {  // drawings keep a distance
+    window_->step();
+    read_log();
+  }
 }
 
 inline void Driver::settle() {
-  for (int k = 0; k < 8; ++k) step();  // what was typed or clicked reaches its control a few frames later
+  for (int k = 0; k < 4; ++k) step();  // what was typed or clicked reaches its control a few frames later
+  const float before = std::exchange(ImGui::GetIO().DeltaTime, 1.0f);  // tooltips that wait for a moment come now
+  step();
+  ImGui::GetIO().DeltaTime = before;
+  if (std::exchange(settled_, submits_) == submits_) return;
   for (int k = 0; k < 2000 && newest_ != "rest"; ++k) {
     window_->step();
     read_log();
@@ -137,6 +146,7 @@ inline void Driver::read_log() {
       std::getline(words >> std::ws, rest);
       last_[kind] = rest;
       submits_ += kind == "submit" ? 1 : 0;
+      drawn_ += kind == "drawn" ? 1 : 0;
     }
   }
 }

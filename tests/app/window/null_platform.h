@@ -73,7 +73,7 @@ inline NullPlatform::NullPlatform() {
 
 inline void NullPlatform::wait(double seconds) {
   std::unique_lock lock(mutex_);
-  news_.wait_for(lock, std::chrono::duration<double>(std::min(seconds, 0.02)), [&] { return woken_; });
+  news_.wait_for(lock, std::chrono::duration<double>(std::min(seconds, 0.02)), [&] { return woken_ || events.any; });
   woken_ = false;
 }
 
