@@ -152,8 +152,8 @@ TYNDALL_INLINE bool has_sample_weights(const auto& s) { return s.has_specular_pa
 TYNDALL_INLINE const SceneView& shared_view(const SceneView& s) { return s; }
 TYNDALL_INLINE const CommonSceneView& shared_view(const CommonSceneView& s) { return s; }
 
-/// Which scenes a path loop is for: those that reuse no second vertices (core/reuse), those that do, or both.
-enum class Reuse { never, always, either };
+/// Which scenes a path loop is for: those that reuse no second vertices (core/reuse), or those that do.
+enum class Reuse { never, always };
 
 /// The view of a kernel that leaves models out. The kernel with every model reads SceneView itself.
 template <KernelSet set, Reuse reuse>
@@ -165,7 +165,7 @@ requires(set != KernelSet::everything) struct SceneViewFor : CommonSceneView {
   TYNDALL_INLINE bool has_lights_in_media() const { return media_and_textures && near_count > 0; }
   TYNDALL_INLINE bool has_specular_paths() const { return can_split && specular.pairs > 0; }
   TYNDALL_INLINE static constexpr bool has_guide() { return set == KernelSet::guided_paths_only; }
-  TYNDALL_INLINE bool has_reuse() const { return reuse == Reuse::always || (reuse == Reuse::either && reuses_paths); }
+  TYNDALL_INLINE static constexpr bool has_reuse() { return reuse == Reuse::always; }
   static constexpr bool can_split = solves_specular_paths(set);
   TYNDALL_INLINE bool has_splitting() const { return can_split && splits_paths; }
 };
