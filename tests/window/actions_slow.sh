@@ -45,6 +45,7 @@ effect_of() {
     dark_or_light_theme) echo '^widget window.theme.* on$' ;;
     all_actions_by_name) echo '^widget palette ' ;;
     this_table) echo '^drawn' ;;
+    play_or_stop_the_film | film_through_the_stored_cameras) echo '^did' ;;
     close_the_window | move_the_selection | frame_the_selection | make_single_user | reset_the_camera | next_stored_camera | undo | redo | usual_text | view:_*) echo '^did' ;;
     *) return 1 ;;
   esac

@@ -5,7 +5,7 @@
 
 write_program() { # RADIUS
   cat >main.cc.new <<PROGRAM
-#include "$source_root/tests/book/headers/books.h"
+#include "$root/tests/book/headers/books.h"
 int main() {
   hittable_list world;
   world.add(make_shared<sphere>(point3(0, 0, -2), $1, make_shared<lambertian>(color(0.1, 0.1, 0.1))));
