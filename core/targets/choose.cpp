@@ -32,7 +32,7 @@ void Kernels::render_tile(const SceneView& scene, const TileJob& job, double fil
 
 KernelSet Kernels::set_for(const SceneView& scene) const {
   const bool has_own = render[static_cast<int>(scene.kernel)] != render[static_cast<int>(KernelSet::everything)];
-  const bool serves = !scene.reuses_paths || !solves_specular_paths(scene.kernel);
+  const bool serves = !scene.reuses_paths || has_reuse_loop(scene.kernel);
   return has_own && serves ? scene.kernel : KernelSet::everything;
 }
 

@@ -139,8 +139,8 @@ static void render_tile_entry(const SceneView& scene, const TileJob& job, double
                               EmissionSums* emission, TileCounts& counts) {
   const TileFilm film{1 / film_quantum, pixels, emission, counts};
   NoRecorder recorder;
-  // The question which samples they are would cost these scenes, which are cheap, up to a seventh of their time.
-  if constexpr (!solves_specular_paths(set))
+  // The question which samples they are would cost cheap scenes up to a seventh of their time.
+  if constexpr (has_reuse_loop(set))
     if (scene.reuses_paths) {
       const SceneViewFor<set, Reuse::always> s{{scene}};
       return render_tile_reusing<F>(

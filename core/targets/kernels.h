@@ -34,7 +34,7 @@ struct Kernels {
                    TileCounts& counts, EmissionSums* emission = nullptr) const;
 
   /// The set whose kernel renders a scene: SceneView::kernel, or `everything` for instruction sets that have the full
-  /// kernel only, and for scenes that reuse paths and have specular paths, too: few do, and it serves them as well.
+  /// kernel only, and for scenes that reuse paths where that set has no loop for it.
   KernelSet set_for(const SceneView& scene) const;
 };
 

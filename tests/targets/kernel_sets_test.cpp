@@ -73,7 +73,9 @@ TEST_CASE("kernel sets: wide instruction sets have a kernel for each, the others
       view.kernel = static_cast<KernelSet>(i), view.reuses_paths = false;
       CHECK(kernels.set_for(view) == (wide ? view.kernel : KernelSet::everything));
       view.reuses_paths = true;
-      const bool has_both = wide && !solves_specular_paths(view.kernel);
+      const bool has_both = wide && view.kernel != KernelSet::everything &&
+                            view.kernel != KernelSet::specular_paths_only &&
+                            view.kernel != KernelSet::guided_paths_only;
       CHECK(kernels.set_for(view) == (has_both ? view.kernel : KernelSet::everything));
       for (int k = 0; k < i; ++k) CHECK((kernels.render[k] == kernels.render[i]) != wide);
     }

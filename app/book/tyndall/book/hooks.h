@@ -223,32 +223,25 @@ class row_watcher {
     for (std::size_t k = 0; k < 2 * row; ++k) rows[k / row] = rows[k / row] + (1.0 / double(row)) * seen[k];
     for (std::size_t k = 0; k < row; ++k) ends[2 * k / row] = ends[2 * k / row] + (2.0 / double(row)) * seen[k];
     s.width = head.width, s.height = head.height, s.samples = static_cast<int>(row / width);
-    origin() = rays::origin(ray), right() = (2.0 / s.width) * (ends[1] - ends[0]), down() = rows[1] - rows[0];
-    corner() = rows[0] - (0.5 * s.width) * right() - 0.5 * down();
+    frame& f = its();
+    f.origin = rays::origin(ray), f.right = (2.0 / s.width) * (ends[1] - ends[0]), f.down = rows[1] - rows[0];
+    f.corner = rows[0] - (0.5 * s.width) * f.right - 0.5 * f.down;
     s.rays.by_places = true;
     s.rays.make = [](double x, double y) -> const void* {
       alignas(R) static unsigned char memory[sizeof(R)];
-      return new (memory) R(rays::make(origin(), corner() + x * right() + y * down(), 0));
+      const frame& now = its();
+      return new (memory) R(rays::make(now.origin, now.corner + x * now.right + y * now.down, 0));
     };
     return true;
   }
 
  private:
-  static vector& origin() {
-    static vector v;
-    return v;
-  }
-  static vector& corner() {
-    static vector v;
-    return v;
-  }
-  static vector& right() {
-    static vector v;
-    return v;
-  }
-  static vector& down() {
-    static vector v;
-    return v;
+  struct frame {
+    vector origin, corner, right, down;
+  };
+  static frame& its() {  ///< of the program's only picture
+    static frame f;
+    return f;
   }
 };
 

@@ -1,11 +1,9 @@
 #pragma once
-#include "materials.h"
+#include "hits.h"
 
 /// The reader's world as objects of a scene. A class counts as one of the books' by its members and by what its hit()
 /// does, whatever its name is: it is shot at, and the answers are compared.
 namespace tyndall_book {
-
-constexpr double endless = HUGE_VAL;
 
 /// How an object is placed by what encloses it.
 struct placing {
@@ -14,27 +12,6 @@ struct placing {
   bool flipped = false;   ///< its normals point the other way
 };
 
-/// What the reader's hit() answers.
-template <class N>
-struct answer {
-  bool found = false, front = true;
-  double t = 0;
-  vector normal;
-  const typename N::material* material = nullptr;
-};
-template <class N>
-answer<N> shoot(const typename N::shape& shape, vector from, vector to, double time = 0, double low = 0.001,
-                double high = endless) {
-  typename N::record record{};
-  answer<N> a;
-  a.found = N::hit(shape, ray_traits<typename N::ray>::make(from, to, time), low, high, record);
-  if (!a.found) return a;
-  a.t = double(record.t), a.normal = to_vector(record.normal);
-  a.front = is_front(record, to, a.normal);
-  a.material = material_in<N>(record);
-  return a;
-}
-
 /// An object of the scene: where it lies for the object that encloses it; corner and sides if it is a quad.
 struct piece {
   vector centre;
@@ -42,9 +19,6 @@ struct piece {
   std::string material, moves;
   bool is_quad = false, can_be_filled = false;
   vector q, u, v;
-};
-struct line {
-  vector from, to;
 };
 
 template <class N>
@@ -71,10 +45,6 @@ class world_text {
 
   // Spheres ---------------------------------------------------------------------------------------------------------
 
-  struct motion {
-    vector begin, end;  ///< at the times 0 and 1
-    vector at(double time) const { return begin + time * (end - begin); }
-  };
   template <class T>
   static bool read_centre(const T& o, motion& m) {
     if constexpr (TYNDALL_HAS(const T, o.center0, o.center1, o.time0, o.time1)) {
@@ -111,7 +81,8 @@ class world_text {
   bool take_sphere(const shape& o, const motion& centre, double radius, const placing& at) {
     if (radius == 0) return true;
     const typename N::material* material = nullptr;
-    if (!is_sphere(o, centre, radius, material)) return reason_ = "its hit() is not that of the books' sphere", false;
+    if (!is_sphere<N>(o, centre, radius, random_, material))
+      return reason_ = "its hit() is not that of the books' sphere", false;
     const bool moves = length(centre.end - centre.begin) > 0;
     if (moves && at.boundary) refuse(o, "fog in a moving sphere");
     push("{\"type\":\"sphere\",\"center\":" + triple(centre.begin) +
@@ -119,84 +90,8 @@ class world_text {
          o, material, at, {centre.at(0.5), std::fabs(radius), "", "", false, true, {}, {}, {}});
     return true;
   }
-  /// Whether 200 rays from all sides, and from within, meet the sphere where they should, at both ends of an interval.
-  bool is_sphere(const shape& o, const motion& centre, double radius, const typename N::material*& material) {
-    const double size = std::fabs(radius);
-    bool outward = true, against = true;
-    for (int k = 0; k < 200; ++k) {
-      const double time = k % 4 == 0 ? 1 : k % 4 == 1 ? 0 : random_.next();
-      const vector middle = centre.at(time);
-      const vector from = middle + (size * random_.between(0, 3)) * random_.on_sphere();
-      const vector to = middle + (size * random_.between(0, 1.4)) * random_.on_sphere() - from;
-      const double a = dot(to, to), b = dot(from - middle, to), c = dot(from - middle, from - middle) - size * size;
-      const double d = b * b - a * c, scale = std::fmax(size, largest(middle)) / std::sqrt(a);
-      if (a < 1e-6 * size * size || std::fabs(d) < 0.02 * a * size * size) continue;
-      double roots[2] = {(-b - std::sqrt(std::fmax(d, 0))) / a, (-b + std::sqrt(std::fmax(d, 0))) / a};
-      if (std::fabs(roots[0]) < 0.01 || std::fabs(roots[1]) < 0.01) continue;
-      const double low = k % 3 == 1 && d > 0 && roots[0] > 0 ? roots[0] + 0.1 * (roots[1] - roots[0]) : 0.001;
-      double high = k % 3 == 2 && d > 0 && roots[1] > 0 ? 0.5 * (std::fmax(roots[0], 0) + roots[1]) : endless;
-      if (k % 6 == 5 && roots[0] > 0) high = 0.9 * roots[0];
-      if (high <= low) continue;
-      double expected = endless;
-      for (double root : {roots[1], roots[0]})
-        if (d > 0 && root > low && root < high) expected = root;
-      const answer<N> its = shoot<N>(o, from, to, time, low, high);
-      if (its.found != (expected < endless)) return false;
-      if (!its.found) continue;
-      if (std::fabs(its.t - expected) > rays::precision() * 10 * std::fmax(scale, expected)) return false;
-      const vector normal = (1 / radius) * (from + expected * to - middle);
-      const double along = dot(its.normal, normal), facing = dot(to, normal);
-      if (std::fabs(std::fabs(along) - 1) > 0.02) return false;
-      outward = outward && along > 0;
-      against = against && along * facing < 0 == true && its.front == (facing < 0);
-      if (material && material != its.material) return false;
-      material = its.material;
-    }
-    return outward || against;
-  }
-
   // Flat shapes -----------------------------------------------------------------------------------------------------
 
-  /// What hit() leaves of the plane q + a u + b v.
-  struct outline {
-    const char* type = nullptr;  ///< "quad", "triangle" or "disk"; null: none of them
-    double inner = 0, outer = 1;
-  };
-  template <class F>
-  static double edge_of(const F& holds, double low, double high) {
-    const bool beyond = holds(high);
-    for (int k = 0; k < 60; ++k) {
-      const double middle = 0.5 * (low + high);
-      (holds(middle) == beyond ? high : low) = middle;
-    }
-    return std::round(1e6 * high) / 1e6;
-  }
-  template <class F>
-  static outline outline_of(const F& holds) {
-    const auto is = [&](const auto& expected) {
-      constexpr int cells = 23;
-      for (int i = 0; i < cells; ++i)
-        for (int k = 0; k < cells; ++k) {
-          const double a = 3.3 * (i + 0.5) / cells - 1.61, b = 3.3 * (k + 0.5) / cells - 1.61;
-          if (holds(a, b) != expected(a, b)) return false;
-        }
-      return true;
-    };
-    if (is([](double a, double b) { return 0 < a && a < 1 && 0 < b && b < 1; })) return {"quad", 0, 1};
-    if (is([](double a, double b) { return 0 < a && 0 < b && a + b < 1; })) return {"triangle", 0, 1};
-    outline disk{"disk", 0, 0};
-    const auto at = [&](double radius) { return holds(radius, 0.0); };
-    double within = 0;
-    while (within < 1.5 && !at(within)) within += 0.01;
-    if (within >= 1.5 || at(100)) return {};
-    if (within > 0) disk.inner = edge_of(at, within - 0.01, within);
-    disk.outer = edge_of(at, within, 100);
-    const auto on_ring = [&](double a, double b) {
-      const double radius = std::sqrt(a * a + b * b);
-      return disk.inner < radius && radius < disk.outer;
-    };
-    return is(on_ring) ? disk : outline{};
-  }
   template <class T>
   bool flat(const T& o, const placing& at) {
     if constexpr (TYNDALL_HAS(const T, double(o.x0), double(o.x1), double(o.y0), double(o.k)))
@@ -352,19 +247,6 @@ class world_text {
     }
     return false;
   }
-  /// The books' translate and rotate_y.
-  struct move {
-    vector by{};
-    double sine = 0, cosine = 1;
-    vector rotated(vector a, double s) const { return {cosine * a.x - s * a.z, a.y, s * a.x + cosine * a.z}; }
-    vector out(vector a) const { return rotated(a, -sine) + by; }
-    line in(const line& a) const { return {rotated(a.from - by, sine), rotated(a.to, sine)}; }
-    std::string text() const {
-      if (sine != 0 || cosine != 1)
-        return "{\"rotate_y\":" + number(std::atan2(sine, cosine) * 180 / 3.14159265358979323846) + "}";
-      return length(by) > 0 ? "{\"translate\":" + triple(by) + "}" : "";
-    }
-  };
   bool is_moved(const shape& o, const shape* inner, const placing& at, const move& its) {
     const std::size_t begin = out_.objects.size();
     const std::string text = its.text();
