@@ -5,6 +5,7 @@
 #include "core/base/random.h"
 #include "core/shapes/outline.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tyndall {
@@ -236,6 +237,17 @@ Affine quad_map(const Quad<>& quad, const Placement& placement, Vec3d origin) {
   set_row(map, 1, 2.0 * r.b, middle);
   set_row(map, 2, normalize(cross(u, v)), middle);
   return map;
+}
+
+Outline outline_in_scene(const Triangle<>& t, const Placement& placement, Vec3d origin) {
+  // hit_outlined() rounds a dozen times, each by at most 2^-24 of the coordinates or of the distance.
+  constexpr double rounding = 0x1p-19;
+  const Reciprocal r = reciprocal_edges(t.u, t.v);
+  const double per_distance = rounding * 2 * (length(r.a) + length(r.b));
+  double reach = 0;
+  for (const Vec3d& corner : {t.corner, t.corner + t.u, t.corner + t.v})
+    reach = std::max(reach, length(place(placement, corner) - origin));
+  return {Outline::triangle, 0, static_cast<float>(per_distance * reach), static_cast<float>(per_distance)};
 }
 
 Affine box_map(const Box<>& box, const Placement& placement, Vec3d origin) {

@@ -26,8 +26,9 @@ struct Reciprocal {
 };
 Reciprocal reciprocal_edges(Vec3d u, Vec3d v);
 
-/// A quad or box as an affine map (see Affine).
+/// A quad or box as an affine map (see Affine); a triangle's outline with the bounds of rounding.
 Affine quad_map(const Quad<>& quad, const Placement& placement, Vec3d origin);
+Outline outline_in_scene(const Triangle<>& triangle, const Placement& placement, Vec3d origin);
 Affine box_map(const Box<>& box, const Placement& placement, Vec3d origin);
 
 /// Face 0 … 5 of a box (x-, x+, y-, y+, z-, z+), in the box's own frame. Its u × v is along the outward normal.

@@ -94,7 +94,7 @@ struct SlotFiller {
     }
     out.boxes.element.push_back(element);
   }
-  void operator()(const Triangle<>& t) const { add_outlined(frame_of(t), outline_of(t)); }
+  void operator()(const Triangle<>& t) const { add_outlined(frame_of(t), outline_in_scene(t, placement, out.origin)); }
   void operator()(const Disk<>& d) const { add_outlined(frame_of(d), outline_of(d)); }
 
   void add_outlined(const Quad<>& frame, const Outline& outline) const {

@@ -12,11 +12,14 @@ struct Outline {
   enum Kind : std::int32_t { triangle, ring };  ///< triangle: x + y <= 0; ring: inner² <= x² + y² <= 1
   Kind kind = triangle;
   float inner = 0;  ///< of a ring: radius of the hole, in [0, 1); 0: a disk
+  /// Of a triangle that rays are traced against: bound how far rounding moves x, y and x + y where a ray seen head on
+  /// meets it, at distance 0 and for each unit of distance. See hit_outlined().
+  float rounding = 0, rounding_per_distance = 0;
 };
 
 /// The parallelogram that a triangle is half of.
 inline Quad<> frame_of(const Triangle<>& t) { return {t.corner, t.u, t.v}; }
-inline Outline outline_of(const Triangle<>&) { return {Outline::triangle, 0}; }
+inline Outline outline_of(const Triangle<>&) { return {Outline::triangle}; }
 
 /// The parallelogram around a disk, whose sides its rim touches in the middle.
 inline Quad<> frame_of(const Disk<>& d) { return {d.center - d.u - d.v, 2.0 * d.u, 2.0 * d.v}; }
@@ -41,15 +44,20 @@ TYNDALL_INLINE MaskOf<F> within(const Outline& o, F x, F y) {
   return mask_and(less_equal(r2, F(1.0f)), less_equal(splat<F>(o.inner * o.inner), r2));
 }
 
-/// hit_quad() for a shape within an outline. map: of its frame.
+/// hit_quad() for a shape within an outline. map: of its frame. A triangle is as much wider as rounding may have moved
+/// the point, which is more for rays that meet it at a slant, so that none slips between two that share corners.
 template <class F>
 TYNDALL_INLINE QuadHit<F> hit_outlined(const Affine& map, const Outline& outline, Vec3<F> origin, Vec3<F> direction,
                                        F limit) {
-  const F t = -affine_point(map, 2, origin) / affine_direction(map, 2, direction);
+  const F slope = affine_direction(map, 2, direction), t = -affine_point(map, 2, origin) / slope;
   MaskOf<F> hit = mask_and(less(F(0.0f), t), less_equal(t, limit));
   if (!any(hit)) return {t, hit};
   const Vec3<F> p = point_at(origin, t, direction);
-  return {t, mask_and(hit, within(outline, affine_point(map, 0, p), affine_point(map, 1, p)))};
+  const F x = affine_point(map, 0, p), y = affine_point(map, 1, p);
+  if (outline.kind != Outline::triangle) return {t, mask_and(hit, within(outline, x, y))};
+  const F beyond = max(F(-1.0f) - min(x, y), x + y) * abs(slope);
+  const F room = mul_add(splat<F>(outline.rounding_per_distance), t, splat<F>(outline.rounding));
+  return {t, mask_and(hit, less_equal(beyond, room))};
 }
 
 /// A point drawn uniformly from a triangle by u in [0, 1)²: fractions of the frame's edges. The half of the frame

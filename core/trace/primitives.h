@@ -92,7 +92,7 @@ TYNDALL_INLINE void test_quads(const FlatView& q, int first, int last, const Ray
 }
 
 /// Triangles and disks. Returns the closest hit. Not inlined, and by value, because each inlined copy takes seconds to
-/// compile.
+/// compile. A ray that nearly lies in a triangle's plane meets it at an uncertain distance, but not before its box.
 template <class F, class Q>
 [[gnu::noinline]] static Hit<F> test_outlined(const FlatView& f, int first, int last, Ray<F> ray, Q query,
                                               Hit<F> best) {
@@ -102,6 +102,8 @@ template <class F, class Q>
     QuadHit<F> h = hit_outlined(f.map[i], f.outline[i], ray.origin, ray.direction, best.t);
     if constexpr (Q::shadow) h.hit = mask_and_not(h.hit, equal(query.aim, element));
     if (!any(h.hit)) continue;
+    if constexpr (Q::by_tree)
+      if (f.outline[i].kind == Outline::triangle) h.t = max(h.t, query.near);
     const Start<F> start = start_on<F>(ray.from, element);
     const auto better = beats(h.t, element, mask_and_not(h.hit, start.here), best, query);
     best.t = select(better, h.t, best.t);

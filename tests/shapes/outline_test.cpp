@@ -16,9 +16,12 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
+Outline in_scene(const Triangle<>& triangle) { return outline_in_scene(triangle, {}, {}); }
+Outline in_scene(const Disk<>& disk) { return outline_of(disk); }
+
 template <class Shape>
 QuadHit<float> meet(const Shape& shape, Vec3f origin, Vec3f direction, float limit = infinity) {
-  return hit_outlined(quad_map(frame_of(shape), {}, {}), outline_of(shape), origin, direction, limit);
+  return hit_outlined(quad_map(frame_of(shape), {}, {}), in_scene(shape), origin, direction, limit);
 }
 
 }  // namespace

@@ -1,0 +1,25 @@
+#include "tests/support/closed_mesh.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+namespace tyndall::test::watertight_slow_test {
+
+TEST_CASE("triangles: of 10^8 rays at edges and corners none slips through, from either side, at any scale") {
+  constexpr int all = 100'000'000;
+  const Kernels kernels = available_kernels().back();
+  const Transform nowhere, turned{RotateY{33}, Translate{{3, -2, 1}}};
+  for (const auto& [scale, transform] : {std::pair{1e-3, nowhere}, {1.0, nowhere}, {1.0, turned}, {1e5, nowhere}})
+    for (const bool from_within : {false, true}) {
+      int leaks = 0;
+      for (const bool is_round : {false, true})
+        for (const int n : {3, 40})
+          leaks += slip_through({n, is_round}, scale, transform, kernels, all / 4, from_within, 2);
+      CHECK(leaks == 0);
+      MESSAGE(std::string(kernels.isa), ", scale ", scale, transform.empty() ? "" : ", turned and moved",
+              from_within ? ", from within: " : ", from outside: ", leaks, " of ", all, " rays slip through");
+    }
+}
+
+}  // namespace tyndall::test::watertight_slow_test
