@@ -182,7 +182,7 @@ TEST_CASE("check: of 44 planted mistakes all are found, most are named, and none
     const BookProgramPlan plan{60, 4, false, row.plant, static_cast<std::uint64_t>(++count)};
     const Findings verdict = verdict_of(scene_of(row.scene), plan, spp);
     const std::string name = name_of(verdict);
-    MESSAGE(row.name << " in " << row.scene << ": " << name << "\n" << verdict_text(verdict));
+    MESSAGE(std::string(row.name) << " in " << std::string(row.scene) << ": " << name << "\n" << verdict_text(verdict));
     const bool right = name.starts_with(row.name);  // "time-lost" may be found as "time-lost-matt"
     CHECK((right || name == "unexplained"));
     named += right && name != "unexplained" ? 1 : 0;
