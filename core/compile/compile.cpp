@@ -133,13 +133,11 @@ const Checker<>* checker_of(const Scene& scene, std::int32_t material) {
 }
 
 void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene* before, RenderScene& out) {
-  std::vector<std::int32_t> first_element;
+  const std::vector<std::int32_t> first_element = first_elements(flat);
   const MoreColumns more{out.features.image_textures, out.features.moving_spheres, out.features.textures,
                          out.features.image_textures && out.features.disks};
-  for (const PlacedShape& shape : flat.shapes) {
-    first_element.push_back(out.elements.count());
+  for (const PlacedShape& shape : flat.shapes)
     append_elements(shape, out.origin, more, checker_of(scene, shape.material), out.elements);
-  }
   out.camera.surface = camera_surface(flat, first_element, scene.camera, out.origin);
   out.lights = collect_lights(scene, flat, first_element, out.origin, out.elements);
   for (const std::int32_t i : choose_tree(flat, scene.camera, before, out)) {

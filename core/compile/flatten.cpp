@@ -195,6 +195,13 @@ Flattened flatten(const Scene& scene) {
   return out;
 }
 
+std::vector<std::int32_t> first_elements(const Flattened& flat) {
+  std::vector<std::int32_t> first{0};
+  for (const PlacedShape& shape : flat.shapes)
+    first.push_back(first.back() + (std::holds_alternative<Box<>>(shape.shape) ? 6 : 1));
+  return first;
+}
+
 Vec3d center_of(const PlacedShape& shape) {
   return place(shape.placement, std::visit([](const auto& s) { return own_center(s); }, shape.shape));
 }

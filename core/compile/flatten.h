@@ -46,6 +46,9 @@ struct Flattened {
 
 Flattened flatten(const Scene& scene);
 
+/// The first element of each shape, and one behind the last: a box has six, all others have one.
+std::vector<std::int32_t> first_elements(const Flattened& flat);
+
 /// A point in the middle of a shape, world space.
 Vec3d center_of(const PlacedShape& shape);
 Vec3d center_of(const PlacedVolume& volume);

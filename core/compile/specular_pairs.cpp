@@ -172,12 +172,8 @@ void weigh_by_visibility(const Flattened& flat, const Found& found, const Render
 
 class Filler {
  public:
-  Filler(const Flattened& flat, const RenderScene& compiled) : flat_(flat), compiled_(compiled) {
-    std::int32_t element = 0;
-    for (const PlacedShape& shape : flat.shapes) {
-      first_element_.push_back(element);
-      element += std::holds_alternative<Box<>>(shape.shape) ? 6 : 1;
-    }
+  Filler(const Flattened& flat, const RenderScene& compiled)
+      : flat_(flat), compiled_(compiled), first_element_(first_elements(flat)) {
     out.sphere_of.assign(static_cast<std::size_t>(compiled.elements.count()), -1);
   }
 

@@ -50,7 +50,7 @@ void complete(const SceneView& s, Thing& thing) {
   for (int k = 0; k < std::min(s.lights.count, max_guide_lights); ++k) {
     const Vec3d light{at(s.lights.center[0], k), at(s.lights.center[1], k), at(s.lights.center[2], k)};
     const Vec3d to_middle = middle - light;
-    thing.worth += at(s.lights.power, k) * std::min(area / std::max(dot(to_middle, to_middle), 1e-30), 4 * pi);
+    thing.power += at(s.lights.power, k) * std::min(area / std::max(dot(to_middle, to_middle), 1e-30), 4 * pi);
   }
   if (s.specular.pairs == 0) return;
   const std::int32_t object = s.specular.sphere_of[thing.element] >> 1;
@@ -92,7 +92,7 @@ std::vector<Thing> list_things(const SceneView& s) {
   }
   for (Thing& thing : things) complete(s, thing);
   std::stable_sort(things.begin(), things.end(), [](const Thing& a, const Thing& b) {
-    return a.worth != b.worth ? a.worth > b.worth : a.element < b.element;
+    return a.power != b.power ? a.power > b.power : a.element < b.element;
   });
   if (things.size() > max_guided_things) things.resize(max_guided_things);
   return things;

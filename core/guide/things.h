@@ -26,7 +26,7 @@ struct Thing {
   Vec3d corner, u, v;  ///< of a flat
   double fuzz = 0;     ///< 0 for mirrors and glass
   int object = -1;     ///< the specular object whose paths are solved for exactly; -1: none
-  double worth = 0;    ///< roughly the power that lights send to it
+  double power = 0;    ///< roughly the power that lights send to it
 };
 
 /// The things that matter most, at most max_guided_things. Empty if there are none, or no light or diffuse surface.

@@ -52,75 +52,67 @@ bool is_light(const Material& material) { return traits_of(material.kind).emits;
 bool is_smooth(const Material& material) { return lobe_width(material.kind) < max_fuzz; }
 
 /// A light, or a smooth shape that throws light on other surfaces.
-struct Thing {
+struct CausticPart {
   std::size_t shape;  // index into Flattened::shapes
   BoundingSphere sphere;
   double fuzz = 0;
   bool glass = false;
 };
 
-struct Things {
-  std::vector<Thing> lights, smooth;
+struct CausticParts {
+  std::vector<CausticPart> lights, smooth;
 };
 
-Things list_things(const Scene& scene, const Flattened& flat) {
-  Things things;
+CausticParts list_caustic_parts(const Scene& scene, const Flattened& flat) {
+  CausticParts parts;
   for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
     const Material& material = material_of(scene, flat.shapes[i]);
     if (!is_light(material) && !is_smooth(material)) continue;
     const bool smooth = is_smooth(material), glass = boundary_index(material.kind) > 0;
     const double fuzz = smooth ? lobe_width(material.kind) : 0;
-    const Thing thing{i, bounding_sphere(extent_of(flat.shapes[i], scene.camera)), fuzz, glass};
-    (is_light(material) ? things.lights : things.smooth).push_back(thing);
+    const CausticPart thing{i, bounding_sphere(extent_of(flat.shapes[i], scene.camera)), fuzz, glass};
+    (is_light(material) ? parts.lights : parts.smooth).push_back(thing);
   }
-  return things;
+  return parts;
 }
 
 /// The bounding box of a matt surface or a medium, on which light from any direction shows.
-struct Receiver {
+struct MattBox {
   Vec3d low, high;
 };
 
 Vec3d min_of(Vec3d a, Vec3d b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
 Vec3d max_of(Vec3d a, Vec3d b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
 
-Receiver receiver_around(const Extent& extent) {
-  Receiver box{extent.points.front(), extent.points.front()};
+MattBox matt_box_around(const Extent& extent) {
+  MattBox box{extent.points.front(), extent.points.front()};
   for (const Vec3d& p : extent.points) box = {min_of(box.low, p), max_of(box.high, p)};
   const Vec3d grown{extent.radius, extent.radius, extent.radius};
   return {box.low - grown, box.high + grown};
 }
 
-std::vector<Receiver> list_receivers(const Scene& scene, const Flattened& flat) {
-  std::vector<Receiver> receivers;
-  for (const PlacedVolume& volume : flat.volumes) receivers.push_back(receiver_around(extent_of(volume, scene.camera)));
+std::vector<MattBox> list_matt_boxes(const Scene& scene, const Flattened& flat) {
+  std::vector<MattBox> receivers;
+  for (const PlacedVolume& volume : flat.volumes) receivers.push_back(matt_box_around(extent_of(volume, scene.camera)));
   for (const PlacedShape& shape : flat.shapes)
     if (traits_of(material_of(scene, shape).kind).diffuse)
-      receivers.push_back(receiver_around(extent_of(shape, scene.camera)));
+      receivers.push_back(matt_box_around(extent_of(shape, scene.camera)));
   return receivers;
 }
 
-double distance_to_nearest(const std::vector<Receiver>& receivers, Vec3d point) {
+double distance_to_nearest(const std::vector<MattBox>& receivers, Vec3d point) {
   double minimum = std::numeric_limits<double>::infinity();
-  for (const Receiver& box : receivers)
+  for (const MattBox& box : receivers)
     minimum = std::min(minimum, length(max_of(max_of(box.low - point, point - box.high), {0, 0, 0})));
   return minimum;
 }
 
 /// Whether a light is inside a glass sphere and shines out of it. If the camera is in the sphere, too, the sphere is a
 /// room and not a bulb.
-bool is_bulb(const Thing& light, const Thing& thing, Vec3d camera) {
+bool is_bulb(const CausticPart& light, const CausticPart& thing, Vec3d camera) {
   const BoundingSphere& sphere = thing.sphere;
   return thing.glass && length(light.sphere.center - sphere.center) < sphere.radius &&
          light.sphere.radius < sphere.radius && length(camera - sphere.center) > sphere.radius;
-}
-
-/// The first element of each shape, and one behind the last.
-std::vector<std::size_t> first_elements(const Flattened& flat) {
-  std::vector<std::size_t> first{0};
-  for (const PlacedShape& shape : flat.shapes)
-    first.push_back(first.back() + (std::holds_alternative<Box<>>(shape.shape) ? 6 : 1));
-  return first;
 }
 
 /// chance_of_caustics() of the light of the sky's picture. Specular paths compute that of its sun alone.
@@ -128,16 +120,16 @@ double chance_of_sky_caustics(const Scene& scene, const RenderScene& compiled) {
   if (!compiled.sky.is_sampled()) return 1;
   double minimum = 1;
   const Flattened flat = flatten(scene);
-  if (list_receivers(scene, flat).empty()) return 1;
-  const std::vector<std::size_t> elements = first_elements(flat);
+  if (list_matt_boxes(scene, flat).empty()) return 1;
+  const std::vector<std::int32_t> elements = first_elements(flat);
   const SpecularPairs& specular = compiled.specular;
-  const auto has_sun_pair = [&](const Thing& thing) {
+  const auto has_sun_pair = [&](const CausticPart& thing) {
     if (specular.sun_pair_of.empty()) return false;
-    const std::int32_t sphere = specular.sphere_of[elements[thing.shape]];
+    const std::int32_t sphere = specular.sphere_of[static_cast<std::size_t>(elements[thing.shape])];
     return sphere >= 0 && specular.sun_pair_of[static_cast<std::size_t>(sphere / 2)] >= 0;
   };
   const SkyDistribution& sky = *compiled.sky.distribution;
-  for (const Thing& thing : list_things(scene, flat).smooth) {
+  for (const CausticPart& thing : list_caustic_parts(scene, flat).smooth) {
     const double spread = has_sun_pair(thing) ? sky.spread_without_sun : sky.spread;
     minimum = std::min(minimum, spread + fraction_of_directions(thing.fuzz, 1));
   }
@@ -150,15 +142,15 @@ double chance_of_caustics(const Scene& scene, const IsFound& is_found) {
   const auto has = [&](const auto& is) { return std::any_of(scene.materials.begin(), scene.materials.end(), is); };
   if (!has(is_light) || !has(is_smooth)) return 1;  // at once, also in a scene of a million spheres
   const Flattened flat = flatten(scene);
-  const std::vector<Receiver> receivers = list_receivers(scene, flat);
+  const std::vector<MattBox> receivers = list_matt_boxes(scene, flat);
   if (receivers.empty()) return 1;
-  const Things things = list_things(scene, flat);
+  const CausticParts parts = list_caustic_parts(scene, flat);
   const std::size_t step =
-      1 + things.lights.size() * things.smooth.size() / max_pairs;  // for very many pairs only every step-th
+      1 + parts.lights.size() * parts.smooth.size() / max_pairs;  // for very many pairs only every step-th
   double minimum = 1;
-  for (const Thing& light : things.lights)
-    for (std::size_t i = 0; i < things.smooth.size(); i += step) {
-      const Thing& thing = things.smooth[i];
+  for (const CausticPart& light : parts.lights)
+    for (std::size_t i = 0; i < parts.smooth.size(); i += step) {
+      const CausticPart& thing = parts.smooth[i];
       if (is_found && is_found(light.shape, thing.shape)) continue;
       double distance = length(light.sphere.center - thing.sphere.center);
       if (is_bulb(light, thing, scene.camera.look_from))
@@ -174,7 +166,7 @@ double chance_of_caustics(const Scene& scene, const RenderScene& compiled, const
   const SpecularPairs& specular = compiled.specular;
   const bool guided = guide && guide->lobes() > 0;
   if (specular.sphere.empty() && !guided) return chance_of_caustics(scene);
-  const std::vector<std::size_t> elements = first_elements(flatten(scene));
+  const std::vector<std::int32_t> elements = first_elements(flatten(scene));
   const std::size_t lights = compiled.lights.kind.size();
   const auto is_pair = [&](std::size_t light, std::size_t thing) {
     if (guided && guide->thing_of[thing] >= 0) return true;
@@ -184,9 +176,9 @@ double chance_of_caustics(const Scene& scene, const RenderScene& compiled, const
     return specular.pair_of[static_cast<std::size_t>(sphere / 2) * lights + static_cast<std::size_t>(light_index)] >= 0;
   };
   return chance_of_caustics(scene, [&](std::size_t light, std::size_t shape) {
-    for (std::size_t i = elements[light]; i < elements[light + 1]; ++i)
-      for (std::size_t k = elements[shape]; k < elements[shape + 1]; ++k)
-        if (is_pair(i, k)) return true;
+    for (std::int32_t i = elements[light]; i < elements[light + 1]; ++i)
+      for (std::int32_t k = elements[shape]; k < elements[shape + 1]; ++k)
+        if (is_pair(static_cast<std::size_t>(i), static_cast<std::size_t>(k))) return true;
     return false;
   });
 }

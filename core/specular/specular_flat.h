@@ -57,12 +57,11 @@ TYNDALL_INLINE F mirror_worth(const SpecularView& c, int k, Vec3<F> point) {
   const auto value = [&](int i) { return splat<F>(number[i]); };
   const Vec3<F> light = splat<F>(Vec3f{c.choice.center[0][k], c.choice.center[1][k], c.choice.center[2][k]});
   const F near = dot(row(2), point) + value(mirror_offsets + 2), far = dot(row(2), light) + value(mirror_offsets + 2);
-  const F height = max(abs(near) + abs(far), F(1e-30f)),
-          throughput = abs(near) / height;  // fraction of the path up to the plane
-  const Vec3<F> to_light = point_at(light, F(-2.0f) * far, row(2)) - point, at = point_at(point, throughput, to_light);
+  const F height = max(abs(near) + abs(far), F(1e-30f)), up_to_plane = abs(near) / height;  // fraction of the path
+  const Vec3<F> to_light = point_at(light, F(-2.0f) * far, row(2)) - point, at = point_at(point, up_to_plane, to_light);
   const F distance2 = dot(to_light, to_light), reach2 = splat<F>(c.choice.reach2[k]);
   const F blur =
-      throughput * sqrt(reach2 * distance2) / height;  // how far from `at` other points of the light may be seen
+      up_to_plane * sqrt(reach2 * distance2) / height;  // how far from `at` other points of the light may be seen
   auto seen = less(F(0.0f), near * far);
   for (int i = 0; i < 2; ++i) {
     const F place = abs(dot(row(i), at) + value(mirror_offsets + i));
@@ -85,13 +84,14 @@ template <class F>
 TYNDALL_INLINE MirrorPath<F> mirror_path(const SpecularMirror<F>& m, Vec3<F> near, Vec3<F> far) {
   const F below = dot(m.normal, near) + m.height, above = dot(m.normal, far) + m.height;
   const Vec3<F> image = mirrored(m, near), offset = far - image;
-  const F distance = max(length(offset), F(1e-30f)), throughput = abs(below) / max(abs(below) + abs(above), F(1e-30f));
-  const Vec3<F> at = point_at(image, throughput, offset);
+  const F distance = max(length(offset), F(1e-30f));
+  const F up_to_plane = abs(below) / max(abs(below) + abs(above), F(1e-30f));  // fraction of the path
+  const Vec3<F> at = point_at(image, up_to_plane, offset);
   MirrorPath<F> w;
   w.behind = less(above, F(0.0f));
   w.arrive = (F(1.0f) / distance) * offset;
   w.direction = point_at(w.arrive, F(-2.0f) * dot(m.normal, w.arrive), m.normal);
-  w.near_distance = throughput * distance, w.far_distance = distance - w.near_distance;
+  w.near_distance = up_to_plane * distance, w.far_distance = distance - w.near_distance;
   w.spread = distance * distance;
   const F edge = max(abs(dot(m.row[0], at) + m.offset[0]), abs(dot(m.row[1], at) + m.offset[1]));
   w.found = mask_and(less(F(0.0f), below * above), less_equal(edge, F(1.0f)));

@@ -54,8 +54,8 @@ template <class F>
 TYNDALL_INLINE F light_side_pdf(const LightSide<F>& side, F z) {
   const F even = F(static_cast<float>(0.25 / pi)) / (side.radius * side.radius), span = F(1.0f) - side.first;
   const F growing = F(4.0f) * max(z - side.first, F(0.0f)) / (span * span);
-  const F throughput = select(less(F(0.0f), z), F(4.0f * facing_fraction), F(4.0f * averted_fraction));
-  return even * select(side.outside, growing, mul_add(throughput, abs(z), F(even_fraction)));
+  const F slope = select(less(F(0.0f), z), F(4.0f * facing_fraction), F(4.0f * averted_fraction));
+  return even * select(side.outside, growing, mul_add(slope, abs(z), F(even_fraction)));
 }
 
 /// Draws the cosine z from a random number u in [0, 1).

@@ -276,8 +276,8 @@ TYNDALL_INLINE F slab_worth(const SpecularView& c, int k, Vec3<F> point) {
   const auto column = [&](const float* const* v, int i) { return splat<F>(Vec3f{v[0][i], v[1][i], v[2][i]}); };
   const Vec3<F> to_light = column(c.choice.center, k) - point, arm = column(c.center, sphere) - point;
   const F distance2 = dot(to_light, to_light), reach2 = splat<F>(c.choice.reach2[k]);
-  const F throughput = min(max(dot(arm, to_light) / max(distance2, F(1e-30f)), F(0.0f)), F(1.0f));
-  const Vec3<F> off = point_at(arm, -throughput, to_light);
+  const F nearest = min(max(dot(arm, to_light) / max(distance2, F(1e-30f)), F(0.0f)), F(1.0f));  // on the segment
+  const Vec3<F> off = point_at(arm, -nearest, to_light);
   const F radius = splat<F>(c.radius[sphere]) + sqrt(reach2);
   const F part = select(less(dot(off, off), radius * radius), F(1.0f), F(0.15f));
   return part * splat<F>(c.choice.power[k]) / max(distance2, reach2);

@@ -37,8 +37,6 @@ std::optional<Mount> mount_of(const std::string& line) {
   return mount.options.empty() || !mount.point.starts_with('/') ? std::nullopt : std::optional(mount);
 }
 
-namespace fs = std::filesystem;
-
 bool names(const std::string& list, const std::string& word) {
   return ("," + list + ",").find("," + word + ",") != std::string::npos;
 }
