@@ -4,8 +4,8 @@
 #include "core/base/error.h"
 #include "core/film/merge.h"
 #include "core/image/image.h"
+#include "core/system/process.h"
 
-#include <csignal>
 #include <exception>
 #include <new>
 #include <string>
@@ -24,8 +24,7 @@ int fail(const std::exception& error, int code) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  tyndall::keep_standard_streams();
-  std::signal(SIGXFSZ, SIG_IGN);  // writing beyond a limit of file sizes then fails with a message
+  tyndall::begin_process();
   try {
     const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
     return std::visit([](const auto& command) { return tyndall::run(command); }, tyndall::read_command(arguments));

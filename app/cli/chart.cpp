@@ -1,7 +1,6 @@
 #include "app/curves/chart.h"
 #include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
-#include "app/cli/signals.h"
 #include "app/comparison/comparison.h"
 #include "app/comparison/pair.h"
 #include "app/curves/measure.h"
@@ -11,6 +10,7 @@
 #include "app/text/standard_streams.h"
 #include "core/accuracy/estimate.h"
 #include "core/system/processors.h"
+#include "core/system/signals.h"
 
 #include <algorithm>
 #include <chrono>

@@ -7,11 +7,10 @@
 #include "app/text/standard_streams.h"
 #include "core/accuracy/error.h"
 #include "core/base/text.h"
+#include "core/system/process.h"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
-
-#include <unistd.h>
 
 #include <algorithm>
 
@@ -40,7 +39,7 @@ std::optional<Check> check_against_scene(const CompareCommand& command) {
         "the noise without it");
   CheckRequest request{command.image, command.baseline.ppm, command.scene, {}, {}};
   request.options.seconds = command.seconds.value_or(request.options.seconds);
-  ProgressReport report(isatty(STDERR_FILENO) != 0 ? ProgressStyle::automatic : ProgressStyle::none);
+  ProgressReport report(is_terminal(standard_error) ? ProgressStyle::automatic : ProgressStyle::none);
   request.progress = [&](const std::string& stage, double seconds) {
     report.show(seconds, std::min(1.0, seconds / request.options.seconds), stage);
     return true;

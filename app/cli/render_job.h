@@ -1,10 +1,10 @@
 #pragma once
 #include "app/cli/live_view.h"
 #include "app/cli/render_setup.h"
-#include "app/cli/signals.h"
 #include "app/text/progress.h"
 #include "core/files/stats.h"
 #include "core/system/processors.h"
+#include "core/system/signals.h"
 
 #include <chrono>
 #include <functional>

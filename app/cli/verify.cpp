@@ -1,12 +1,12 @@
 #include "app/cli/verify.h"
 #include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
-#include "app/cli/signals.h"
 #include "app/files/open_scene.h"
 #include "app/text/progress.h"
 #include "app/text/standard_streams.h"
 #include "core/base/seconds.h"
 #include "core/base/thread_pool.h"
+#include "core/system/signals.h"
 
 #include <chrono>
 #include <cmath>

@@ -9,13 +9,13 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/image_io.h"
+#include "core/system/open_file.h"
 
 #ifdef TYNDALL_WINDOW
 #include "app/window/system/preferences.h"
 #endif
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@
 namespace tyndall {
 namespace {
 
-constexpr const char* standard_input = "standard input";
+constexpr const char* input_name = "standard input";
 
 /// The word as a shell needs it.
 std::string shell_argument(const std::string& argument) {
@@ -112,7 +112,7 @@ void refuse_scene_options(const ViewCommand& command) {
 /// A scene of the picture's size that has nothing else, to be shown in its place.
 LoadedScene scene_of(const ArrivingPicture& picture, const ViewCommand& command) {
   LoadedScene loaded;
-  loaded.name = standard_input;
+  loaded.name = input_name;
   loaded.folder = ".";
   loaded.is_picture = true;
   loaded.scene.width = picture.width(), loaded.scene.height = picture.height();
@@ -125,7 +125,7 @@ LoadedScene scene_of(const ArrivingPicture& picture, const ViewCommand& command)
 int view_picture(const ViewCommand& command, const std::string& begin) {
   refuse_scene_options(command);
   check_files(command, {});
-  const auto picture = std::make_shared<ArrivingPicture>(STDIN_FILENO, begin, standard_input, command.ppm);
+  const auto picture = std::make_shared<ArrivingPicture>(standard_input, begin, input_name, command.ppm);
   const LoadedScene loaded = scene_of(*picture, command);
   check_memory(loaded.scene);
   return open_window("the program's picture can be kept in a file: > image.ppm in place of | tyndall view -", [&] {
@@ -182,12 +182,12 @@ int view_scene(const ViewCommand& command) {
 
 int run(const ViewCommand& command) {
   if (command.scene.what != "-") return view_scene(command);
-  const Beginning begin = beginning_of(STDIN_FILENO);
+  const Beginning begin = beginning_of(standard_input);
   if (begin.bytes.empty())
-    throw UsageError(std::string(standard_input) + ": found nothing, expected a scene, or a picture (P3 or P6)");
+    throw UsageError(std::string(input_name) + ": found nothing, expected a scene, or a picture (P3 or P6)");
   if (begin.is_picture) return view_picture(command, begin.bytes);
   if (!begin.is_scene)
-    throw UsageError(std::string(standard_input) + ": found " + first_line_of(STDIN_FILENO, begin.bytes) +
+    throw UsageError(std::string(input_name) + ": found " + first_line_of(standard_input, begin.bytes) +
                      ", expected P3 or P6 as the first bytes, or a scene's {; what a program says besides its picture "
                      "belongs on standard error (std::cerr)");
   // The C library takes back as many bytes as it is given.
