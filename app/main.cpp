@@ -9,7 +9,6 @@
 #include <exception>
 #include <new>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace {
@@ -27,7 +26,7 @@ int main(int argc, char** argv) {
   tyndall::begin_process();
   try {
     const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
-    return std::visit([](const auto& command) { return tyndall::run(command); }, tyndall::read_command(arguments));
+    return tyndall::run(tyndall::read_command(arguments));
   } catch (const tyndall::UsageError& error) {
     return fail(error, wrong_usage);
   } catch (const tyndall::SceneError& error) {
