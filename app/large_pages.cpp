@@ -1,4 +1,4 @@
-#include <sys/mman.h>
+#include "core/system/process.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,24 +11,18 @@
 /// Smaller blocks, and what other libraries ask of malloc, are left alone.
 namespace {
 
-constexpr std::size_t large_page = std::size_t(2) << 20;  // on x86-64 and, usually, on ARM
 constexpr std::size_t usual_alignment = alignof(std::max_align_t);
 
-void* allocate_aligned(std::size_t bytes, std::size_t alignment) {
-  void* memory = nullptr;
-  return posix_memalign(&memory, alignment, bytes) == 0 ? memory : nullptr;
-}
+using tyndall::allocate_aligned, tyndall::large_page;
 
 void* allocate(std::size_t bytes, std::size_t alignment) {
-#ifdef MADV_HUGEPAGE
   if (bytes >= large_page && bytes <= PTRDIFF_MAX && alignment <= large_page) {
     // The end is on a large page, too, where that wastes little.
     if (const std::size_t rest = -bytes % large_page; rest <= bytes / 8) bytes += rest;
     void* memory = allocate_aligned(bytes, large_page);
-    if (memory) madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: where it is refused, the memory is as good
+    if (memory) tyndall::ask_for_large_pages(memory, bytes);
     return memory;
   }
-#endif
   if (bytes == 0) bytes = 1;
   return alignment <= usual_alignment ? std::malloc(bytes) : allocate_aligned(bytes, alignment);
 }

@@ -4,12 +4,11 @@
 #include "core/base/error.h"
 #include "core/film/merge.h"
 #include "core/image/image.h"
+#include "core/system/process.h"
 
-#include <csignal>
 #include <exception>
 #include <new>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace {
@@ -24,11 +23,10 @@ int fail(const std::exception& error, int code) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  tyndall::keep_standard_streams();
-  std::signal(SIGXFSZ, SIG_IGN);  // writing beyond a limit of file sizes then fails with a message
+  tyndall::begin_process();
   try {
     const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
-    return std::visit([](const auto& command) { return tyndall::run(command); }, tyndall::read_command(arguments));
+    return tyndall::run(tyndall::read_command(arguments));
   } catch (const tyndall::UsageError& error) {
     return fail(error, wrong_usage);
   } catch (const tyndall::SceneError& error) {

@@ -58,6 +58,9 @@ RESERVED = [
     (r"(stb/)?stb_(truetype|easy_font)", r"app/report/lettering\.cpp$"),
     (r"(OpenEXR|Imath)/|Imf|Imath|(stb/)?stb_image|jpeglib|jerror|png\.h", r"core/image/(image_io[a-z_]*\.cpp|image_io_exr_open\.h)$"),
     (r"iostream$", r"app/"),
+    # The system's one door: not even its headers let others see what is behind it.
+    (r"(sys|linux|net|netinet|arpa)/|(unistd|fcntl|poll|c?signal|pthread|sched|dlfcn|link|spawn|termios|ifaddrs|netdb|pwd|"
+     r"dirent|glob|execinfo|ucontext|time)(\.h)?$", r"core/system/[a-z_]+\.cpp$"),
 ]
 GENERATED = {"shaders.h"}
 # Headers for programs of others: no part of the house, and they include nothing of it.
@@ -131,6 +134,8 @@ def check(root):
                     problems.append(f"{file}: {room} may not include {header}")
                 elif unit_of(header) != unit_of(file):
                     needs.setdefault(unit_of(file), set()).add(unit_of(header))
+            if re.match(r'\s*extern "C"', line) and room != "core/system":
+                problems.append(f"{file}: may not declare functions of the system or of libraries; core/system does")
             if other:
                 for headers, allowed in RESERVED:
                     if re.match(headers, other[1]) and not re.match(allowed, str(file)):

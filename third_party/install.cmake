@@ -11,8 +11,8 @@ foreach(target IN ITEMS tyndall_library tyndall_watch tyndall_python)
 endforeach()
 install(TARGETS tyndall RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES assets/scene.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/tyndall)
-install(DIRECTORY assets/scenes assets/textures assets/verify DESTINATION ${CMAKE_INSTALL_DATADIR}/tyndall
-        FILES_MATCHING REGEX "\\.(json|csv|png|jpg)$")
+install(DIRECTORY assets/scenes assets/templates assets/textures assets/verify DESTINATION ${CMAKE_INSTALL_DATADIR}/tyndall
+        FILES_MATCHING REGEX "\\.(json|csv|html|py|png|jpg)$")
 install(DIRECTORY app/book/tyndall/book DESTINATION ${CMAKE_INSTALL_DATADIR}/tyndall)
 install(PROGRAMS assets/farm/slurm.sh assets/farm/parallel.sh DESTINATION ${CMAKE_INSTALL_DATADIR}/tyndall/farm)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)

@@ -6,10 +6,10 @@
 #include "app/text/values.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/system/signals.h"
 
 #include <algorithm>
 #include <cerrno>
-#include <csignal>
 #include <cstdlib>
 #include <regex>
 #include <sstream>
@@ -69,7 +69,7 @@ void check_end(const ProgramTask& task, const std::string& compiler, const Child
     throw IoError(task.folder.parent_path().string() + ": temporary folder: No space left on device");
   const std::size_t killed = end.errors.find("Killed signal terminated program");
   if (end.signal != 0 || killed != std::string::npos)
-    throw IoError(compiler + " was ended by " + signal_name(end.signal != 0 ? end.signal : SIGKILL) +
+    throw IoError(compiler + " was ended by " + signal_name(end.signal != 0 ? end.signal : signal_kill) +
                   " while it compiled " + name);
 }
 

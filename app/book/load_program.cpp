@@ -4,12 +4,12 @@
 #include "app/text/values.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/system/signals.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <csignal>
 #include <sstream>
 #include <system_error>
 
@@ -110,7 +110,7 @@ ProgramScene load_program(const ProgramRequest& request) {
   const ProgramTask task{printable(main.string()), scratch->path(), request.go_on,
                          request.watch_signals,    request.trusted, request.compiler};
   const CompiledProgram program = compile_program(task, request.sources);
-  const EndWatch signals(request.watch_signals);
+  const SignalWatch signals(request.watch_signals ? WatchedSignals::end : WatchedSignals::none);
   const auto go_on = [&] { return signals.received() == 0 && (!request.go_on || request.go_on()); };
   ProgramScene scene;
   for (const char* only_samples : {static_cast<const char*>(nullptr), crashed}) {
@@ -122,7 +122,7 @@ ProgramScene load_program(const ProgramRequest& request) {
     if (read_messages(*scene.own, task, scene)) break;
     const ChildEnd& end = scene.own->end();
     if (signals.received() != 0) throw ProgramInterrupted(task.name + ": interrupted while it ran", signals.received());
-    if (!go_on()) throw ProgramInterrupted(task.name + ": given up while it ran", SIGTERM);
+    if (!go_on()) throw ProgramInterrupted(task.name + ": given up while it ran", signal_terminate);
     if (scene.width == 0 || only_samples) fail(request, task, end);
   }
   scene.own->set_lasting();

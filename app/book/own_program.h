@@ -1,5 +1,6 @@
 #pragma once
 #include "app/book/run_guarded.h"
+#include "core/system/connection.h"
 
 #include <atomic>
 #include <chrono>
@@ -40,9 +41,8 @@ class OwnProgram {
 
  private:
   bool is_wanted();
-  bool receive(void* to, std::size_t size, int milliseconds = 0) const;
 
-  int channel_ = -1;
+  Connection channel_;
   std::string name_;
   std::chrono::steady_clock::time_point deadline_;
   std::atomic<bool> stops_ = false;

@@ -24,28 +24,11 @@ struct ProgramTask {
   std::string compiler{};        ///< "": $CXX, else c++, g++ or clang++
 };
 
-/// Watches signals that ask for the end while it lives. What is ignored stays so, but for SIGINT: shells ignore it for
-/// jobs in the background, which "kill -INT" must still reach.
-class EndWatch {
- public:
-  explicit EndWatch(bool watches);
-  ~EndWatch();
-  EndWatch(const EndWatch&) = delete;
-  EndWatch& operator=(const EndWatch&) = delete;
-  int received() const;
-
- private:
-  bool watches_;
-};
-
 /// The plan under guard: what is run can change nothing outside the task's folder. Throws UsageError where the system
 /// has no guard, and the program is not trusted.
 ChildPlan guarded(const ProgramTask& task, ChildPlan plan);
 
 /// Runs it so to its end. doing: "it ran", for messages. Throws ProgramInterrupted, too.
 ChildEnd run_guarded(const ProgramTask& task, ChildPlan plan, const std::string& doing);
-
-/// The signal's name, and what it is mostly for: "SIGFPE, a division by 0".
-std::string signal_name(int signal);
 
 }  // namespace tyndall

@@ -2,8 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-
-#include <unistd.h>
+#include "core/system/files.h"
 
 #include <cerrno>
 #include <cstdlib>
@@ -22,14 +21,14 @@ std::string reason(int error) { return std::generic_category().message(error); }
 }  // namespace
 
 ScratchFolder::ScratchFolder() {
-  const char* chosen = std::getenv("TMPDIR");
-  const fs::path temporary = chosen && *chosen ? chosen : "/tmp";
-  std::string name = (temporary / "tyndall-book-XXXXXX").string();
-  if (!mkdtemp(name.data()))
-    throw IoError(printable(temporary.string()) + ": cannot make a temporary folder: " + reason(errno));
+  int problem = 0;
+  const fs::path made = make_temporary_folder("tyndall-book-", &problem);
   std::error_code error;
-  path_ = fs::canonical(name, error);
-  if (error) path_ = name;
+  if (made.empty())
+    throw IoError(printable(fs::temp_directory_path(error).string()) +
+                  ": cannot make a temporary folder: " + reason(problem));
+  path_ = fs::canonical(made, error);
+  if (error) path_ = made;
 }
 
 ScratchFolder::~ScratchFolder() {

@@ -1,7 +1,6 @@
 #include "app/curves/chart.h"
 #include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
-#include "app/cli/signals.h"
 #include "app/comparison/comparison.h"
 #include "app/comparison/pair.h"
 #include "app/curves/measure.h"
@@ -11,6 +10,7 @@
 #include "app/text/standard_streams.h"
 #include "core/accuracy/estimate.h"
 #include "core/system/processors.h"
+#include "core/system/signals.h"
 
 #include <algorithm>
 #include <chrono>
@@ -35,8 +35,8 @@ void make_small(Scene& scene) {
 }
 
 /// Settings of --method: the scene's own, and what its flags change.
-ChartMethod method_of(const MethodRequest& request, const Scene& scene) {
-  ChartMethod method{request.name, scene.render, request.isa};
+ChartMethod method_of(const Request& request, const Scene& scene) {
+  ChartMethod method{request.command, scene.render, request.isa};
   find_kernels(request.isa);
   apply(request.scene.render, method.settings);
   return method;
@@ -44,7 +44,7 @@ ChartMethod method_of(const MethodRequest& request, const Scene& scene) {
 
 class ChartJob {
  public:
-  ChartJob(const ChartCommand& command, const SignalWatch& signals)
+  ChartJob(const Request& command, const SignalWatch& signals)
       : command_(command), signals_(signals), report_(command.progress) {}
 
   /// svg: the file that the chart is to be written to.
@@ -57,7 +57,7 @@ class ChartJob {
     Scene& scene = loaded.scene;
     if (!request.size) make_small(scene);
     std::vector<ChartMethod> methods;
-    for (const MethodRequest& m : command_.methods) methods.push_back(method_of(m, scene));
+    for (const Request& m : command_.methods) methods.push_back(method_of(m, scene));
     if (methods.empty()) methods = default_methods(scene);
     const double budget = command_.budget;
     Chart chart;
@@ -107,7 +107,7 @@ class ChartJob {
   }
 
   using Clock = std::chrono::steady_clock;
-  const ChartCommand& command_;
+  const Request& command_;
   const SignalWatch& signals_;
   ProgressReport report_;
   Clock::time_point start_ = Clock::now();
@@ -119,7 +119,7 @@ bool write(const Chart& chart, const std::filesystem::path& svg, const std::stri
   return written_or_told([&] { write_standard_output(table); }) && saved;
 }
 
-int chart_all(const ChartCommand& command, const SignalWatch& signals) {
+int chart_all(const Request& command, const SignalWatch& signals) {
   const auto file_of = [&command](const char* name) { return command.output / (std::string(name) + ".svg"); };
   for (const char* name : gallery) check_can_write(file_of(name)), check_can_write(csv_beside(file_of(name)));
   bool whole = true;
@@ -140,7 +140,7 @@ int chart_all(const ChartCommand& command, const SignalWatch& signals) {
 
 }  // namespace
 
-int run(const ChartCommand& command) {
+int run_chart(const Request& command) {
   const SignalWatch signals;
   if (command.scene.what == "all") return chart_all(command, signals);
   check_can_write(command.output);

@@ -9,18 +9,20 @@ namespace tyndall {
 /// The exit code of a command that computed a picture and could not write all of it.
 inline constexpr int output_failed = 3;
 
-int run(const ViewCommand& command);
-int run(const RenderCommand& command);
-int run(const SweepCommand& command);
-int run(const AnimateCommand& command);
-int run(const CompareCommand& command);
-int run(const ChartCommand& command);
-int run(const VerifyCommand& command);
-int run(const MergeCommand& command);
-int run(const DenoiseCommand& command);
-int run(const InspectCommand& command);
-int run(const ScenesCommand& command);
-int run(const ConvertCommand& command);
-int run(const PrintCommand& command);
+/// Runs the command that was read, or prints the text.
+int run(const Command& command);
+
+int run_view(const Request& request);
+int run_render(const Request& request);
+int run_sweep(const Request& request);
+int run_animate(const Request& request);
+int run_compare(const Request& request);
+int run_chart(const Request& request);
+int run_verify(const Request& request);
+int run_merge(const Request& request);
+int run_denoise(const Request& request);
+int run_inspect(const Request& request);
+int run_scenes(const Request& request);
+int run_convert(const Request& request);
 
 }  // namespace tyndall

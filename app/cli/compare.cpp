@@ -7,11 +7,10 @@
 #include "app/text/standard_streams.h"
 #include "core/accuracy/error.h"
 #include "core/base/text.h"
+#include "core/system/process.h"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
-
-#include <unistd.h>
 
 #include <algorithm>
 
@@ -19,14 +18,14 @@ namespace tyndall {
 namespace {
 
 /// If both are EXR files with films: scores that tell whether they differ by more than their noise; else no blocks.
-BlockScores compare_films(const CompareCommand& command) {
+BlockScores compare_films(const Request& command) {
   if (!is_exr(command.image) || !is_exr(command.reference)) return {};
   const auto image = read_film(command.image), reference = read_film(command.reference);
   return image && reference ? block_scores(*image, *reference) : BlockScores{};
 }
 
 /// The picture against a scene; nothing if the reference is a picture.
-std::optional<Check> check_against_scene(const CompareCommand& command) {
+std::optional<Check> check_against_scene(const Request& command) {
   if (!names_scene(command.reference.string())) {
     const bool of_scene = command.seconds || !command.scene.overrides.empty() ||
                           !command.scene.program.include_folders.empty() || !command.scene.program.more_files.empty();
@@ -40,7 +39,7 @@ std::optional<Check> check_against_scene(const CompareCommand& command) {
         "the noise without it");
   CheckRequest request{command.image, command.baseline.ppm, command.scene, {}, {}};
   request.options.seconds = command.seconds.value_or(request.options.seconds);
-  ProgressReport report(isatty(STDERR_FILENO) != 0 ? ProgressStyle::automatic : ProgressStyle::none);
+  ProgressReport report(is_terminal(standard_error) ? ProgressStyle::automatic : ProgressStyle::none);
   request.progress = [&](const std::string& stage, double seconds) {
     report.show(seconds, std::min(1.0, seconds / request.options.seconds), stage);
     return true;
@@ -114,7 +113,7 @@ std::string table(const Comparison& c, const BlockScores& blocks) {
 }
 
 /// A line for each picture, and the reports. Returns the exit code.
-int compare_with_baseline(const CompareCommand& command) {
+int compare_with_baseline(const Request& command) {
   std::vector<std::filesystem::path> inputs;
   for (const auto& image : command.baseline.images) inputs.push_back(picture_name(image).file);
   check_outputs({{"--report", command.report}, {"--junit", command.junit}}, inputs);
@@ -156,7 +155,7 @@ int compare_with_baseline(const CompareCommand& command) {
 
 }  // namespace
 
-int run(const CompareCommand& command) {
+int run_compare(const Request& command) {
   if (!command.baseline.folder.empty()) return compare_with_baseline(command);
   check_outputs({{"--heatmap", command.heatmap}},
                 {picture_name(command.image).file, picture_name(command.reference).file});

@@ -70,39 +70,40 @@ MemoryPlan memory_plan(const FilmPart& part, const Scene& scene, const std::vect
 
 }  // namespace
 
-int run(const MergeCommand& command) {
+int run_merge(const Request& command) {
+  const std::vector<std::filesystem::path> files(command.operands.begin(), command.operands.end());
   check_image_names(command.outputs, command.form);
-  check_outputs(outputs_of("--output", command.outputs), command.parts);
+  check_outputs(outputs_of("--output", command.outputs), files);
   check_can_write(outputs_of("--output", command.outputs));
-  const Parts parts = read_parts(command.parts);
+  const Parts parts = read_parts(files);
   MemoryPlan plan = memory_plan(parts.frames.front(), parts.scene, command.outputs, command.form);
   plan.parts = parts.frames.size() > 1;
   plan.clean = command.denoise;
   check_memory(plan, free_memory());
-  const Film film = merge(parts.frames, [&](std::size_t part) { return read_film_alone(command.parts[part]); });
+  const Film film = merge(parts.frames, [&](std::size_t part) { return read_film_alone(files[part]); });
   if (parts.label.isa.starts_with("several"))
     complain("the parts are of instruction sets that differ in a few bits (" + parts.label.isa +
              "); the sum is as right as each, but no render on one machine gives its bits");
   if (!parts.remark.empty() && (command.denoise || parts.label.contents.empty())) complain(parts.remark);
   std::optional<CleanOfFilm> clean;
-  if (command.denoise) clean = clean_view(film, parts.scene, command.parts.front().string());
+  if (command.denoise) clean = clean_view(film, parts.scene, files.front().string());
   return write(film, parts.scene, parts.label, command.outputs, command.form, clean);
 }
 
-int run(const DenoiseCommand& command) {
+int run_denoise(const Request& command) {
   check_image_names(command.outputs, command.form, command.stats);
   find_kernels(command.isa);
   std::vector<Output> outputs = outputs_of("--output", command.outputs);
   outputs.push_back({"--stats", command.stats});
-  check_outputs(outputs, {command.film});
+  check_outputs(outputs, {command.image});
   check_can_write(outputs);
-  const StoredFilm stored = read_stored_frame(command.film);
+  const StoredFilm stored = read_stored_frame(command.image);
   MemoryPlan plan = memory_plan(stored.part, stored.scene, command.outputs, command.form);
   plan.clean = true;
   check_memory(plan, free_memory());
   if (!stored.remark.empty()) complain(stored.remark);
-  const Film film = read_film_alone(command.film);
-  const CleanOfFilm clean = clean_view(film, stored.scene, command.film.string(), command.threads, command.isa);
+  const Film film = read_film_alone(command.image);
+  const CleanOfFilm clean = clean_view(film, stored.scene, command.image.string(), command.threads, command.isa);
   const int code = write(film, stored.scene, stored.label, command.outputs, command.form, clean);
   if (is_doubtful(clean.picture, totals(film).min_taken))
     complain(std::string(rare_bright_paths) + "; the error may be larger than estimated");

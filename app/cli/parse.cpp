@@ -89,27 +89,23 @@ std::unique_ptr<CLI::App> new_command(const std::string& usage, const std::strin
   return app;
 }
 
-void add_value(CLI::App& app, const std::string& names, const std::string& unit, const std::string& help, Reader read,
-               const std::vector<std::string>& choices) {
-  CLI::Option* option = app.add_option_function<std::string>(names, named(names, std::move(read)), help);
-  option->option_text(unit)->type_name(CLI::detail::join(choices, "|"));  // the help shows the unit alone
-}
-
-void add_values(CLI::App& app, const std::string& names, const std::string& unit, const std::string& help,
-                Reader read) {
-  const auto each = [read = named(names, std::move(read))](const std::vector<std::string>& texts) {
+void add_option(CLI::App& app, const std::string& names, const std::string& unit, const std::string& help, Reader read,
+                Takes takes, const std::vector<std::string>& choices) {
+  if (takes == Takes::flag) {
+    app.add_flag_callback(
+        names, [read = std::move(read)] { read(""); }, help);
+    return;
+  }
+  const bool argument = names[0] != '-';
+  if (!argument) read = named(names, std::move(read));
+  const auto each = [read](const std::vector<std::string>& texts) {
     for (const std::string& text : texts) read(text);
   };
-  CLI::Option* option = app.add_option_function<std::vector<std::string>>(names, each, help);
-  option->option_text(unit)->type_name("")->allow_extra_args(false)->take_all();
-}
-
-void add_argument(CLI::App& app, const std::string& name, const std::string& help, std::string& text) {
-  app.add_option(name, text, help)->option_text(" ")->type_name("")->multi_option_policy(CLI::MultiOptionPolicy::Throw);
-}
-
-void add_arguments(CLI::App& app, const std::string& name, const std::string& help, std::vector<std::string>& texts) {
-  app.add_option(name, texts, help)->option_text(" ")->type_name("")->take_all();
+  CLI::Option* option = takes == Takes::each ? app.add_option_function<std::vector<std::string>>(names, each, help)
+                                             : app.add_option_function<std::string>(names, read, help);
+  option->option_text(unit)->type_name(CLI::detail::join(choices, "|"));  // the help shows the unit alone
+  if (takes == Takes::each) option->take_all();
+  if (!argument) option->allow_extra_args(false);
 }
 
 std::optional<PrintCommand> parse(CLI::App& app, std::vector<std::string> arguments) {
@@ -128,10 +124,6 @@ std::optional<PrintCommand> parse(CLI::App& app, std::vector<std::string> argume
   }
   refuse_extras(app);
   return std::nullopt;
-}
-
-void require(const CLI::App& app, bool given, const std::string& what) {
-  if (!given) throw UsageError(what + " is missing" + see_help(app));
 }
 
 }  // namespace tyndall

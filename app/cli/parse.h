@@ -25,19 +25,15 @@ inline constexpr std::size_t help_width = 66;
 std::unique_ptr<CLI::App> new_command(const std::string& usage, const std::string& about,
                                       const std::string& examples = "");
 
-/// An option with a value. names: "-t,--threads"; unit: what the help calls the value; choices: the values that it
-/// takes, where they have names, for shells that complete them.
-void add_value(CLI::App& app, const std::string& names, const std::string& unit, const std::string& help, Reader read,
-               const std::vector<std::string>& choices = {});
-/// The same; may be given several times, each time with one value.
-void add_values(CLI::App& app, const std::string& names, const std::string& unit, const std::string& help, Reader read);
-/// Words without a dash.
-void add_argument(CLI::App& app, const std::string& name, const std::string& help, std::string& text);
-void add_arguments(CLI::App& app, const std::string& name, const std::string& help, std::vector<std::string>& texts);
+/// How often an option may be given: a flag takes no value, of `once` the last value counts.
+enum class Takes { flag, once, each };
+
+/// An option, or without dashes in its names an argument. names: "-t,--threads"; unit: what the help calls the value;
+/// choices: the values that it takes, where they have names, for shells that complete them.
+void add_option(CLI::App& app, const std::string& names, const std::string& unit, const std::string& help, Reader read,
+                Takes takes = Takes::once, const std::vector<std::string>& choices = {});
 
 /// Reads the words after the command. Returns the help if that is asked for. Throws UsageError, a line.
 std::optional<PrintCommand> parse(CLI::App& app, std::vector<std::string> arguments);
-/// Throws "WHAT is missing" unless it was given.
-void require(const CLI::App& app, bool given, const std::string& what);
 
 }  // namespace tyndall

@@ -1,10 +1,10 @@
 #pragma once
 #include "app/cli/live_view.h"
 #include "app/cli/render_setup.h"
-#include "app/cli/signals.h"
 #include "app/text/progress.h"
 #include "core/files/stats.h"
 #include "core/system/processors.h"
+#include "core/system/signals.h"
 
 #include <chrono>
 #include <functional>
@@ -16,7 +16,7 @@
 namespace tyndall {
 
 struct RenderJob {
-  const RenderCommand& command;
+  const Request& command;
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   LoadedScene loaded{};     ///< what the command's scene is; see open_scene_or_samples()
   OwnSamples own{};         ///< where it is a picture
@@ -40,7 +40,7 @@ struct RenderOutcome {
 RenderOutcome outcome_of(const RenderJob& job, const RenderResult& result, bool unfinished);
 
 /// Checks the names of the outputs, before any file is read.
-void check_names(const RenderCommand& command);
+void check_names(const Request& command);
 /// Finds everything else that can be wrong before the first sample, and where the render begins.
 void prepare(RenderJob& job);
 /// Remarks on what the user may not expect of the outputs, settings and textures.

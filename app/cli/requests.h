@@ -15,125 +15,66 @@
 #include <variant>
 #include <vector>
 
-/// What the user asked for: one struct for each command. Only read_command() makes them.
+/// What the user asked for. Only read_command() makes it.
 namespace tyndall {
 
-struct ViewCommand {
+/// All that options and arguments can say. Each command reads the part that its options fill.
+struct Request {
+  std::string command;                 ///< "render"
+  std::vector<std::string> arguments;  ///< as the user typed them
+  std::vector<std::string> operands;   ///< those of them that are neither options nor a scene
   SceneRequest scene;
-  std::vector<std::string> arguments;  ///< as the user typed them; repeated in the message that there is no display
-  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds after which the picture pauses
-  double target_error = 0;                                      ///< the same for its estimated error; 0: none
-  int threads = 0;                                              ///< 0: see thread_count()
-  std::string isa;                                              ///< "": the best
-  PpmCurve ppm = PpmCurve::srgb;                                ///< of a picture from standard input
-  std::filesystem::path reference;                              ///< image that errors are measured against; empty: none
-  std::filesystem::path ui_log;                                 ///< diagnostic of the window, for tests; empty: none
-};
 
-struct RenderCommand {
-  SceneRequest scene;
-  std::vector<std::filesystem::path> outputs;
+  // Pictures and how they are rendered.
+  std::vector<std::filesystem::path> outputs;  ///< of sweep and animate: names with %v or %d in them
   ImageForm form;
   std::optional<std::uint32_t> spp;
   std::optional<SampleRange> samples;
-  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
+  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds; in the window the picture pauses there
   double target_error = 0;                                      ///< 0: none
   std::optional<Region> region;
   std::optional<int> frame;          ///< of the scene's animation; absent: the scene without keys
-  bool seed_per_frame = true;        ///< with a frame: see FramePlan
   std::optional<SampleKey> replay;   ///< print this sample's path instead of rendering
   int threads = 0;                   ///< 0: see thread_count()
   std::string isa;                   ///< "": the best
   std::filesystem::path stats;       ///< empty: none
   std::optional<double> checkpoint;  ///< seconds, 0: never; absent: see checkpoint.h
-  bool fresh = false, resume = false;
-  bool denoise = false;
+  bool fresh = false, resume = false, denoise = false;
   ProgressStyle progress = ProgressStyle::automatic;
   std::optional<ViewerAddress> viewer;  ///< that is shown the picture
-};
 
-struct SweepCommand {
-  RenderCommand render;                                         ///< of each picture; outputs: names with %v in them
+  // Of view.
+  std::filesystem::path reference;  ///< image that errors are measured against, also of chart; empty: none
+  std::filesystem::path ui_log;     ///< diagnostic of the window, for tests; empty: none
+
+  // Of sweep.
   std::vector<SweepAxis> axes;                                  ///< one or two
   std::filesystem::path sheet, csv;                             ///< empty: none
   double total_time = std::numeric_limits<double>::infinity();  ///< seconds for all pictures
-};
 
-struct AnimateCommand {
-  RenderCommand render;                           ///< of each frame; outputs: names with %d in them
+  // Of animate.
   std::filesystem::path video;                    ///< .y4m, "-": standard output; empty: none
   std::optional<int> frames;                      ///< absent: as many as the scene says
   std::optional<FrameRange> range;                ///< absent: all
   bool turntable = false, seed_per_frame = true;  ///< see FramePlan
   int rate = 24, rate_divisor = 1;                ///< frames of the video per rate_divisor seconds
-};
 
-struct CompareCommand {
-  std::filesystem::path image, reference;  ///< without a baseline
-  SceneRequest scene;                      ///< what the reference is if its name is a scene's
-  std::optional<double> seconds;           ///< for a scene, all of it; absent: 20
-  std::filesystem::path heatmap;           ///< empty: none
-  BaselineRequest baseline;                ///< without a folder: none
-  bool update = false;                     ///< the baseline becomes like the images
-  std::filesystem::path report, junit;     ///< of the baseline; empty: none
+  // Of compare.
+  std::filesystem::path image;          ///< without a baseline; likewise reference, also a scene
+  std::optional<double> seconds;        ///< for a scene, all of it; absent: 20
+  std::filesystem::path heatmap;        ///< empty: none
+  BaselineRequest baseline;             ///< without a folder: none
+  bool update = false;                  ///< the baseline becomes like the images
+  std::filesystem::path report, junit;  ///< of the baseline; empty: none
   Tolerance limits;
+
+  // Of chart, verify, inspect and convert.
+  std::filesystem::path output;  ///< chart: the SVG, for "all" a folder; convert: the scene, "-": standard output
+  std::vector<Request> methods;  ///< curves of a chart, by their command's name: settings and what their flags change
+  double budget = 50;            ///< seconds, the reference included; for "all" of each chart
   bool json = false;
-};
-
-struct VerifyCommand {
-  std::vector<std::string> names;  ///< beginnings of the cases' names; none: all cases
-  SceneRequest method;             ///< settings for all cases; each case adds its own scene and overrides
-  bool thorough = false;           ///< standard errors of 1e-4 instead of 1e-3
-  bool json = false;
-  int threads = 0;  ///< 0: see thread_count()
-  std::string isa;  ///< "": the best
-  ProgressStyle progress = ProgressStyle::automatic;
-};
-
-/// One curve of a chart: the scene's own settings and what its flags change.
-struct MethodRequest {
-  std::string name;
-  SceneRequest scene;  ///< only its render settings
-  std::string isa;     ///< "": the best
-};
-
-struct ChartCommand {
-  SceneRequest scene;                  ///< "all": a gallery
-  std::filesystem::path output;        ///< the SVG; for "all" a folder
-  std::filesystem::path reference;     ///< empty: rendered
-  std::vector<MethodRequest> methods;  ///< none: the default ones
-  double budget = 50;                  ///< seconds, the reference included; for "all" of each chart
-  int threads = 0;                     ///< 0: see thread_count()
-  ProgressStyle progress = ProgressStyle::automatic;
-};
-
-struct MergeCommand {
-  std::vector<std::filesystem::path> parts, outputs;
-  ImageForm form;
-  bool denoise = false;
-};
-
-struct DenoiseCommand {
-  std::filesystem::path film;
-  std::vector<std::filesystem::path> outputs;
-  ImageForm form;
-  std::filesystem::path stats;  ///< empty: none
-  int threads = 0;              ///< 0: see thread_count()
-  std::string isa;              ///< "": the best
-};
-
-struct InspectCommand {
-  SceneRequest scene;
-  bool json = false;
-  bool measure = false;  ///< measure how much faster the chosen kernel and chains are
-  std::string isa;       ///< "": the best; with measure
-};
-
-struct ScenesCommand {};
-
-struct ConvertCommand {
-  SceneRequest scene;
-  std::filesystem::path output;  ///< "-": standard output
+  bool thorough = false;  ///< standard errors of 1e-4 instead of 1e-3
+  bool measure = false;   ///< measure how much faster the chosen kernel and chains are
 };
 
 /// A text to be printed and nothing else: help or the version.
@@ -142,12 +83,10 @@ struct PrintCommand {
   CommandPage page;  ///< of the help of a command: what it says
 };
 
-using Command = std::variant<ViewCommand, RenderCommand, SweepCommand, AnimateCommand, CompareCommand, ChartCommand,
-                             VerifyCommand, MergeCommand, DenoiseCommand, InspectCommand, ScenesCommand,
-                             ConvertCommand, PrintCommand>;
-
-/// The command line as a whole: which command, and its request. arguments[0] is what follows the program's name. Throws
-/// UsageError. Of files only the existence is looked at, to tell a misspelt command from a scene's file.
+/// The command line as a whole: a command's request, or what is to be printed. arguments[0] is what follows the
+/// program's name. Throws UsageError. Of files only the existence is looked at, to tell a misspelt command from a
+/// scene's file.
+using Command = std::variant<Request, PrintCommand>;
 Command read_command(const std::vector<std::string>& arguments);
 
 }  // namespace tyndall

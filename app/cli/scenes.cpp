@@ -35,7 +35,7 @@ std::optional<ForeignFile> foreign_file(const Scene& scene, const std::string& n
 
 }  // namespace
 
-int run(const ScenesCommand&) {
+int run_scenes(const Request&) {
   const std::vector<BuiltIn> scenes = built_in_scenes();
   if (scenes.empty()) throw IoError("no built-in scenes were found (TYNDALL_ASSETS names the folder that has scenes/)");
   std::size_t width = 0;
@@ -47,7 +47,7 @@ int run(const ScenesCommand&) {
   return 0;
 }
 
-int run(const ConvertCommand& command) {
+int run_convert(const Request& command) {
   const LoadedScene loaded = open_scene(command.scene);
   const bool to_standard_output = command.output == "-";
   const std::filesystem::path folder = to_standard_output ? "" : command.output.parent_path();
@@ -68,11 +68,6 @@ int run(const ConvertCommand& command) {
     if (has_mesh) write_text_or_rescue(folder / foreign->mesh_name, foreign->mesh);
     write_text_or_rescue(command.output, text);
   }
-  return 0;
-}
-
-int run(const PrintCommand& command) {
-  write_standard_output(command.text);
   return 0;
 }
 

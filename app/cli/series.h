@@ -1,7 +1,7 @@
 #pragma once
 #include "app/cli/render_job.h"
-#include "app/cli/signals.h"
 #include "app/text/progress.h"
+#include "core/system/signals.h"
 
 #include <cstddef>
 #include <set>

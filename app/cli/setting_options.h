@@ -84,18 +84,19 @@ void add_setting(CLI::App& app, Changes<Owner>& changes, const Field<Owner, T>& 
       wrapped(field.help + choices_text(usual) + " [from the scene, else " + setting_text(usual) + "]", help_width);
   if constexpr (std::is_same_v<T, bool>)
     if (!usual) {
-      const auto switch_on = [&changes, field](std::int64_t) { set(changes, field.value, true); };
-      app.add_flag_function(option_name(field.name), switch_on, help);
+      add_option(
+          app, option_name(field.name), "", help,
+          [&changes, field](const std::string&) { set(changes, field.value, true); }, Takes::flag);
       return;
     }
-  add_value(
+  add_option(
       app, option_name(field.name), placeholder(meaning_of(field), usual), help,
       [&changes, field](const std::string& text) {
         T value{};
         read_option(text, meaning_of(field), value);
         set(changes, field.value, value);
       },
-      choices(usual));
+      Takes::once, choices(usual));
 }
 
 /// Options for all fields of a struct but some.

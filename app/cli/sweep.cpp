@@ -38,7 +38,7 @@ struct SweepFigures {
 };
 
 struct Sweeping {
-  const SweepCommand& command;
+  const Request& command;
   LoadedScene base;
   std::vector<SweepStep> steps{};
   std::size_t middle = 0;  ///< its picture is what the others are compared with
@@ -49,7 +49,7 @@ struct Sweeping {
 
 std::string values_text(const SweepStep& step, const std::string& between) { return joined(step.values, between); }
 
-std::vector<SweepStep> steps_of(const SweepCommand& command) {
+std::vector<SweepStep> steps_of(const Request& command) {
   const std::vector<std::string> once{""};
   const auto& first = command.axes[0].values;
   const auto& second = command.axes.size() > 1 ? command.axes[1].values : once;
@@ -61,7 +61,7 @@ std::vector<SweepStep> steps_of(const SweepCommand& command) {
     for (const std::string& a : first) {
       SweepStep step{{a}, {}};
       if (command.axes.size() > 1) step.values.push_back(b);
-      for (const auto& name : command.render.outputs)
+      for (const auto& name : command.outputs)
         step.outputs.emplace_back(name_for(read_valued_name(name.string()), values_text(step, "_")));
       steps.push_back(std::move(step));
     }
@@ -77,18 +77,18 @@ LoadedScene scene_of(const Sweeping& sweep, const SweepStep& step) {
     settings += (k > 0 ? ", " : "") + overrides[k].pointer + "=" + step.values[k];
   }
   const auto number = std::to_string(&step - sweep.steps.data() + 1);
-  return open_variant(sweep.base, sweep.command.render.scene, overrides,
+  return open_variant(sweep.base, sweep.command.scene, overrides,
                       sweep.base.name + ": step " + number + " (" + settings + ")");
 }
 
-RenderCommand command_of(const Sweeping& sweep, const SweepStep& step) {
-  RenderCommand command = sweep.command.render;
+Request command_of(const Sweeping& sweep, const SweepStep& step) {
+  Request command = sweep.command;
   command.outputs = step.outputs;
   command.time_limit = std::min(command.time_limit, sweep.command.total_time);
   return command;
 }
 
-void check_axes(const SweepCommand& command) {
+void check_axes(const Request& command) {
   for (const SweepAxis& axis : command.axes) {
     const auto steps = pointer_steps(axis.pointer);
     if (steps && steps->front() == "image")
@@ -116,7 +116,7 @@ void check_steps(Sweeping& sweep) {
   check_outputs(outputs, sweep.base.files);
   check_can_write(std::vector<Output>(outputs.begin(), outputs.begin() + 2));
   for (const SweepStep& step : sweep.steps) {
-    const RenderCommand command = command_of(sweep, step);
+    const Request command = command_of(sweep, step);
     check_names(command);
     RenderJob job{command};
     job.kernels = kernels_to_render(command.isa);
@@ -130,7 +130,7 @@ void check_steps(Sweeping& sweep) {
 
 /// Seconds that the next picture may take.
 double time_limit(const Sweeping& sweep, const Series& series) {
-  const double each = sweep.command.render.time_limit;
+  const double each = sweep.command.time_limit;
   if (!std::isfinite(sweep.command.total_time)) return each;
   const double left = std::max(1e-3, sweep.command.total_time - series.seconds());
   return std::min(each, left / static_cast<double>(series.left()));
@@ -154,7 +154,7 @@ void add_figures(Sweeping& sweep, std::size_t k, const RenderOutcome& outcome, c
 /// Renders a picture and takes what is needed of it; false if something could not be written.
 bool make_picture(Sweeping& sweep, std::size_t k, Series& series) {
   const SweepStep& step = sweep.steps[k];
-  RenderCommand command = command_of(sweep, step);
+  Request command = command_of(sweep, step);
   command.time_limit = time_limit(sweep, series);
   RenderJob job{command};
   job.loaded = scene_of(sweep, step);
@@ -249,7 +249,7 @@ void write_sheet(const Sweeping& sweep) {
 /// Writes the sheet and the table; false if something could not be written, which is told.
 bool write_all(const Sweeping& sweep) {
   bool whole = true;
-  const SweepCommand& command = sweep.command;
+  const Request& command = sweep.command;
   if (!command.sheet.empty()) whole = written_or_told([&] { write_sheet(sweep); });
   if (command.csv == "-")
     whole = written_or_told([&] { write_standard_output(csv_text(sweep)); }) && whole;
@@ -266,10 +266,10 @@ void check_sheet_name(const std::filesystem::path& sheet) {
 
 }  // namespace
 
-int run(const SweepCommand& command) {
+int run_sweep(const Request& command) {
   check_axes(command);
   check_sheet_name(command.sheet);
-  Sweeping sweep{command, open_scene(command.render.scene)};
+  Sweeping sweep{command, open_scene(command.scene)};
   sweep.steps = steps_of(command);
   sweep.figures.resize(sweep.steps.size());
   const int count = static_cast<int>(sweep.steps.size()), first = static_cast<int>(command.axes[0].values.size());
@@ -279,7 +279,7 @@ int run(const SweepCommand& command) {
   sweep.columns =
       command.axes.size() > 1 ? first : sheet_columns(sweep.base.scene.width, sweep.base.scene.height, count);
   check_steps(sweep);
-  Series series(command.render.progress, sweep.steps.size());
+  Series series(command.progress, sweep.steps.size());
   std::vector<std::size_t> order{sweep.middle};
   for (std::size_t k = 0; k < sweep.steps.size(); ++k)
     if (k != sweep.middle) order.push_back(k);
@@ -288,7 +288,7 @@ int run(const SweepCommand& command) {
     whole = make_picture(sweep, k, series) && whole;
     if (series.signal() != 0) {
       complain("interrupted: no sheet and no table are written" +
-               std::string(command.render.outputs.empty() ? "" : "; the same command goes on"));
+               std::string(command.outputs.empty() ? "" : "; the same command goes on"));
       return 128 + series.signal();
     }
   }

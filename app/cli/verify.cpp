@@ -1,12 +1,12 @@
 #include "app/cli/verify.h"
 #include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
-#include "app/cli/signals.h"
 #include "app/files/open_scene.h"
 #include "app/text/progress.h"
 #include "app/text/standard_streams.h"
 #include "core/base/seconds.h"
 #include "core/base/thread_pool.h"
+#include "core/system/signals.h"
 
 #include <chrono>
 #include <cmath>
@@ -25,11 +25,11 @@ std::uint32_t seed_of(const std::string& name) {
 }
 
 /// A case's scene with the command's method.
-Scene scene_of(const VerifyCommand& command, const VerifyCase& what) {
-  SceneRequest request = command.method;
+Scene scene_of(const Request& command, const VerifyCase& what) {
+  SceneRequest request = command.scene;
   request.what = what.scene.string();
   request.overrides = what.overrides;
-  set(request.render, &RenderSettings::seed, seed_of(what.name) + max_rounds * command.method.render.values.seed);
+  set(request.render, &RenderSettings::seed, seed_of(what.name) + max_rounds * command.scene.render.values.seed);
   return open_scene(request).scene;
 }
 
@@ -43,7 +43,7 @@ bool is_out_of_reach(const VerifyCase& what, const RenderSettings& method) {
 
 class Verification {
  public:
-  Verification(const VerifyCommand& command, std::vector<VerifyCase> cases)
+  Verification(const Request& command, std::vector<VerifyCase> cases)
       : command_(command), cases_(std::move(cases)), report_(command.progress) {
     run_.precision = command.thorough ? 1e-4 : 1e-3;
     run_.isa = find_kernels(command.isa).isa;
@@ -82,7 +82,7 @@ class Verification {
     });
   }
 
-  const VerifyCommand& command_;
+  const Request& command_;
   std::vector<VerifyCase> cases_;
   ProgressReport report_;
   SignalWatch signals_;
@@ -92,9 +92,9 @@ class Verification {
 
 }  // namespace
 
-int run(const VerifyCommand& command) {
+int run_verify(const Request& command) {
   const auto table = assets_folder() / "verify" / "cases.json";
-  Verification verification(command, chosen_cases(read_verify_cases(table), command.names));
+  Verification verification(command, chosen_cases(read_verify_cases(table), command.operands));
   const VerifyRun run = verification.run();
   write_standard_output(command.json ? verify_json(run) : verify_table(run));
   if (run.interrupted) return 128 + verification.signal();

@@ -9,13 +9,13 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/image_io.h"
+#include "core/system/open_file.h"
 
 #ifdef TYNDALL_WINDOW
 #include "app/window/system/preferences.h"
 #endif
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@
 namespace tyndall {
 namespace {
 
-constexpr const char* standard_input = "standard input";
+constexpr const char* input_name = "standard input";
 
 /// The word as a shell needs it.
 std::string shell_argument(const std::string& argument) {
@@ -48,7 +48,7 @@ std::string shell_argument(const std::string& argument) {
 }
 
 /// The render command that makes the picture which the window would show.
-std::string headless_command(const ViewCommand& command) {
+std::string headless_command(const Request& command) {
   std::string text = "tyndall render";
   if (std::find(command.arguments.begin(), command.arguments.end(), command.scene.what) == command.arguments.end())
     text += " " + shell_argument(command.scene.what);
@@ -94,13 +94,13 @@ int open_window(const std::string& instead, [[maybe_unused]] const Options& opti
 #endif
 }
 
-void check_files(const ViewCommand& command, std::vector<std::filesystem::path> inputs) {
+void check_files(const Request& command, std::vector<std::filesystem::path> inputs) {
   if (!command.reference.empty()) inputs.push_back(picture_name(command.reference).file);
   check_outputs({{"--ui-log", command.ui_log}}, inputs);
 }
 
 /// Options that change a scene, or how one is rendered, say nothing of a picture.
-void refuse_scene_options(const ViewCommand& command) {
+void refuse_scene_options(const Request& command) {
   const SceneRequest& request = command.scene;
   const bool limited = std::isfinite(command.time_limit) || command.target_error > 0;
   if (request.overrides.empty() && !request.size && request.render.given.empty() && !limited) return;
@@ -110,9 +110,9 @@ void refuse_scene_options(const ViewCommand& command) {
 }
 
 /// A scene of the picture's size that has nothing else, to be shown in its place.
-LoadedScene scene_of(const ArrivingPicture& picture, const ViewCommand& command) {
+LoadedScene scene_of(const ArrivingPicture& picture, const Request& command) {
   LoadedScene loaded;
-  loaded.name = standard_input;
+  loaded.name = input_name;
   loaded.folder = ".";
   loaded.is_picture = true;
   loaded.scene.width = picture.width(), loaded.scene.height = picture.height();
@@ -122,10 +122,10 @@ LoadedScene scene_of(const ArrivingPicture& picture, const ViewCommand& command)
 }
 
 /// Shows what a program writes to standard input, as it comes. begin: the bytes with which it begins.
-int view_picture(const ViewCommand& command, const std::string& begin) {
+int view_picture(const Request& command, const std::string& begin) {
   refuse_scene_options(command);
   check_files(command, {});
-  const auto picture = std::make_shared<ArrivingPicture>(STDIN_FILENO, begin, standard_input, command.ppm);
+  const auto picture = std::make_shared<ArrivingPicture>(standard_input, begin, input_name, command.form.ppm);
   const LoadedScene loaded = scene_of(*picture, command);
   check_memory(loaded.scene);
   return open_window("the program's picture can be kept in a file: > image.ppm in place of | tyndall view -", [&] {
@@ -140,8 +140,8 @@ int view_picture(const ViewCommand& command, const std::string& begin) {
   });
 }
 
-int view_scene(const ViewCommand& command) {
-  if (command.ppm == PpmCurve::gamma2)
+int view_scene(const Request& command) {
+  if (command.form.ppm == PpmCurve::gamma2)
     throw UsageError(
         "--gamma2: found a scene, expected a picture (P3 or P6) on standard input: only these are read so");
   const auto own = std::make_shared<OwnSamples>();
@@ -180,14 +180,14 @@ int view_scene(const ViewCommand& command) {
 
 }  // namespace
 
-int run(const ViewCommand& command) {
+int run_view(const Request& command) {
   if (command.scene.what != "-") return view_scene(command);
-  const Beginning begin = beginning_of(STDIN_FILENO);
+  const Beginning begin = beginning_of(standard_input);
   if (begin.bytes.empty())
-    throw UsageError(std::string(standard_input) + ": found nothing, expected a scene, or a picture (P3 or P6)");
+    throw UsageError(std::string(input_name) + ": found nothing, expected a scene, or a picture (P3 or P6)");
   if (begin.is_picture) return view_picture(command, begin.bytes);
   if (!begin.is_scene)
-    throw UsageError(std::string(standard_input) + ": found " + first_line_of(STDIN_FILENO, begin.bytes) +
+    throw UsageError(std::string(input_name) + ": found " + first_line_of(standard_input, begin.bytes) +
                      ", expected P3 or P6 as the first bytes, or a scene's {; what a program says besides its picture "
                      "belongs on standard error (std::cerr)");
   // The C library takes back as many bytes as it is given.

@@ -3,6 +3,7 @@
 #include "app/files/outputs.h"
 #include "app/report/heat_map.h"
 #include "app/text/markup.h"
+#include "app/text/templates.h"
 #include "core/base/text.h"
 #include "core/image/image_io.h"
 #include "core/image/image_io_file.h"
@@ -147,76 +148,6 @@ std::string css_stops() {
   return text;
 }
 
-constexpr char page_start[] = R"(<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><title>Pictures against their baseline</title>
-<meta name="viewport" content="width=device-width, initial-scale=1"><meta name="color-scheme" content="light dark">
-<style>
-:root { --text: #1d2b3a; --quiet: #5a6b7c; --page: #f4f6f8; --card: #fff; --line: #d5dce3; --good: #1f7a4a; --bad: #b3261e }
-@media (prefers-color-scheme: dark) {
-  :root { --text: #e3e8ee; --quiet: #9aa8b7; --page: #14181d; --card: #1e242b; --line: #35404c; --good: #5fcf95; --bad: #ff8a80 }
-}
-body { font: 15px/1.45 system-ui, sans-serif; margin: 1.5rem; color: var(--text); background: var(--page) }
-section { background: var(--card); border-left: 6px solid var(--good); padding: 1rem 1.25rem; margin: 1.2rem 0; border-radius: 4px }
-section.failed { border-color: var(--bad) }
-h2 em { font-size: 80%; font-style: normal; color: var(--quiet) }
-.bad, .bad th, .bad a { color: var(--bad) }
-a { color: inherit }
-table { border-collapse: collapse; margin: 1rem 0 }
-th, td { text-align: right; padding: .2rem 1rem .2rem 0; font-variant-numeric: tabular-nums }
-tr th:first-child, td.why { text-align: left; overflow-wrap: break-word }
-tr th:first-child { min-width: 7rem; max-width: 24rem }
-@media (max-width: 50rem) { td.why { display: none } }
-.summary { width: 100% }
-.summary tr { border-bottom: 1px solid var(--line) }
-.pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 22rem), 1fr)); gap: 1.25rem }
-figure { margin: 0; min-width: 0 }
-.slide { position: relative; --at: 50%; line-height: 0; cursor: ew-resize; touch-action: pan-y }
-.slide:focus-visible, button:focus-visible { outline: 3px solid var(--good); outline-offset: 2px }
-.slide .top { position: absolute; inset: 0; clip-path: inset(0 calc(100% - var(--at)) 0 0) }
-.bar { position: absolute; top: 0; bottom: 0; left: var(--at); width: 2px; margin-left: -1px; background: #fff; box-shadow: 0 0 0 1px #0008 }
-img { width: 100%; height: auto; image-rendering: pixelated }
-.marks { display: flex; justify-content: space-between; font-size: 13px }
-figcaption { color: var(--quiet); font-size: 90% }
-.command { margin: .3rem 0; overflow-wrap: anywhere }
-code { font-size: 90% }
-.scale { height: 12px; border: 1px solid var(--line); background: linear-gradient(to right, )";
-constexpr char page_style_end[] = R"() }
-</style></head><body>
-)";
-constexpr char page_end[] = R"(<script>
-document.querySelectorAll('.slide').forEach(function (slide) {
-  let at = 50;
-  const move = function (to) {
-    at = Math.min(100, Math.max(0, to));
-    slide.style.setProperty('--at', at + '%');
-    slide.setAttribute('aria-valuenow', Math.round(at));
-  };
-  slide.addEventListener('pointermove', function (event) {
-    const box = slide.getBoundingClientRect();
-    move(100 * (event.clientX - box.left) / box.width);
-  });
-  slide.addEventListener('keydown', function (event) {
-    const to = { ArrowLeft: at - 2, ArrowRight: at + 2, Home: 0, End: 100 }[event.key];
-    if (to === undefined) return;
-    event.preventDefault();
-    move(to);
-  });
-});
-document.querySelectorAll('.command button').forEach(function (button) {
-  button.addEventListener('click', function () {
-    const code = button.parentElement.querySelector('code');
-    const done = function () { button.textContent = 'copied'; };
-    const select = function () {  // where a page has no clipboard
-      getSelection().selectAllChildren(code);
-      if (document.execCommand('copy')) done();
-    };
-    if (navigator.clipboard) navigator.clipboard.writeText(code.textContent).then(done, select); else select();
-  });
-});
-</script>
-</body></html>
-)";
-
 }  // namespace
 
 void write_html_report(const std::filesystem::path& file, const std::vector<CheckedPicture>& pictures, PpmCurve ppm) {
@@ -230,12 +161,11 @@ void write_html_report(const std::filesystem::path& file, const std::vector<Chec
       rows += summary_row(picture, ++number);
       sections += section(picture, number, ppm);
     }
-  write_text_or_rescue(file, page_start + css_stops() + page_style_end +
-                                 fmt::format("<h1>{} of {} pictures look like their baseline</h1>\n",
-                                             pictures.size() - failed, pictures.size()) +
-                                 "<table class=\"summary\"><tr><th>picture</th><th></th><th>z</th><th>FLIP</th>"
-                                 "<th>relMSE</th><th></th></tr>\n" +
-                                 rows + "</table>\n" + sections + page_end);
+  const std::string sentence =
+      fmt::format("{} of {} pictures look like their baseline", pictures.size() - failed, pictures.size());
+  write_text_or_rescue(
+      file, from_template("report.html",
+                          {{"stops", css_stops()}, {"sentence", sentence}, {"rows", rows}, {"sections", sections}}));
 }
 
 std::string junit_report(const std::vector<CheckedPicture>& pictures) {

@@ -1,5 +1,5 @@
-#include "app/export/blender_script.h"
 #include "app/export/foreign_scene.h"
+#include "app/text/templates.h"
 #include "core/base/kinds.h"
 #include "core/base/text.h"
 #include "core/compile/columns.h"
@@ -135,8 +135,7 @@ ForeignFile blender_file(const Scene& scene, const std::string& name, const std:
     json["media"].push_back({{"sigma_t", m.sigma_t}, {"g", m.g}, {"albedo", json_of(m.albedo)}});
   for (const ForeignShape& s : foreign.shapes) json["shapes"].push_back(shape(s));
   // The scene is one string of ASCII in the script, and JSON in that: nothing in it can become a statement.
-  const std::string data = Json(json.dump(-1, ' ', true)).dump(-1, ' ', true);
-  out.text = std::string(blender_script_head) + "DATA = " + data + "\n" + std::string(blender_script);
+  out.text = from_template("blender.py", {{"scene", Json(json.dump(-1, ' ', true)).dump(-1, ' ', true)}});
   return out;
 }
 

@@ -6,16 +6,10 @@
 #include "core/base/text.h"
 #include "core/image/image_io_file.h"
 
-#include <fcntl.h>
-#include <poll.h>
-#include <unistd.h>
-
 #include <algorithm>
+#include <array>
 #include <atomic>
-#include <cerrno>
 #include <chrono>
-#include <cmath>
-#include <system_error>
 #include <utility>
 
 namespace tyndall {
@@ -23,13 +17,12 @@ namespace {
 
 constexpr std::size_t piece = 65536;  // bytes; as many as a pipe of Linux holds
 
-/// Reads up to `size` bytes; 0: there are no more.
-std::size_t read_some(int file, std::uint8_t* to, std::size_t size) {
-  for (;;) {
-    const ssize_t got = ::read(file, to, size);
-    if (got >= 0) return static_cast<std::size_t>(got);
-    if (errno != EINTR) throw IoError("standard input: cannot read: " + std::generic_category().message(errno));
-  }
+/// How many bytes were read, up to `size`; 0: there are no more.
+std::size_t read_bytes(int file, std::uint8_t* to, std::size_t size) {
+  std::size_t got = 0;
+  if (const int problem = read_some(file, to, size, got); problem != 0)
+    throw IoError("standard input: cannot read: " + error_text(problem));
+  return got;
 }
 
 }  // namespace
@@ -37,7 +30,7 @@ std::size_t read_some(int file, std::uint8_t* to, std::size_t size) {
 Beginning beginning_of(int file) {
   constexpr std::string_view mark = "\xef\xbb\xbf";
   Beginning found;
-  for (std::uint8_t byte = 0; read_some(file, &byte, 1) == 1;) {
+  for (std::uint8_t byte = 0; read_bytes(file, &byte, 1) == 1;) {
     found.bytes += static_cast<char>(byte);
     std::string_view rest = found.bytes;
     if (mark.starts_with(rest)) continue;
@@ -54,11 +47,10 @@ Beginning beginning_of(int file) {
 
 std::string first_line_of(int file, std::string begin) {
   constexpr int patience = 100;  // milliseconds: the program may not have written the rest of its line yet
-  pollfd watched{file, POLLIN, 0};
   begin.erase(0, begin.find_first_not_of(" \t\r\n\v\f"));
-  while (begin.size() < piece && begin.find('\n') == begin.npos && poll(&watched, 1, patience) > 0) {
+  while (begin.size() < piece && begin.find('\n') == begin.npos && has_bytes(file, patience)) {
     std::array<std::uint8_t, piece> more{};
-    const std::size_t got = read_some(file, more.data(), more.size());
+    const std::size_t got = read_bytes(file, more.data(), more.size());
     if (got == 0) break;
     begin.append(more.begin(), more.begin() + static_cast<std::ptrdiff_t>(got));
   }
@@ -89,7 +81,7 @@ ArrivingPicture::ArrivingPicture(int file, const std::string& begin, const std::
       bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(reader_.take(bytes_, light_, true)));
       if (reader_.header()) break;
       bytes_.resize(piece);
-      bytes_.resize(got = read_some(file_, bytes_.data(), piece));
+      bytes_.resize(got = read_bytes(file_, bytes_.data(), piece));
     }
     if (!reader_.header()) reader_.end(light_);
   } catch (const ImageFileError& error) {
@@ -105,30 +97,19 @@ ArrivingPicture::ArrivingPicture(int file, const std::string& begin, const std::
 void ArrivingPicture::start(std::function<void()> on_news) {
   pixels_->rgb.resize(3 * pixels_->width * pixels_->height);
   on_news_ = std::move(on_news);
-  if (pipe2(leave_.data(), O_CLOEXEC) != 0)
-    throw IoError("no pipe can be opened: " + std::generic_category().message(errno));
+  if (!leave_.ready()) throw IoError("no pipe can be opened");
   thread_.emplace([this](const StopToken&) { read(); });
 }
 
 void ArrivingPicture::stop() {
   if (!thread_) return;
-  close(leave_[1]);  // which the thread sees
+  leave_.ring();
   thread_.reset();
-  close(leave_[0]);
 }
 
 Arrival ArrivingPicture::arrival() const {
   const std::lock_guard lock(mutex_);
   return arrival_;
-}
-
-/// longest: seconds that it waits at most; < 0: as long as it takes.
-ArrivingPicture::Wake ArrivingPicture::wait(double longest) const {
-  pollfd watched[] = {{file_, POLLIN, 0}, {leave_[0], POLLIN, 0}};
-  const int milliseconds = longest < 0 ? -1 : static_cast<int>(std::ceil(1000 * longest));
-  const bool woken = poll(watched, 2, milliseconds) > 0;
-  if (woken && watched[1].revents != 0) return Wake::leaves;
-  return woken ? Wake::bytes : Wake::time;
 }
 
 void ArrivingPicture::read() {
@@ -139,9 +120,9 @@ void ArrivingPicture::read() {
   tell();
   Clock::time_point told = Clock::now();
   for (bool news = false;;) {
-    const Wake wake = wait(news ? std::max(0.0, period - seconds_since(told)) : -1);
-    if (wake == Wake::leaves) return;
-    if (wake == Wake::bytes) {
+    const Bell::Woken woken = leave_.wait_for(file_, news ? std::max(0.0, period - seconds_since(told)) : -1);
+    if (woken == Bell::Woken::by_bell) return;
+    if (woken == Bell::Woken::by_bytes) {
       if (!take_bytes()) break;
       news = true;
     }
@@ -155,7 +136,7 @@ void ArrivingPicture::read() {
 bool ArrivingPicture::take_bytes() {
   bytes_.resize(piece);
   try {
-    const std::size_t got = read_some(file_, bytes_.data(), piece);
+    const std::size_t got = read_bytes(file_, bytes_.data(), piece);
     take({bytes_.data(), got});
     return got > 0;
   } catch (const IoError& error) {

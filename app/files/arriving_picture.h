@@ -2,8 +2,8 @@
 #include "core/base/stoppable.h"
 #include "core/image/pnm_reader.h"
 #include "core/render/sample_source.h"
+#include "core/system/open_file.h"
 
-#include <array>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -57,8 +57,6 @@ class ArrivingPicture {
 
  private:
   struct Pixels;
-  enum class Wake { bytes, time, leaves };
-  Wake wait(double longest) const;
   bool take_bytes();
   void take(std::span<const std::uint8_t> bytes);
   void end();
@@ -78,7 +76,7 @@ class ArrivingPicture {
   std::function<void()> on_news_;
   mutable std::mutex mutex_;  ///< guards arrival_
   Arrival arrival_;
-  std::array<int, 2> leave_{-1, -1};  ///< a pipe that wakes the thread
+  Bell leave_;
   std::optional<StoppableThread> thread_;
 };
 

@@ -1,12 +1,8 @@
 #include "app/files/frame_list.h"
 
 #include "core/base/error.h"
+#include "core/system/open_file.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <sstream>
 #include <utility>
@@ -32,13 +28,10 @@ const FrameList::Entry* FrameList::find(int frame) const {
 void FrameList::add(int frame, const Entry& entry) {
   // A line break in front ends a line that a kill has cut off.
   const std::string line = "\n" + std::to_string(frame) + (entry.whole ? " whole " : " begun ") + entry.mark + "\n";
-  const int descriptor = open(file_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  const bool written = descriptor >= 0 &&
-                       write(descriptor, line.data(), line.size()) == static_cast<ssize_t>(line.size()) &&
-                       fsync(descriptor) == 0;
-  const int why = errno;
-  if (descriptor >= 0) close(descriptor);
-  if (!written) throw IoError(file_.string() + ": cannot write: " + std::strerror(why));
+  const OpenFile list(file_, OpenFor::adding);
+  int problem = list ? list.write(line.data(), line.size()) : list.error();
+  if (problem == 0) problem = list.synchronise();
+  if (problem != 0) throw IoError(file_.string() + ": cannot write: " + error_text(problem));
   entries_[frame] = entry;
 }
 

@@ -3,41 +3,13 @@
 #include "app/text/values.h"
 #include "core/film/film.h"
 #include "core/image/image_io_file.h"
-#include "core/system/mounts.h"
-
-#include <sys/resource.h>
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <fstream>
-#include <limits>
 
 namespace tyndall {
 namespace {
-
-constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
-
-/// The number in the first line of a file of the system that begins with `key`, in bytes if it is in kB; no_limit:
-/// there is none.
-std::uint64_t system_number(const std::filesystem::path& file, const std::string& key, std::uint64_t unit = 1) {
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
-    if (!line.starts_with(key)) continue;
-    const std::size_t digits = line.find_first_of("0123456789", key.size());
-    return digits == line.npos ? no_limit : unit * std::strtoull(line.c_str() + digits, nullptr, 10);
-  }
-  return no_limit;
-}
-
-std::uint64_t soft_limit(decltype(RLIMIT_AS) resource) {
-  rlimit limit{};
-  return getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ? no_limit : limit.rlim_cur;
-}
-
-std::uint64_t less(std::uint64_t limit, std::uint64_t used) {
-  return limit == no_limit ? no_limit : limit - std::min(limit, used);
-}
 
 /// Bytes a pixel that writing a file takes beside film and picture. Measured, like the numbers of memory_needed().
 std::uint64_t writing(const MemoryPlan& plan, const std::filesystem::path& file) {
@@ -88,25 +60,6 @@ std::uint64_t memory_needed(const WindowPlan& plan) {
 bool has_lights(const Scene& scene) {
   return std::any_of(scene.materials.begin(), scene.materials.end(),
                      [](const auto& material) { return std::holds_alternative<Light<double>>(material.kind); });
-}
-
-FreeMemory free_memory(const std::filesystem::path& root) {
-  FreeMemory free{system_number("/proc/meminfo", "MemAvailable:", 1024), "free on this machine"};
-  const std::uint64_t swap = system_number("/proc/meminfo", "SwapFree:", 1024);
-  if (free.bytes != no_limit && swap != no_limit) free.bytes += swap;
-  const auto at_most = [&free](std::uint64_t bytes, const char* limit) {
-    if (bytes < free.bytes) free = {bytes, limit};
-  };
-  for (const std::filesystem::path& group : cgroup_folders("memory", root)) {
-    constexpr const char* files[][2] = {{"memory.max", "memory.current"},
-                                        {"memory.limit_in_bytes", "memory.usage_in_bytes"}};
-    for (const auto& [limit, used] : files)
-      at_most(less(system_number(group / limit, ""), system_number(group / used, "")),
-              "left to this group of processes (cgroup)");
-  }
-  at_most(less(soft_limit(RLIMIT_AS), system_number("/proc/self/status", "VmSize:", 1024)), "left by ulimit -v");
-  at_most(less(soft_limit(RLIMIT_DATA), system_number("/proc/self/status", "VmData:", 1024)), "left by ulimit -d");
-  return free;
 }
 
 void check_memory(const MemoryPlan& plan, const FreeMemory& free) {

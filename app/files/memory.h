@@ -1,5 +1,6 @@
 #pragma once
 #include "app/files/outputs.h"
+#include "core/system/process.h"
 
 #include <cstdint>
 #include <string>
@@ -33,14 +34,6 @@ struct WindowPlan {
 };
 /// The memory that a window takes that renders one picture, bytes. Measured with OpenGL in software.
 std::uint64_t memory_needed(const WindowPlan& plan);
-
-/// Memory that this process could still take, bytes, and what limits it, such as "the machine" or "ulimit -v".
-struct FreeMemory {
-  std::uint64_t bytes = 0;
-  std::string limit;
-};
-/// root: see cgroup_folders().
-FreeMemory free_memory(const std::filesystem::path& root = "/");
 
 /// Throws UsageError, which says how many bytes the picture takes, if it does not fit into the memory that is free; and
 /// if it has more pixels than image files can hold.

@@ -6,8 +6,7 @@
 #include "core/base/text.h"
 #include "core/files/stats.h"
 #include "core/image/whole_file.h"
-
-#include <unistd.h>
+#include "core/system/process.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -27,7 +26,7 @@ void check_standard_output(const std::vector<fs::path>& files, const ImageForm& 
     throw UsageError("--format: found " + form.format + ", expected -o - as well: of files the ending says the format");
   if (streams > 0 && stats == "-")
     throw UsageError("--stats - and -o - exclude each other: only one can go to standard output");
-  if (streams > 0 && isatty(STDOUT_FILENO) != 0)
+  if (streams > 0 && is_terminal(standard_output))
     throw UsageError("--output: found -, which is a terminal, expected a pipe or a file");
 }
 
@@ -51,9 +50,8 @@ fs::path free_name(const fs::path& file) {
 
 /// The file's name in a new folder among the temporary files; empty: none can be made.
 fs::path temporary_name(const fs::path& file) {
-  std::error_code error;
-  std::string folder = (fs::temp_directory_path(error) / "tyndall-XXXXXX").string();
-  return error || !mkdtemp(folder.data()) ? fs::path() : folder / file.filename();
+  const fs::path folder = make_temporary_folder("tyndall-");
+  return folder.empty() ? fs::path() : folder / file.filename();
 }
 
 bool succeeds(const std::function<void(const fs::path& file)>& write, const fs::path& file) {

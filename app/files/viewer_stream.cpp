@@ -2,15 +2,10 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-
-#include <sys/socket.h>
-#include <netdb.h>
-#include <poll.h>
-#include <unistd.h>
+#include "core/system/connection.h"
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -26,10 +21,8 @@ using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr auto look_interval = 50ms;          // how often a waiting thread looks whether it is to stop
-constexpr auto connect_time = 10s;            // for each address of the host
 constexpr auto silence = 10s;                 // after which a viewer that takes nothing is given up
 constexpr auto longest_finish = 5s;           // for a viewer that goes on taking
-constexpr int send_buffer = 1 << 18;          // small, so that it shows soon that a viewer does not read
 constexpr std::size_t band_bytes = 1u << 20;  // of a packet, about
 
 enum class PacketType : char { create_image = 4, update_image_v3 = 6 };
@@ -87,39 +80,6 @@ Packet update_packet(const std::string& name, const ViewerFrame& frame, int y0, 
   return packet;
 }
 
-/// A socket that is closed at the end.
-class Socket {
- public:
-  explicit Socket(int number = -1) : number_(number) {}
-  ~Socket() {
-    if (number_ >= 0) close(number_);
-  }
-  Socket(Socket&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Socket& operator=(Socket&& other) noexcept {
-    std::swap(number_, other.number_);
-    return *this;
-  }
-  int number() const { return number_; }
-
- private:
-  int number_;
-};
-
-bool wait_for(int socket, short events) {
-  pollfd watched{socket, events, 0};
-  return poll(&watched, 1, static_cast<int>(std::chrono::milliseconds(look_interval).count())) > 0;
-}
-
-struct AddressList {
-  addrinfo* first = nullptr;
-  AddressList() = default;
-  AddressList(const AddressList&) = delete;
-  AddressList& operator=(const AddressList&) = delete;
-  ~AddressList() {
-    if (first) freeaddrinfo(first);
-  }
-};
-
 }  // namespace
 
 /// What the caller and the thread both see, and what the thread does.
@@ -137,13 +97,10 @@ struct ViewerStream::Shared {
   std::string problem;
 
   void run();
-  void serve(const Socket& socket);
-  /// A connected socket, or none with `why`.
-  std::optional<Socket> connect(std::string& why);
-  std::optional<Socket> connect_to(const addrinfo& to, std::string& why);
-  bool send_frame(const Socket& socket, const ViewerFrame& what);
-  bool send_all(const Socket& socket, const std::vector<char>& bytes);
-  bool may_go_on(int error);
+  void serve(const Connection& viewer);
+  bool send_frame(const Connection& viewer, const ViewerFrame& what);
+  bool send_all(const Connection& viewer, const std::vector<char>& bytes);
+  bool may_go_on(Connection::Sent sent);
   bool stopped() const {
     const std::lock_guard lock(mutex);
     return stop;
@@ -154,75 +111,35 @@ struct ViewerStream::Shared {
   }
 };
 
-std::optional<Socket> ViewerStream::Shared::connect_to(const addrinfo& to, std::string& why) {
-  Socket made(socket(to.ai_family, to.ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, to.ai_protocol));
-  int error = 0, buffer = send_buffer;
-  setsockopt(made.number(), SOL_SOCKET, SO_SNDBUF, &buffer, sizeof buffer);
-  if (made.number() < 0 || (::connect(made.number(), to.ai_addr, to.ai_addrlen) != 0 && errno != EINPROGRESS)) {
-    why = std::strerror(errno);
-    return {};
-  }
-  const auto start = Clock::now();
-  while (!wait_for(made.number(), POLLOUT)) {
-    if (stopped()) return {};
-    if (Clock::now() - start < connect_time) continue;
-    why = "no answer within 10 s";
-    return {};
-  }
-  socklen_t size = sizeof error;
-  if (getsockopt(made.number(), SOL_SOCKET, SO_ERROR, &error, &size) == 0 && error == 0) return made;
-  why = std::strerror(error);
-  return {};
-}
-
-std::optional<Socket> ViewerStream::Shared::connect(std::string& why) {
-  addrinfo hints{};
-  hints.ai_family = AF_UNSPEC, hints.ai_socktype = SOCK_STREAM;
-  AddressList list;
-  const int error = getaddrinfo(address.host.c_str(), address.port.c_str(), &hints, &list.first);
-  if (error != 0) why = gai_strerror(error);
-  for (const addrinfo* to = list.first; to && error == 0 && !stopped(); to = to->ai_next)
-    if (auto socket = connect_to(*to, why)) return socket;
-  return {};
-}
-
-/// Whether to try again after send() has failed with that error.
-bool ViewerStream::Shared::may_go_on(int error) {
+/// Whether to send further.
+bool ViewerStream::Shared::may_go_on(Connection::Sent sent) {
   const std::lock_guard lock(mutex);
+  if (sent == Connection::Sent::some) taken = Clock::now();
   if (stop) return false;
-  if (error != EAGAIN && error != EWOULDBLOCK && error != EINTR)
+  if (sent == Connection::Sent::closed)
     problem = text_of(address) + ": the viewer has closed the connection";
   else if (Clock::now() - taken > silence)
     problem = text_of(address) + ": the viewer has taken nothing for 10 s";
   return problem.empty();
 }
 
-bool ViewerStream::Shared::send_all(const Socket& socket, const std::vector<char>& bytes) {
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t sent = ::send(socket.number(), bytes.data() + done, bytes.size() - done, MSG_NOSIGNAL);
-    if (sent < 0) {
-      if (!may_go_on(errno)) return false;
-      wait_for(socket.number(), POLLOUT);
-      continue;
-    }
-    done += static_cast<std::size_t>(sent);
-    const std::lock_guard lock(mutex);
-    taken = Clock::now();
-  }
+bool ViewerStream::Shared::send_all(const Connection& viewer, const std::vector<char>& bytes) {
+  for (std::size_t done = 0; done < bytes.size();)
+    if (!may_go_on(viewer.send(bytes.data(), bytes.size(), done))) return false;
   return true;
 }
 
-bool ViewerStream::Shared::send_frame(const Socket& socket, const ViewerFrame& what) {
+bool ViewerStream::Shared::send_frame(const Connection& viewer, const ViewerFrame& what) {
   const auto row_bytes = viewer_channel_count * sizeof(float) * static_cast<std::size_t>(what.region.width());
   const int rows = std::max(1, static_cast<int>(band_bytes / row_bytes));
   for (int y = what.region.y0; y < what.region.y1; y += rows)
-    if (!send_all(socket, update_packet(name, what, y, std::min(y + rows, what.region.y1)).finished())) return false;
+    if (!send_all(viewer, update_packet(name, what, y, std::min(y + rows, what.region.y1)).finished())) return false;
   return true;
 }
 
 /// Sends frame after frame. Whatever the viewer sends is thrown away; that it has closed the connection shows there.
-void ViewerStream::Shared::serve(const Socket& socket) {
-  if (!send_all(socket, create_packet(name, width, height).finished())) return;
+void ViewerStream::Shared::serve(const Connection& viewer) {
+  if (!send_all(viewer, create_packet(name, width, height).finished())) return;
   for (;;) {
     std::optional<ViewerFrame> next;
     {
@@ -235,22 +152,20 @@ void ViewerStream::Shared::serve(const Socket& socket) {
       sending = next.has_value();
       if (sending) taken = Clock::now();
     }
-    char ignored[256];
-    const ssize_t got = recv(socket.number(), ignored, sizeof ignored, MSG_DONTWAIT);
-    if (got == 0 || (got < 0 && errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR))
-      return fail("the viewer has closed the connection");
-    if (next && !send_frame(socket, *next)) return;
+    if (viewer.is_closed_by_other()) return fail("the viewer has closed the connection");
+    if (next && !send_frame(viewer, *next)) return;
   }
 }
 
 void ViewerStream::Shared::run() {
   std::string why;
-  if (const auto socket = connect(why)) {
+  if (const auto viewer = Connection::to(
+          address.host, address.port, [this] { return !stopped(); }, why)) {
     {
       const std::lock_guard lock(mutex);
       connected = sending = true, taken = Clock::now();
     }
-    serve(*socket);
+    serve(*viewer);
   } else if (!why.empty()) {
     fail(why);
   }

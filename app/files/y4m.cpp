@@ -4,22 +4,12 @@
 #include "core/image/file_place.h"
 #include "core/image/tonemap.h"
 
-#include <sys/stat.h>
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 
 namespace tyndall {
 namespace {
 
 constexpr std::string_view frame_header = "FRAME\n";
-
-[[noreturn]] void cannot_write(const std::filesystem::path& file) {
-  throw IoError((file == "-" ? "standard output" : file.string()) + ": cannot write: " + std::strerror(errno));
-}
 
 std::vector<std::uint8_t> screen_bytes(const LinearImage& image, const Display& display) {
   if (!display.dither) return tone_map(image.rgb, display.exposure, display.tone_map);
@@ -54,20 +44,18 @@ std::string Y4mFile::header() const {
 Y4mFile::Y4mFile(const std::filesystem::path& file, const Y4mFormat& format, bool fresh)
     : file_(file), format_(format), stream_(file == "-" || is_stream(file)) {
   if (file == "-") {
-    descriptor_ = dup(STDOUT_FILENO);
-  } else if (stream_) {
-    descriptor_ = open(file.c_str(), O_WRONLY | O_CLOEXEC);
+    bytes_ = OpenFile::copy_of_standard_output();
   } else {
-    open_file(fresh);
+    bytes_ = OpenFile(file, stream_ ? OpenFor::writing : OpenFor::changing);
   }
-  if (descriptor_ < 0) cannot_write(file_);
-  if (frames_ > 0) return;
-  const std::string text = header();
-  write({text.begin(), text.end()});
+  check(bytes_.error());
+  if (!stream_) go_on_with_file(fresh);
+  if (frames_ == 0) write(header());
 }
 
-Y4mFile::~Y4mFile() {
-  if (descriptor_ >= 0) close(descriptor_);
+void Y4mFile::check(int error) const {
+  if (error != 0)
+    throw IoError((file_ == "-" ? "standard output" : file_.string()) + ": cannot write: " + error_text(error));
 }
 
 std::uint64_t Y4mFile::end_of(int frames) const {
@@ -76,50 +64,40 @@ std::uint64_t Y4mFile::end_of(int frames) const {
   return header().size() + static_cast<unsigned>(frames) * (frame_header.size() + planes);
 }
 
-void Y4mFile::open_file(bool fresh) {
-  descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) return;
+void Y4mFile::go_on_with_file(bool fresh) {
   const std::string expected = header();
   std::string found(expected.size(), '\0');
-  const ssize_t got = pread(descriptor_, found.data(), found.size(), 0);
-  if (got < 0) cannot_write(file_);
-  found.resize(static_cast<std::size_t>(got));
-  struct stat status {};
-  if (fstat(descriptor_, &status) != 0) cannot_write(file_);
-  const auto size = static_cast<std::uint64_t>(status.st_size);
+  std::size_t got = 0;
+  std::uint64_t size = 0;
+  check(bytes_.read(found.data(), found.size(), got));
+  check(bytes_.size(size));
+  found.resize(got);
   if (!fresh && !expected.starts_with(found))
     throw UsageError(file_.string() + ": found " +
                      (found.starts_with("YUV4MPEG2 ") ? "a film of another scene, other settings or another version"
                                                       : "a file that is no film of this command") +
                      ", expected one to go on with; --fresh replaces it");
   if (!fresh && found == expected) frames_ = static_cast<int>((size - end_of(0)) / (end_of(1) - end_of(0)));
-  const std::uint64_t end = frames_ > 0 ? end_of(frames_) : 0;
-  if (ftruncate(descriptor_, static_cast<off_t>(end)) != 0) cannot_write(file_);
-  if (lseek(descriptor_, static_cast<off_t>(end), SEEK_SET) < 0) cannot_write(file_);
+  check(cut_off());
 }
 
-void Y4mFile::write(const std::vector<std::uint8_t>& bytes) {
-  for (std::size_t at = 0; at < bytes.size();) {
-    const ssize_t put = ::write(descriptor_, bytes.data() + at, bytes.size() - at);
-    if (put < 0 && errno == EINTR) continue;
-    if (put > 0) {
-      at += static_cast<std::size_t>(put);
-      continue;
-    }
-    const int why = errno;
-    const auto end = static_cast<off_t>(frames_ > 0 ? end_of(frames_) : 0);
-    if (!stream_ && ftruncate(descriptor_, end) == 0) lseek(descriptor_, end, SEEK_SET);
-    errno = why;
-    cannot_write(file_);
-  }
+/// Leaves the whole frames, and goes on behind them.
+int Y4mFile::cut_off() const {
+  const std::uint64_t end = frames_ > 0 ? end_of(frames_) : 0;
+  const int problem = bytes_.truncate(end);
+  return problem != 0 ? problem : bytes_.seek(end);
+}
+
+void Y4mFile::write(const std::string& bytes) {
+  const int problem = bytes_.write(bytes.data(), bytes.size());
+  if (problem != 0 && !stream_) cut_off();
+  check(problem);
 }
 
 void Y4mFile::add(const LinearImage& image, const Display& display) {
-  std::vector<std::uint8_t> bytes(frame_header.begin(), frame_header.end());
   const std::vector<std::uint8_t> planes = ycbcr_planes(screen_bytes(image, display));
-  bytes.insert(bytes.end(), planes.begin(), planes.end());
-  write(bytes);
-  if (!stream_ && fdatasync(descriptor_) != 0) cannot_write(file_);
+  write(std::string(frame_header) + std::string(planes.begin(), planes.end()));
+  if (!stream_) check(bytes_.synchronise());
   ++frames_;
 }
 

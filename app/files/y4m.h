@@ -1,6 +1,7 @@
 #pragma once
 #include "core/image/image.h"
 #include "core/scene/settings.h"
+#include "core/system/open_file.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -23,9 +24,6 @@ class Y4mFile {
   /// file: "-" is standard output. A file that holds frames of this format and mark is gone on with. Throws UsageError
   /// for any other file unless `fresh`, which replaces it; IoError where it cannot be written.
   Y4mFile(const std::filesystem::path& file, const Y4mFormat& format, bool fresh);
-  ~Y4mFile();
-  Y4mFile(const Y4mFile&) = delete;
-  Y4mFile& operator=(const Y4mFile&) = delete;
 
   /// Whole frames that it has.
   int frames() const { return frames_; }
@@ -34,14 +32,17 @@ class Y4mFile {
 
  private:
   std::string header() const;
-  void open_file(bool fresh);
+  void go_on_with_file(bool fresh);
+  int cut_off() const;
   std::uint64_t end_of(int frames) const;
-  void write(const std::vector<std::uint8_t>& bytes);
+  void check(int error) const;
+  void write(const std::string& bytes);
 
   std::filesystem::path file_;
   Y4mFormat format_;
-  int descriptor_ = -1, frames_ = 0;
   bool stream_ = false;
+  OpenFile bytes_;
+  int frames_ = 0;
 };
 
 /// The three planes Y', Cb and Cr of pixels in 8 bits each, 3 bytes a pixel. R'G'B' to Y'CbCr: ITU-R BT.601,

@@ -3,11 +3,9 @@
 #include "app/text/standard_streams.h"
 #include "core/base/environment.h"
 #include "core/base/text.h"
+#include "core/system/process.h"
 
 #include <fmt/core.h>
-
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,12 +18,7 @@ namespace {
 
 bool smart_terminal() {
   const char* term = std::getenv("TERM");
-  return isatty(STDERR_FILENO) && term && std::strcmp(term, "dumb") != 0;
-}
-
-int terminal_columns() {
-  winsize size{};
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+  return is_terminal(standard_error) && term && std::strcmp(term, "dumb") != 0;
 }
 
 }  // namespace

@@ -3,9 +3,6 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <new>
@@ -17,17 +14,6 @@ namespace {
 constexpr std::size_t longest_message = 10000;  // bytes: two of the longest names of files, and what is said of them
 
 }  // namespace
-
-void keep_standard_streams() {
-  for (;;) {
-    const int descriptor = open("/dev/null", O_RDONLY);  // the lowest that is free; for reading only: writing fails
-    if (descriptor < 0) return;
-    if (descriptor > STDERR_FILENO) {
-      close(descriptor);
-      return;
-    }
-  }
-}
 
 void write_standard_output(const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)

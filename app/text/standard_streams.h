@@ -5,10 +5,6 @@
 /// Standard input, output and error of the process.
 namespace tyndall {
 
-/// Call first. Where the caller closed one of the descriptors 0 to 2, the next file that the program opens would get
-/// its number, and messages would end up in that file. This opens /dev/null in its place; writing to it still fails.
-void keep_standard_streams();
-
 /// Writes data to standard output. Throws IoError unless all of it got there.
 void write_standard_output(const std::string& text);
 

@@ -2,6 +2,7 @@
 
 #include "app/window/accuracy/views.h"
 #include "core/scene/place.h"
+#include "core/system/process.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +51,7 @@ MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Refer
   panels_.look = session_.preferences();
   ui_.folded = panels_.look.folded;
   ui_.folded.insert("Histogram");  // it takes time with each picture
-  if (!options.hosted) signals_.emplace(wake_);
+  if (!options.hosted) signals_.emplace(WatchedSignals::window, wake_);
   if (log_) log_commands(*log_);
   if (reference) session_.references().set(std::move(reference));
   if (options.reference_scene) session_.render_reference(*options.reference_scene);

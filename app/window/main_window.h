@@ -3,11 +3,12 @@
 #include "app/window/commands.h"
 #include "app/window/edit/linked_objects.h"
 #include "app/window/rendering/picture_view.h"
-#include "app/window/system/end_signals.h"
+#include "app/window/system/lost_display.h"
 #include "app/window/timeline/timeline.h"
 #include "app/window/tools/camera_control.h"
 #include "app/window/tools/pointer.h"
 #include "app/window/variations/strip.h"
+#include "core/system/signals.h"
 
 #include <atomic>
 #include <functional>
@@ -76,7 +77,7 @@ class MainWindow {
   std::function<void()> wake_ = [this] { platform_->wake(); };  ///< called from any thread
   FrameAlarm alarm_;
   Session session_;
-  std::optional<EndSignals> signals_;  ///< none where signals are left to the program that the window belongs to
+  std::optional<SignalWatch> signals_;  ///< none where signals are left to the program that the window belongs to
   PictureView picture_;
   VariationStrip strip_{wake_};
   Timeline timeline_;

@@ -2,7 +2,7 @@
 
 #include "app/text/standard_streams.h"
 #include "app/window/document/open_document.h"
-#include "app/window/system/end_signals.h"
+#include "app/window/system/lost_display.h"
 #include "core/base/environment.h"
 #include "core/base/error.h"
 #include "core/base/text.h"

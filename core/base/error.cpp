@@ -1,8 +1,7 @@
 #include "core/base/error.h"
 
 #include "core/base/text.h"
-
-#include <sys/resource.h>
+#include "core/system/process.h"
 
 #include <array>
 #include <cstdint>
@@ -10,13 +9,6 @@
 
 namespace tyndall {
 namespace {
-
-/// The soft limit of a resource; 0: none.
-std::uint64_t limit_of(decltype(RLIMIT_AS) resource) {
-  rlimit limit{};
-  if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return 0;
-  return limit.rlim_cur;
-}
 
 std::string gigabytes(std::uint64_t bytes) {
   std::array<char, 32> text{};
@@ -39,17 +31,18 @@ SceneError::SceneError(const std::string& file_, const std::string& found_, cons
     : SceneError(file_, "", found_, expected_) {}
 
 std::string memory_limit_text() {
-  const std::uint64_t space = limit_of(RLIMIT_AS), data = limit_of(RLIMIT_DATA);
+  const std::uint64_t space = limit_of(Limit::address_space), data = limit_of(Limit::data);
   std::string text;
-  if (space > 0) text += " (the address space is limited to " + gigabytes(space) + ": ulimit -v)";
-  if (data > 0) text += " (data are limited to " + gigabytes(data) + ": ulimit -d)";
+  if (space < no_limit) text += " (the address space is limited to " + gigabytes(space) + ": ulimit -v)";
+  if (data < no_limit) text += " (data are limited to " + gigabytes(data) + ": ulimit -d)";
   return text;
 }
 
 std::string thread_limit_text() {
-  const std::uint64_t threads = limit_of(RLIMIT_NPROC);
+  const std::uint64_t threads = limit_of(Limit::threads);
   const std::string memory = memory_limit_text();
-  return (threads > 0 ? "; this user may have " + std::to_string(threads) + " threads and processes: ulimit -u" : "") +
+  return (threads < no_limit ? "; this user may have " + std::to_string(threads) + " threads and processes: ulimit -u"
+                             : "") +
          (memory.empty() ? "" : ";" + memory);
 }
 

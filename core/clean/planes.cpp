@@ -1,20 +1,17 @@
 #include "core/clean/clean.h"
 
 #include "core/clean/filter_view.h"
+#include "core/system/process.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <new>
 #include <numeric>
 
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
-
 namespace tyndall {
 namespace {
 
-constexpr std::size_t large_page = std::size_t{1} << 21u, group = 64;
+constexpr std::size_t group = 64;
 
 /// Returns the divisor of all numbers, so that their squares, summed over windows, fit into single precision: 1 unless
 /// a light is brighter than 2^25.
@@ -91,9 +88,7 @@ void ZeroedFloats::resize(std::size_t count) {
   if (!memory_) throw std::bad_alloc();
   void* begin = memory_.get();
   first_ = static_cast<float*>(std::align(group, bytes - group, begin, bytes));
-#if defined(__linux__)
-  if (std::align(large_page, large_page, begin, bytes)) madvise(begin, bytes, MADV_HUGEPAGE);
-#endif
+  if (std::align(large_page, large_page, begin, bytes)) ask_for_large_pages(begin, bytes);
 }
 
 void ZeroedFloats::Free::operator()(float* floats) const { std::free(floats); }

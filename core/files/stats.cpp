@@ -5,12 +5,10 @@
 #include "core/render/plan.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/place.h"
-
-#include <sys/resource.h>
+#include "core/system/process.h"
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <limits>
 
 namespace tyndall {
@@ -148,18 +146,6 @@ std::string clean_stats_text(const Film& film, const CleanPicture& clean, double
   if (seconds > 0) put(json, "seconds_denoise", seconds);
   put(json, "denoised_hash", hash_text(image_hash(clean.width, clean.height, clean.rgb)));
   return print_members(json);
-}
-
-std::size_t peak_memory() {
-  // ru_maxrss also counts the program that started this one (before exec); VmHWM of the kernel does not.
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);) {
-    unsigned long long kilobytes = 0;
-    if (std::sscanf(line.c_str(), "VmHWM: %llu kB", &kilobytes) == 1) return kilobytes * 1024;
-  }
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
 std::vector<Layer> layers_of(const PreparedScene& scene, const Film& film, const Kernels& kernels) {

@@ -32,9 +32,6 @@ std::string embedded_stats_text(const RunFigures& run);
 /// The same for a film that was read from a file and filtered: what is known of it.
 std::string clean_stats_text(const Film& film, const CleanPicture& clean, double seconds);
 
-/// Most memory that this process has held at a time, bytes.
-std::size_t peak_memory();
-
 /// The layers that an EXR gets beside a picture. Of what is seen first through the middle of each pixel: albedo, normal
 /// (towards the outside of the shape), and depth along the camera's axis; 0, 0 and infinity where nothing is seen. From
 /// the film's halves: the variance of each pixel's mean, by channel; infinite if a half has no sample.

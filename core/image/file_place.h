@@ -1,5 +1,6 @@
 #pragma once
 #include "core/image/image.h"
+#include "core/system/files.h"
 
 #include <filesystem>
 #include <string>
@@ -22,7 +23,8 @@ struct FilePlace {
   /// Why the folder takes no new files, which is known for certain when a WholeFile was made there; "": it does.
   std::string folder_problem{};
   bool exists = false;
-  unsigned mode = 0, user = 0, group = 0;  ///< of the file that exists
+  unsigned mode = 0;  ///< of the file that exists
+  FileOwner owner;
 };
 
 /// Looks at a file, which need not exist. "-" is standard output. Nothing is written. Ordinary files are replaced,

@@ -1,16 +1,14 @@
 #include "core/image/image_io_file.h"
 
 #include "core/base/text.h"
+#include "core/system/open_file.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cerrno>
-#include <system_error>
 
 namespace tyndall {
 namespace {
-
-std::string error_text(int number) { return std::generic_category().message(number); }
 
 bool is_valid_size(std::int64_t width, std::int64_t height) {
   return width > 0 && height > 0 && width <= max_image_pixels && height <= max_image_pixels / width;

@@ -2,23 +2,15 @@
 
 #include "core/base/fnv1a.h"
 #include "core/image/image_io_file.h"
-
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <dirent.h>
-#include <fcntl.h>
-#include <unistd.h>
+#include "core/system/files.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
-#include <memory>
 #include <string>
 #include <string_view>
-#include <system_error>
-#include <utility>
 
 namespace tyndall {
 namespace {
@@ -39,97 +31,48 @@ std::string hexadecimal(std::uint64_t number) {
 std::uint64_t likely_unique() {
   static std::atomic<std::uint64_t> count{0};
   const auto now = static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
-  return fnv1a(std::to_string(now) + ' ' + std::to_string(getpid()) + ' ' + std::to_string(++count));
+  return fnv1a(std::to_string(now) + ' ' + std::to_string(process_number()) + ' ' + std::to_string(++count));
 }
 
 /// What the names of all temporary files of a target begin with: its name, or if that would become too long, its
 /// beginning and the hash of all of it.
 std::string temporary_prefix(const fs::path& folder, const std::string& name) {
-  const long longest = pathconf(folder.c_str(), _PC_NAME_MAX);
-  const std::size_t limit = longest > 64 ? static_cast<std::size_t>(longest) : 255;
-  const std::size_t room = limit - std::string(temporary_mark).size() - digits_of_number;
+  const std::size_t room = longest_name(folder) - std::string(temporary_mark).size() - digits_of_number;
   if (name.size() <= room) return name + temporary_mark;
   std::size_t cut = room - 1 - digits_of_number;
   while (cut > 0 && (static_cast<unsigned char>(name[cut]) & 0xc0) == 0x80) --cut;  // no half letters of UTF-8
   return name.substr(0, cut) + '~' + hexadecimal(fnv1a(name)) + temporary_mark;
 }
 
-/// Removes a temporary file if no living process holds its lock.
-void remove_if_dead(const fs::path& temporary) {
-  const int descriptor = open(temporary.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (descriptor < 0) return;
-  if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) unlink(temporary.c_str());
-  close(descriptor);
-}
-
-struct FolderCloser {
-  void operator()(DIR* folder) const { closedir(folder); }
-};
-
-/// Removes what killed writers of the same file have left. What cannot be read or removed is left to the next writer.
-/// (Not by std::filesystem, whose iterator ends the program when memory runs out.)
+/// Removes what killed writers of the same file have left: their locks are free. What cannot be read or removed is left
+/// to the next writer.
 void remove_dead(const fs::path& folder, const std::string& prefix) {
-  const std::unique_ptr<DIR, FolderCloser> entries(opendir(folder.c_str()));
-  for (const dirent* entry = nullptr; entries && (entry = readdir(entries.get())) != nullptr;) {
-    const std::string_view name = entry->d_name;
+  for (const std::string& name : names_in_folder(folder)) {
     const bool ours = name.size() == prefix.size() + digits_of_number && name.starts_with(prefix) &&
-                      name.find_first_not_of("0123456789abcdef", prefix.size()) == std::string_view::npos;
-    if (ours) remove_if_dead(folder / name);
+                      name.find_first_not_of("0123456789abcdef", prefix.size()) == std::string::npos;
+    const OpenFile file = ours ? OpenFile(folder / name, OpenFor::looking) : OpenFile();
+    if (file && file.try_lock() == 0) remove_file(folder / name);
   }
-}
-
-/// 0, or what went wrong.
-int write_all(int descriptor, const std::uint8_t* bytes, std::size_t size) {
-  while (size > 0) {
-    const ssize_t written = write(descriptor, bytes, size);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return written < 0 ? errno : EIO;
-    bytes += written, size -= static_cast<std::size_t>(written);
-  }
-  return 0;
-}
-
-/// 0, or what went wrong. Some file systems cannot synchronise folders, and say so in one of these ways.
-int sync_error(int descriptor, bool is_folder) {
-  while (fsync(descriptor) != 0) {
-    if (errno == EINTR) continue;
-    return is_folder && (errno == EINVAL || errno == ENOTSUP) ? 0 : errno;
-  }
-  return 0;
-}
-
-/// A file that is open in a scope.
-struct Opened {
-  int descriptor;
-  ~Opened() { close(); }
-  int close() { return descriptor > 2 ? ::close(std::exchange(descriptor, -1)) : 0; }
-};
-
-/// Asks the disk for room, so that it is not missed in the middle. 0, or what went wrong. Some file systems do not say.
-int reserve(int descriptor, std::uint64_t size) {
-#ifdef __linux__
-  while (size > 0 && fallocate(descriptor, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(size)) != 0) {
-    if (errno == EINTR) continue;
-    return errno == EOPNOTSUPP || errno == ENOSYS || errno == EINVAL ? 0 : errno;
-  }
-#endif
-  return 0;
 }
 
 }  // namespace
 
-void WholeFile::fail(int number) const { cannot_write(file_, std::generic_category().message(number)); }
+void WholeFile::fail(int number) const { cannot_write(file_, error_text(number)); }
+
+void WholeFile::check(int error) const {
+  if (error != 0) fail(error);
+}
 
 WholeFile::WholeFile(const fs::path& file) : file_(file), place_(find_place(file)) {
   buffer_.reserve(buffer_size);
   if (place_.method == WriteMethod::in_place) check_in_place();
   if (place_.method != WriteMethod::stream && place_.folder_problem.empty()) open_beside();
-  if (descriptor_ >= 0) return;
+  if (bytes_) return;
   if (place_.method == WriteMethod::in_place) check_in_place();  // as open_beside() may have found
   open_unnamed();
 }
 
-/// Leaves descriptor_ < 0 where the folder takes no new files, but the file may be written into.
+/// Leaves bytes_ closed where the folder takes no new files, but the file may be written into.
 void WholeFile::open_beside() {
   const std::string prefix = temporary_prefix(place_.folder, place_.target.filename().string());
   remove_dead(place_.folder, prefix);
@@ -140,46 +83,40 @@ void WholeFile::open_beside() {
 
 /// Throws unless the file can be opened for writing.
 void WholeFile::check_in_place() {
-  const int file = open(place_.target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
-  if (file < 0) {
-    const int error = errno;
-    if (place_.obstacle.empty()) fail(error);
-    cannot_write(file_, place_.obstacle + ", and into it: " + std::generic_category().message(error));
-  }
-  close(file);
+  const OpenFile file(place_.target, OpenFor::writing);
+  if (file) return;
+  if (place_.obstacle.empty()) fail(file.error());
+  cannot_write(file_, place_.obstacle + ", and into it: " + error_text(file.error()));
 }
 
 /// Creates and locks a temporary file, or finds that the folder takes none. False if there is one of that name, or if
 /// another writer took it for a dead one and removed it between the two steps.
 bool WholeFile::create(const fs::path& temporary) {
-  temporary_ = temporary;                           // while there is no file: memory for the name may run out
-  const mode_t mode = place_.exists ? 0600 : 0666;  // what replaces a private file is private while it is written
-  const int descriptor = open(temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-  if (descriptor < 0) temporary_.clear();
-  if (descriptor < 0 && errno == EEXIST) return false;
-  const bool needless = place_.method == WriteMethod::in_place || errno == EACCES || errno == EPERM || errno == EROFS;
-  if (descriptor < 0 && place_.exists && needless) {
-    place_.folder_problem = std::generic_category().message(errno);
+  temporary_ = temporary;                               // while there is no file: memory for the name may run out
+  const unsigned mode = place_.exists ? 0600u : 0666u;  // what replaces a private file is private while it is written
+  OpenFile file(temporary, OpenFor::creating, mode);
+  const int why = file.error();
+  if (!file) temporary_.clear();
+  if (!file && why == EEXIST) return false;
+  const bool needless = place_.method == WriteMethod::in_place || why == EACCES || why == EPERM || why == EROFS;
+  if (!file && place_.exists && needless) {
+    place_.folder_problem = error_text(why);
     if (place_.obstacle.empty()) place_.obstacle = "its folder takes no new files";
     place_.method = WriteMethod::in_place;
     return true;
   }
-  if (descriptor < 0) fail(errno);
+  if (!file) fail(why);
   // Where files cannot be locked, nobody can lock them in order to remove them, either.
-  const bool taken = flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  struct stat status {};
-  if (taken || (fstat(descriptor, &status) == 0 && status.st_nlink == 0)) {
-    close(descriptor);
+  if (file.try_lock() == EWOULDBLOCK || !file.has_name()) {
     temporary_.clear();
     return false;
   }
-  descriptor_ = descriptor;
+  bytes_ = std::move(file);
   return true;
 }
 
 WholeFile::~WholeFile() {
-  if (!temporary_.empty()) unlink(temporary_.c_str());
-  if (descriptor_ >= 0) close(descriptor_);
+  if (!temporary_.empty()) remove_file(temporary_);
 }
 
 void WholeFile::put(const void* data, std::size_t size) {
@@ -197,79 +134,57 @@ void WholeFile::write(std::span<const std::uint8_t> bytes) { put(bytes.data(), b
 void WholeFile::write(std::span<const float> values) { put(values.data(), values.size_bytes()); }
 
 void WholeFile::flush() {
-  if (const int error = write_all(descriptor_, buffer_.data(), buffer_.size())) fail(error);
+  check(bytes_.write(buffer_.data(), buffer_.size()));
   buffer_.clear();
 }
 
 void WholeFile::seek(std::uint64_t position) {
   flush();
-  if (lseek(descriptor_, static_cast<off_t>(position), SEEK_SET) < 0) fail(errno);
+  check(bytes_.seek(position));
   position_ = position;
 }
 
-/// Gives the new file the owner, group and mode of the one that it replaces, as far as that is permitted. What a group
-/// was allowed is not given to another group.
-void WholeFile::keep_owner() const {
-  struct stat now {};
-  if (!place_.exists) return;
-  if (fstat(descriptor_, &now) != 0) fail(errno);
-  unsigned mode = place_.mode;
-  const bool same_group = now.st_gid == place_.group || fchown(descriptor_, now.st_uid, place_.group) == 0;
-  if (!same_group) mode = (mode & ~070u) | ((mode & 7u) << 3);
-  const bool same_user = now.st_uid == place_.user || fchown(descriptor_, place_.user, static_cast<gid_t>(-1)) == 0;
-  if (!same_user || !same_group) mode &= 0777u;  // nobody becomes what the old owner was by running the file
-  if ((now.st_mode & 07777u) == mode || fchmod(descriptor_, mode) == 0) return;
-  if (errno != EPERM && errno != ENOTSUP) fail(errno);  // these two: the file system has no modes
-}
-
 void WholeFile::sync_folder() const {
-  const int folder = open(place_.folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder < 0 && errno == EACCES) return;  // a folder into which one may write, but not look
-  if (folder < 0) fail(errno);
-  const int error = sync_error(folder, true);
-  close(folder);
-  if (error != 0) fail(error);
+  const OpenFile folder(place_.folder, OpenFor::folder);
+  if (folder.error() == EACCES) return;  // a folder into which one may write, but not look
+  check(folder ? folder.synchronise() : folder.error());
 }
 
 void WholeFile::open_unnamed() {
-  const std::unique_ptr<std::FILE, Closer> file(std::tmpfile());
-  descriptor_ = file ? fcntl(fileno(file.get()), F_DUPFD_CLOEXEC, 3) : -1;
-  if (descriptor_ < 0) fail(errno);
+  bytes_ = OpenFile::unnamed();
+  check(bytes_.error());
 }
 
 /// Copies all that was written to an open file.
-void WholeFile::copy_to(int to) const {
-  if (lseek(descriptor_, 0, SEEK_SET) < 0) fail(errno);
-  std::vector<std::uint8_t> bytes(std::size_t{1} << 16);
-  for (;;) {
-    const ssize_t got = read(descriptor_, bytes.data(), bytes.size());
-    if (got == 0) return;
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail(errno);
-    if (const int problem = write_all(to, bytes.data(), static_cast<std::size_t>(got))) fail(problem);
+void WholeFile::copy_to(const OpenFile& to) const {
+  check(bytes_.seek(0));
+  std::vector<std::uint8_t> part(std::size_t{1} << 16);
+  for (std::size_t got = 1; got > 0;) {
+    check(bytes_.read(part.data(), part.size(), got));
+    check(to.write(part.data(), got));
   }
 }
 
 /// Copies what was written to standard output, into a pipe or device, or to the end of a file that is open elsewhere.
 void WholeFile::send() const {
-  Opened to{file_ == "-" ? STDOUT_FILENO : open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NOCTTY)};
-  if (to.descriptor < 0) fail(errno);
-  copy_to(to.descriptor);
-  if (to.close() != 0) fail(errno);
+  OpenFile to = file_ == "-" ? OpenFile(standard_output) : OpenFile(file_, OpenFor::appending);
+  check(to.error());
+  copy_to(to);
+  check(to.close());
 }
 
 /// Writes into the file that cannot be replaced.
 void WholeFile::overwrite() const {
-  Opened to{open(place_.target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY)};
-  if (to.descriptor < 0) fail(errno);
-  const off_t size = lseek(descriptor_, 0, SEEK_END);
-  if (size < 0) fail(errno);
-  if (const int problem = reserve(to.descriptor, static_cast<std::uint64_t>(size))) fail(problem);
+  OpenFile to(place_.target, OpenFor::writing);
+  check(to.error());
+  std::uint64_t size = 0;
+  check(bytes_.size(size));
+  check(to.reserve(size));
   try {
-    copy_to(to.descriptor);
-    if (ftruncate(to.descriptor, size) != 0) fail(errno);
-    if (const int problem = sync_error(to.descriptor, false)) fail(problem);
-    if (to.close() != 0 && errno != EINTR) fail(errno);
+    copy_to(to);
+    check(to.truncate(size));
+    check(to.synchronise());
+    if (const int problem = to.close(); problem != EINTR) check(problem);
   } catch (const ImageFileError& error) {
     throw ImageFileError(std::string(error.what()) + "; what it holds now is neither the old file nor the new one");
   }
@@ -279,14 +194,12 @@ void WholeFile::commit() {
   flush();
   if (place_.method == WriteMethod::stream) return send();
   if (place_.method == WriteMethod::in_place) return overwrite();
-  keep_owner();
-  if (const int error = sync_error(descriptor_, false)) fail(error);
-  if (rename(temporary_.c_str(), place_.target.c_str()) != 0) fail(errno);
+  if (place_.exists) check(bytes_.set_owner(place_.mode, place_.owner.user, place_.owner.group));
+  check(bytes_.synchronise());
+  if (std::rename(temporary_.c_str(), place_.target.c_str()) != 0) fail(errno);
   temporary_.clear();
   sync_folder();
-  const int descriptor = descriptor_;  // closed last, as closing unlocks
-  descriptor_ = -1;
-  if (close(descriptor) != 0 && errno != EINTR) fail(errno);
+  if (const int problem = bytes_.close(); problem != EINTR) check(problem);  // last, as closing unlocks
 }
 
 }  // namespace tyndall

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/image/file_place.h"
 #include "core/image/image.h"
+#include "core/system/open_file.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -46,19 +47,19 @@ class WholeFile {
   bool create(const std::filesystem::path& temporary);
   void put(const void* data, std::size_t size);
   void flush();
-  void keep_owner() const;
   void sync_folder() const;
   void open_beside();
   void open_unnamed();
   void check_in_place();
   void send() const;
   void overwrite() const;
-  void copy_to(int descriptor) const;
+  void copy_to(const OpenFile& to) const;
+  void check(int error) const;
   [[noreturn]] void fail(int number) const;
 
   std::filesystem::path file_, temporary_;
   FilePlace place_;
-  int descriptor_ = -1;
+  OpenFile bytes_;                    ///< the temporary file
   std::vector<std::uint8_t> buffer_;  ///< what is to be written next; it ends at position_
   std::uint64_t position_ = 0;
 };

@@ -9,12 +9,7 @@
 #include "core/scene/json_read.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/place.h"
-
-#include <dirent.h>
-#ifdef __GLIBC__
-#include <dlfcn.h>
-#include <link.h>
-#endif
+#include "core/system/files.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -79,20 +74,12 @@ fs::path scenes_folder() {
   return assets.empty() ? fs::path() : assets / "scenes";
 }
 
-struct FolderCloser {
-  void operator()(DIR* folder) const { closedir(folder); }
-};
-
-/// (Not by std::filesystem, whose iterator ends the program when memory runs out.)
 std::vector<std::string> built_in_names() {
   constexpr std::string_view ending = ".json";
   std::vector<std::string> names;
-  const std::unique_ptr<DIR, FolderCloser> entries(opendir(scenes_folder().c_str()));
-  for (const dirent* entry = nullptr; entries && (entry = readdir(entries.get())) != nullptr;) {
-    const std::string_view name = entry->d_name;
+  for (const std::string& name : names_in_folder(scenes_folder()))
     if (name.size() > ending.size() && name.ends_with(ending))
-      names.emplace_back(name.substr(0, name.size() - ending.size()));
-  }
+      names.push_back(name.substr(0, name.size() - ending.size()));
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -139,20 +126,6 @@ BuiltIn built_in(const std::string& name, const fs::path& path) {
   for (const std::string& line : comments) scene.about += (scene.about.empty() ? "" : " ") + line;
   if (scene.title.empty() && !comments.empty()) scene.title = comments[0];
   return scene;
-}
-
-/// The file that holds this code: the library where another program uses it, else the program.
-fs::path own_file() {
-  std::error_code error;
-#ifdef __GLIBC__
-  Dl_info found{};
-  void* map = nullptr;
-  if (dladdr1(reinterpret_cast<void*>(&own_file), &found, &map, RTLD_DL_LINKMAP) != 0) {
-    const char* library = static_cast<const link_map*>(map)->l_name;  // "" of the program itself
-    if (library && *library) return fs::canonical(library, error);
-  }
-#endif
-  return fs::read_symlink("/proc/self/exe", error);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "app/window/system/pacing.h"
 #include "core/accuracy/error.h"
 #include "core/accuracy/flip.h"
+#include "core/system/process.h"
 
 #include <numeric>
 

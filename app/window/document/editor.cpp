@@ -112,8 +112,7 @@ void Editor::show(Document next, bool own_file, const OpenedFilm& film) {
   for (const std::string& remark : texture_remarks(scene())) remarks += "; " + remark;
   messages_.say((own_file ? "read again: " : "opened ") + document().origin->title +
                 (film.remark.empty() ? "" : "; " + film.remark) +
-                (left.empty() ? "" : "; Ctrl + Z goes back to the edits of " + left) + remarks +
-                (own_file || unwatched_.empty() ? "" : "; " + unwatched_));
+                (left.empty() ? "" : "; Ctrl + Z goes back to the edits of " + left) + remarks);
   if (film.film) events_.film_opened(film.film);
 }
 
@@ -228,12 +227,8 @@ void Editor::watch() {
   if (files == watched_) return;
   watch_.reset();
   watched_ = files;
-  unwatched_.clear();
   if (files.empty()) return;
   watch_ = std::make_unique<FileWatch>(files, [this] { file_changed_ = true, events_.wake(); });
-  if (watch_->problem().empty()) return;
-  unwatched_ = "changes of " + document().origin->title + " by other programs are not seen: " + watch_->problem();
-  messages_.say_until_done(unwatched_);
 }
 
 bool Editor::save(const fs::path& file) {

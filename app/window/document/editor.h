@@ -1,10 +1,10 @@
 #pragma once
-#include "app/files/watch.h"
 #include "app/window/document/history.h"
 #include "app/window/document/job_queue.h"
 #include "app/window/document/message.h"
 #include "app/window/document/open_document.h"
 #include "core/scene/load.h"
+#include "core/system/file_watch.h"
 
 #include <atomic>
 #include <filesystem>
@@ -120,8 +120,7 @@ class Editor {
   std::string watched_scene_;  ///< Origin::what
   std::vector<std::filesystem::path> watched_;
   std::vector<std::filesystem::path> unreadable_files_;  ///< what a reading depends on that has failed; watched, too
-  std::string unwatched_;             ///< why changes of these files are not seen, for the user; empty: they are
-  std::unique_ptr<FileWatch> watch_;  // declared last, because it uses the others
+  std::unique_ptr<FileWatch> watch_;                     // declared last, because it uses the others
 };
 
 }  // namespace tyndall

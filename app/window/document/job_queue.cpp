@@ -1,16 +1,8 @@
 #include "app/window/document/job_queue.h"
 
-#include <sys/resource.h>
-
 #include <utility>
 
 namespace tyndall {
-
-void lower_priority([[maybe_unused]] int niceness) {
-#ifdef __linux__
-  setpriority(PRIO_PROCESS, 0, niceness);
-#endif
-}
 
 JobQueue::JobQueue(std::function<void()> on_result)
     : on_result_(std::move(on_result)), thread_([this](const StopToken& stop) { work(stop); }) {}

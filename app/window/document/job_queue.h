@@ -9,10 +9,6 @@
 /// Work in the background.
 namespace tyndall {
 
-/// From now on the calling thread, and those that it starts, give way to others, as "nice" does. (On Linux a priority
-/// belongs to one thread, which cannot take it back; elsewhere this changes nothing.)
-void lower_priority(int niceness);
-
 /// Work that must not stop the window: jobs run one after another on a thread of their own, and what they return is
 /// called by the main thread.
 class JobQueue {

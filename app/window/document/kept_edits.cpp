@@ -2,13 +2,9 @@
 
 #include "app/window/document/open_document.h"
 #include "core/base/error.h"
+#include "core/system/files.h"
 
 #include <fmt/core.h>
-
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <fcntl.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstdlib>
@@ -96,44 +92,37 @@ std::vector<KeepingPlace> keeping_places(const fs::path& state, const std::strin
 }
 
 KeptSlot::KeptSlot(KeepingPlace place, int number) : place_(std::move(place)), number_(number) {
-  for (int attempt = 0; attempt < 100 && lock_ < 0 && error_ == 0; ++attempt) {
+  for (int attempt = 0; attempt < 100 && !lock_ && error_ == 0; ++attempt) {
     take();
-    struct stat status {};
-    if (lock_ < 0 || (fstat(lock_, &status) == 0 && status.st_nlink > 0)) return;
-    close(std::exchange(lock_, -1));  // another window has removed it in between: the next attempt makes a new one
+    if (!lock_ || lock_.has_name()) return;
+    lock_.close();  // another window has removed it in between: the next attempt makes a new one
   }
 }
 
 void KeptSlot::take() {
-  const std::string name = place_.lock(number_).string();
-  lock_ = open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-  const int why = errno;
-  if (lock_ < 0 && (why == EROFS || why == EACCES)) lock_ = open(name.c_str(), O_RDONLY | O_CLOEXEC);
-  if (lock_ < 0) error_ = why;
-  if (lock_ < 0 || flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
-  error_ = errno == EWOULDBLOCK ? 0 : errno;
-  close(std::exchange(lock_, -1));
+  const fs::path file = place_.lock(number_);
+  lock_ = OpenFile(file, OpenFor::changing, 0600);
+  const int why = lock_.error();
+  if (why == EROFS || why == EACCES) lock_ = OpenFile(file, OpenFor::reading);
+  if (!lock_) error_ = why;
+  const int problem = lock_ ? lock_.try_lock() : 0;
+  if (problem == 0) return;
+  error_ = problem == EWOULDBLOCK ? 0 : problem;
+  lock_.close();
 }
-
-KeptSlot::KeptSlot(KeptSlot&& other) noexcept
-    : place_(std::move(other.place_)),
-      number_(other.number_),
-      lock_(std::exchange(other.lock_, -1)),
-      error_(other.error_) {}
 
 KeptSlot& KeptSlot::operator=(KeptSlot&& other) noexcept {
   release();
   place_ = std::move(other.place_);
   number_ = other.number_;
-  lock_ = std::exchange(other.lock_, -1);
+  lock_ = std::move(other.lock_);
   error_ = other.error_;
   return *this;
 }
 
 void KeptSlot::release() {
-  if (lock_ < 0) return;
-  if (place_.beside_the_scene) unlink(place_.lock(number_).c_str());
-  close(std::exchange(lock_, -1));
+  if (lock_ && place_.beside_the_scene) remove_file(place_.lock(number_));
+  lock_.close();
 }
 
 bool KeptSlot::used() const {
@@ -144,8 +133,7 @@ bool KeptSlot::used() const {
 KeptSlot free_slot(const KeepingPlace& place) {
   for (int number = 1; number <= max_windows; ++number) {
     KeptSlot slot(place, number);
-    if (slot.error() != 0)
-      throw IoError(place.folder.string() + ": cannot write: " + std::generic_category().message(slot.error()));
+    if (slot.error() != 0) throw IoError(place.folder.string() + ": cannot write: " + error_text(slot.error()));
     if (slot.held() && !slot.used()) return slot;
   }
   throw IoError(place.folder.string() + ": cannot write: too many windows keep edits there");

@@ -1,6 +1,7 @@
 #pragma once
 #include "app/window/document/document.h"
 #include "core/scene/load.h"
+#include "core/system/open_file.h"
 
 #include <filesystem>
 #include <functional>
@@ -33,11 +34,11 @@ class KeptSlot {
   KeptSlot() = default;
   /// Takes the lock if nobody has it.
   KeptSlot(KeepingPlace place, int number);
-  KeptSlot(KeptSlot&& other) noexcept;
+  KeptSlot(KeptSlot&& other) noexcept = default;
   KeptSlot& operator=(KeptSlot&& other) noexcept;
   ~KeptSlot() { release(); }
 
-  bool held() const { return lock_ >= 0; }
+  bool held() const { return static_cast<bool>(lock_); }
   /// Why it is not held: an error number; 0: another window has it.
   int error() const { return error_; }
   /// Whether its file is there.
@@ -51,7 +52,7 @@ class KeptSlot {
 
   KeepingPlace place_;
   int number_ = 0;
-  int lock_ = -1;  ///< file descriptor; < 0: none
+  OpenFile lock_;
   int error_ = 0;
 };
 

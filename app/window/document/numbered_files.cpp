@@ -4,16 +4,12 @@
 #include "app/window/system/pacing.h"
 #include "core/files/film_files.h"
 #include "core/files/stats.h"
+#include "core/system/open_file.h"
 
 #include <fmt/core.h>
 #include <fmt/format.h>
 
-#include <sys/file.h>
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
 #include <exception>
 #include <thread>
@@ -23,22 +19,6 @@ namespace tyndall {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Keeps other windows from choosing a name in the folder while this lives. Where folders cannot be locked it does not.
-class FolderLock {
- public:
-  explicit FolderLock(const fs::path& folder) : folder_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    while (folder_ >= 0 && flock(folder_, LOCK_EX) != 0 && errno == EINTR) continue;
-  }
-  ~FolderLock() {
-    if (folder_ >= 0) close(folder_);
-  }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int folder_;
-};
 
 /// Writes the files; returns their names, for the user.
 std::string write_files(const Snapshot& snapshot, const Picture& picture) {
@@ -84,7 +64,9 @@ fs::path NumberedFiles::next_base(const std::string& stem) {
 void NumberedFiles::write(const fs::path& base, std::function<std::string(const fs::path& base)> work) {
   jobs_.run([this, base, work = std::move(work)]() -> JobQueue::Result {
     try {
-      const FolderLock lock(base.parent_path());
+      // Other windows choose no name meanwhile, where folders can be locked.
+      const OpenFile folder(base.parent_path(), OpenFor::folder);
+      if (folder) folder.wait_for_lock();
       const std::string name = base.filename().string();
       const fs::path free =
           numbered_base(base.parent_path(), name.substr(0, name.rfind('-')), number_of(base), endings_);

@@ -5,6 +5,7 @@
 #include "core/image/image_io.h"
 #include "core/image/tonemap.h"
 #include "core/render/render.h"
+#include "core/system/process.h"
 
 #include <fmt/core.h>
 

@@ -3,6 +3,7 @@
 #include "app/window/document/job_queue.h"
 #include "core/base/seconds.h"
 #include "core/render/render.h"
+#include "core/system/process.h"
 
 #include <chrono>
 #include <exception>

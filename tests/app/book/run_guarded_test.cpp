@@ -1,11 +1,13 @@
 #include "app/book/run_guarded.h"
 
 #include "core/base/error.h"
+#include "core/system/signals.h"
 #include "tests/support/scratch.h"
 
 #include <doctest/doctest.h>
 
 #include <csignal>
+#include <memory>
 
 namespace tyndall::test::run_guarded_test {
 
@@ -44,6 +46,7 @@ TEST_CASE("a program has the rights of the guard that there is") {
 TEST_CASE("a signal ends the program, and whoever watched before learns of it, too") {
   static volatile std::sig_atomic_t seen = 0;
   const auto before = std::signal(SIGTERM, [](int number) { seen = number; });
+  auto outer = std::make_unique<SignalWatch>(WatchedSignals::end);
   ProgramTask one = task();
   one.go_on = [] { return std::raise(SIGTERM) == 0; };
   try {
@@ -53,8 +56,9 @@ TEST_CASE("a signal ends the program, and whoever watched before learns of it, t
     CHECK(end.signal == SIGTERM);
     CHECK(std::string(end.what()) == "main.cc: interrupted while it ran");
   }
-  CHECK(seen == SIGTERM);
-  seen = 0;
+  CHECK(outer->received() == SIGTERM);
+  CHECK(seen == 0);
+  outer.reset();
   std::raise(SIGTERM);
   CHECK(seen == SIGTERM);  // it is in its place again
   std::signal(SIGTERM, before);

@@ -56,11 +56,11 @@ std::vector<fs::path> write_set(const fs::path& folder, std::mt19937& random) {
 
 /// What merging says; "": it was done.
 std::string problem_of(const std::vector<fs::path>& parts, const fs::path& output) {
-  MergeCommand command;
-  command.parts = parts;
+  Request command;
+  for (const auto& part : parts) command.operands.push_back(part.string());
   command.outputs = {output};
   try {
-    const int code = run(command);
+    const int code = run_merge(command);
     REQUIRE(code == 0);
     return "";
   } catch (const std::exception& error) {

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -12,10 +13,10 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-RenderCommand render_command(const Arguments& more) {
+Request render_request(const Arguments& more) {
   Arguments arguments = {"render", "box.json", "-o", "a.png"};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return std::get<RenderCommand>(read_command(arguments));
+  return std::get<Request>(read_command(arguments));
 }
 
 std::string refusal(const Arguments& arguments) {
@@ -34,30 +35,30 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 }  // namespace
 
 TEST_CASE("without a command: the window") {
-  CHECK(std::get<ViewCommand>(read_command({})).scene.what == "showroom");
-  CHECK(std::get<ViewCommand>(read_command({"cornell-box"})).scene.what == "cornell-box");
-  CHECK(std::get<ViewCommand>(read_command({"view"})).scene.what == "showroom");
-  CHECK(std::get<ViewCommand>(read_command({"-"})).scene.what == "-");
-  CHECK(std::get<ViewCommand>(read_command({"a.json", "--reference", "b.exr"})).reference == "b.exr");
-  const auto view = std::get<ViewCommand>(read_command({"--seed", "7", "a.json", "-t", "2"}));
+  CHECK(std::get<Request>(read_command({})).scene.what == "showroom");
+  CHECK(std::get<Request>(read_command({"cornell-box"})).scene.what == "cornell-box");
+  CHECK(std::get<Request>(read_command({"view"})).scene.what == "showroom");
+  CHECK(std::get<Request>(read_command({"-"})).scene.what == "-");
+  CHECK(std::get<Request>(read_command({"a.json", "--reference", "b.exr"})).reference == "b.exr");
+  const auto view = std::get<Request>(read_command({"--seed", "7", "a.json", "-t", "2"}));
   CHECK(view.scene.what == "a.json");
   CHECK(view.scene.render.values.seed == 7u);
   CHECK(view.threads == 2);
 }
 
 TEST_CASE("programs: more source files and folders of headers, and leave to compile what was named") {
-  const auto render = std::get<RenderCommand>(
+  const auto render = std::get<Request>(
       read_command({"render", "main.cc", "-I", "a", "b.cpp", "c.cxx", "-Id", "--include", "e", "-o", "x.png"}));
   const ProgramParts& parts = render.scene.program;
   CHECK(render.scene.what == "main.cc");
   CHECK(parts.more_files == std::vector<std::filesystem::path>{"b.cpp", "c.cxx"});
   CHECK(parts.include_folders == std::vector<std::filesystem::path>{"a", "d", "e"});
   CHECK(parts.allowed);
-  CHECK(std::get<ViewCommand>(read_command({"main.cc"})).scene.program.allowed);
-  CHECK_FALSE(std::get<ViewCommand>(read_command({})).scene.program.allowed);
+  CHECK(std::get<Request>(read_command({"main.cc"})).scene.program.allowed);
+  CHECK_FALSE(std::get<Request>(read_command({})).scene.program.allowed);
   CHECK_FALSE(parts.trusted);
-  CHECK(std::get<InspectCommand>(read_command({"inspect", "main.cc", "--trust"})).scene.program.trusted);
-  CHECK_FALSE(std::get<VerifyCommand>(read_command({"verify"})).method.program.allowed);
+  CHECK(std::get<Request>(read_command({"inspect", "main.cc", "--trust"})).scene.program.trusted);
+  CHECK_FALSE(std::get<Request>(read_command({"verify"})).scene.program.allowed);
   for (const Arguments& arguments :
        {Arguments{"inspect", "main.cc", "a.json"}, Arguments{"inspect", "a.json", "main.cc"}})
     CHECK(refusal(arguments) == "unexpected argument \"" + arguments[2] + "\" (see tyndall inspect --help)");
@@ -65,7 +66,7 @@ TEST_CASE("programs: more source files and folders of headers, and leave to comp
 
 TEST_CASE("the window takes limits, at which the picture pauses") {
   const auto view =
-      std::get<ViewCommand>(read_command({"view", "a.json", "--spp", "16", "--time", "2.5", "--target-error", "0.02"}));
+      std::get<Request>(read_command({"view", "a.json", "--spp", "16", "--time", "2.5", "--target-error", "0.02"}));
   CHECK(view.scene.render.values.spp == 16);
   CHECK(view.scene.render.given.contains("spp"));
   CHECK(view.time_limit == 2.5);
@@ -90,7 +91,7 @@ TEST_CASE("the help of view, compare and inspect has examples, which are read") 
 }
 
 TEST_CASE("render: every option arrives") {
-  const RenderCommand c = render_command(
+  const Request c = render_request(
       {"-o",           "b.exr",       "--size",     "64x32",          "--spp",      "16",           "--time",
        "2.5",          "--max-depth", "7",          "--sampler",      "random",     "--integrator", "path",
        "--fresnel",    "schlick",     "--exposure", "-1.5",           "--tone-map", "aces",         "--seed",
@@ -117,13 +118,56 @@ TEST_CASE("render: every option arrives") {
   CHECK(c.resume);
   CHECK_FALSE(c.fresh);
   CHECK(c.checkpoint == 90.0);
-  CHECK(render_command({"--fresh"}).fresh);
+  CHECK(render_request({"--fresh"}).fresh);
   CHECK(c.threads == 3);
   CHECK(c.progress == ProgressStyle::plain);
 }
 
+TEST_CASE("every option of every command takes a value of its kind, by each of its names") {
+  const std::map<std::string, std::string> values{{"", ""},
+                                                  {"N", "7"},
+                                                  {"X", "0.5"},
+                                                  {"Z", "4"},
+                                                  {"E", "0.1"},
+                                                  {"EV", "1"},
+                                                  {"on|off", "on"},
+                                                  {"yes|no", "no"},
+                                                  {"WxH", "4x3"},
+                                                  {"A:B", "0:4"},
+                                                  {"X0,Y0,X1,Y1", "0,0,1,1"},
+                                                  {"DIR", "a"},
+                                                  {"SECONDS", "2"},
+                                                  {"FILE", "-"},
+                                                  {"SHEET.png", "a.png"},
+                                                  {"X,Y,SAMPLE", "1,2,3"},
+                                                  {"NAME=FLAGS", "a=--seed 3"},
+                                                  {"HOST[:PORT]", "localhost"},
+                                                  {"POINTER=VALUE", "/a=1"},
+                                                  {"POINTER=VALUES", "/a=1:2:3"}};
+  int options = 0;
+  for (const char* command : {"view", "render", "sweep", "animate", "compare", "chart", "verify", "merge", "denoise",
+                              "inspect", "scenes", "convert"}) {
+    const auto help = std::get<PrintCommand>(read_command({command, "--help"}));
+    for (const OptionPage& option : help.page.options) {
+      if (option.names.back() == "--help" || option.group.empty()) continue;
+      std::string value = option.choices.empty() ? "" : option.choices.front();
+      if (value.empty() && option.unit.starts_with("FILE.")) value = "a" + option.unit.substr(4);
+      if (value.empty() && option.unit == "NAME") value = option.names.back() == "--each" ? "%v.png" : "%d.json";
+      if (value.empty()) value = values.at(option.unit);
+      for (const std::string& name : option.names) {
+        Arguments arguments{command, name};
+        if (!value.empty()) arguments.push_back(value);
+        const std::string text = refusal(arguments);
+        CHECK_MESSAGE((text.empty() || has(text, " is missing (see ") || has(text, " need --baseline")), text);
+        ++options;
+      }
+    }
+  }
+  CHECK(options > 200);
+}
+
 TEST_CASE("render: what is not given stays open") {
-  const RenderCommand c = render_command({});
+  const Request c = render_request({});
   CHECK_FALSE(c.spp);
   CHECK_FALSE(c.samples);
   CHECK_FALSE(c.scene.size);
@@ -132,18 +176,18 @@ TEST_CASE("render: what is not given stays open") {
   CHECK_FALSE(c.checkpoint);
   CHECK(c.threads == 0);
   CHECK(c.progress == ProgressStyle::automatic);
-  CHECK(render_command({"-q"}).progress == ProgressStyle::none);
+  CHECK(render_request({"-q"}).progress == ProgressStyle::none);
 }
 
 TEST_CASE("overrides keep their order; the last of a repeated option wins; an output takes one name") {
-  const RenderCommand c = render_command({"--set", "/b=1", "--set", "/a=[1,2,3]", "--spp", "1", "--spp", "2"});
+  const Request c = render_request({"--set", "/b=1", "--set", "/a=[1,2,3]", "--spp", "1", "--spp", "2"});
   REQUIRE(c.scene.overrides.size() == 2);
   CHECK(c.scene.overrides[0].pointer == "/b");
   CHECK(c.scene.overrides[1].value == "[1,2,3]");
   CHECK(c.spp == 2u);
-  CHECK(std::get<RenderCommand>(read_command({"render", "-o", "a.png", "box"})).scene.what == "box");
-  CHECK(std::get<RenderCommand>(read_command({"render", "-o", "a.png", "--", "-a.json"})).scene.what == "-a.json");
-  CHECK(std::get<RenderCommand>(read_command({"render", "render", "--output=[a].png"})).outputs.front() == "[a].png");
+  CHECK(std::get<Request>(read_command({"render", "-o", "a.png", "box"})).scene.what == "box");
+  CHECK(std::get<Request>(read_command({"render", "-o", "a.png", "--", "-a.json"})).scene.what == "-a.json");
+  CHECK(std::get<Request>(read_command({"render", "render", "--output=[a].png"})).outputs.front() == "[a].png");
 }
 
 TEST_CASE("refusals name the option, what was found and what is expected") {
@@ -180,14 +224,14 @@ TEST_CASE("limits that exclude each other are named") {
     arguments.insert(arguments.end(), other.begin(), other.end());
     CHECK(has(refusal(arguments), "--samples and " + other[0]));
   }
-  CHECK(render_command({"--samples", "4:8"}).samples->first == 4);
+  CHECK(render_request({"--samples", "4:8"}).samples->first == 4);
 }
 
 TEST_CASE("adaptive sampling: off unless asked for, where pictures are rendered") {
-  CHECK_FALSE(render_command({}).scene.render.values.adaptive);
-  CHECK(render_command({"--adaptive"}).scene.render.values.adaptive);
-  CHECK(std::get<ViewCommand>(read_command({"view", "--adaptive", "box"})).scene.render.values.adaptive);
-  const auto chart = std::get<ChartCommand>(
+  CHECK_FALSE(render_request({}).scene.render.values.adaptive);
+  CHECK(render_request({"--adaptive"}).scene.render.values.adaptive);
+  CHECK(std::get<Request>(read_command({"view", "--adaptive", "box"})).scene.render.values.adaptive);
+  const auto chart = std::get<Request>(
       read_command({"chart", "box", "-o", "a.svg", "--method", "even=", "--method", "adaptive=--adaptive --seed 3"}));
   CHECK_FALSE(chart.methods.at(0).scene.render.values.adaptive);
   CHECK(chart.methods.at(1).scene.render.values.adaptive);
@@ -195,39 +239,38 @@ TEST_CASE("adaptive sampling: off unless asked for, where pictures are rendered"
 }
 
 TEST_CASE("verify: names, method, machine") {
-  const auto command = std::get<VerifyCommand>(read_command(
+  const auto command = std::get<Request>(read_command(
       {"verify", "plate", "--json", "milk", "--isa", "scalar", "-t", "2", "--integrator", "nee", "--seed", "7", "-q"}));
-  CHECK(command.names == std::vector<std::string>{"plate", "milk"});
+  CHECK(command.operands == std::vector<std::string>{"plate", "milk"});
   CHECK(command.json);
   CHECK_FALSE(command.thorough);
   CHECK(command.isa == "scalar");
   CHECK(command.threads == 2);
-  CHECK(command.method.render.values.integrator == Integrator::nee);
-  CHECK(command.method.render.values.seed == 7u);
+  CHECK(command.scene.render.values.integrator == Integrator::nee);
+  CHECK(command.scene.render.values.seed == 7u);
   CHECK(command.progress == ProgressStyle::none);
-  CHECK(std::get<VerifyCommand>(read_command({"verify", "--thorough"})).thorough);
+  CHECK(std::get<Request>(read_command({"verify", "--thorough"})).thorough);
   CHECK(has(refusal({"verify", "--size", "8x8"}), "unknown option \"--size\""));
 }
 
 TEST_CASE("inspect: an instruction set is only for measuring") {
-  CHECK(std::get<InspectCommand>(read_command({"inspect", "box", "--measure", "--isa", "sse4"})).isa == "sse4");
+  CHECK(std::get<Request>(read_command({"inspect", "box", "--measure", "--isa", "sse4"})).isa == "sse4");
   CHECK(has(refusal({"inspect", "box", "--isa", "sse4"}), "--measure"));
 }
 
 TEST_CASE("chart: methods with flags of their own, reference, budget") {
-  const auto command =
-      std::get<ChartCommand>(read_command({"chart", "box", "-o", "a.svg", "--method", "plain=", "--method",
-                                           "no MIS=--integrator nee --isa scalar", "--budget", "7"}));
+  const auto command = std::get<Request>(read_command({"chart", "box", "-o", "a.svg", "--method", "plain=", "--method",
+                                                       "no MIS=--integrator nee --isa scalar", "--budget", "7"}));
   CHECK(command.scene.what == "box");
   CHECK(command.output == "a.svg");
   CHECK(command.budget == 7);
   REQUIRE(command.methods.size() == 2);
-  CHECK(command.methods[0].name == "plain");
+  CHECK(command.methods[0].command == "plain");
   CHECK_FALSE(command.methods[0].scene.render.given.contains("integrator"));
-  CHECK(command.methods[1].name == "no MIS");
+  CHECK(command.methods[1].command == "no MIS");
   CHECK(command.methods[1].scene.render.values.integrator == Integrator::nee);
   CHECK(command.methods[1].isa == "scalar");
-  CHECK(std::get<ChartCommand>(read_command({"chart", "all", "-o", "charts"})).output == "charts");
+  CHECK(std::get<Request>(read_command({"chart", "all", "-o", "charts"})).output == "charts");
   CHECK(has(refusal({"chart", "box"}), "-o FILE.svg"));
   CHECK(has(refusal({"chart", "box", "-o", "a.png"}), ".svg"));
   CHECK(has(refusal({"chart", "box", "-o", "a.svg", "--method", "nee"}), "NAME=FLAGS"));
@@ -237,8 +280,7 @@ TEST_CASE("chart: methods with flags of their own, reference, budget") {
 
 TEST_CASE("help names every command and option, with units and defaults") {
   const std::string overview = printed({"--help"});
-  for (const char* name :
-       {"view", "render", "compare", "chart", "verify", "merge", "inspect", "scenes", "convert"})
+  for (const char* name : {"view", "render", "compare", "chart", "verify", "merge", "inspect", "scenes", "convert"})
     CHECK(has(overview, std::string("\n  ") + name + " "));
   CHECK(printed({"-h"}) == overview);
   for (const char* argument : {"--version", "-V", "version"}) CHECK(has(printed({argument}), "tyndall "));

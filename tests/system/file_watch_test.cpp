@@ -1,18 +1,16 @@
-#include "app/files/watch.h"
+#include "core/system/file_watch.h"
 
 #include "tests/support/news.h"
 #include "tests/support/scratch.h"
 
 #include <doctest/doctest.h>
 
-#include <sys/resource.h>
-
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace tyndall::test::watch_test {
+namespace tyndall::test::file_watch_test {
 namespace fs = std::filesystem;
 
 TEST_CASE("a watched file tells of writing and of renaming over it, not of its neighbours") {
@@ -107,7 +105,6 @@ TEST_CASE("files that are removed are told of, and that they come back, by thems
   fs::create_hard_link(folder / "away.png", folder / "a.png");
   CHECK(watched.told());
   fs::create_directory(folder / "in");  // was never there
-  CHECK(watched.told());
   write_text(folder / "in" / "b.png", "3");
   CHECK(watched.told());
   fs::remove_all(folder / "in");
@@ -124,25 +121,18 @@ TEST_CASE("links that lead round in a circle are watched without harm, and told 
   fs::create_symlink("a.json", watched.folder / "b.json");
   watched.begin();
   fs::remove(watched.folder / "b.json");
-  CHECK(watched.told());
   write_text(watched.folder / "b.json", "an end");
   CHECK(watched.told());
 }
 
-TEST_CASE("a file that is watched has no problem to tell, and neither has one whose folder is still to come") {
-  CHECK(FileWatch({scratch_folder("watchable") / "a.json"}, [] {}).problem().empty());
-  CHECK(FileWatch({"/no/such/folder/a.json"}, [] {}).problem().empty());
+TEST_CASE("a file that is saved twice within a second is told of twice, also where its size stays") {
+  Watched watched("watched_twice", {"a.json"});
+  write_text(watched.folder / "a.json", "0");
+  watched.begin();
+  for (const char* text : {"1", "2"}) {
+    write_text(watched.folder / "a.json", text);
+    CHECK(watched.told());
+  }
 }
 
-TEST_CASE("where the system opens no more files, nothing is watched, and that is said") {
-  rlimit before{};
-  REQUIRE(getrlimit(RLIMIT_NOFILE, &before) == 0);
-  const fs::path folder = scratch_folder("unwatchable");
-  const rlimit none{0, before.rlim_max};
-  REQUIRE(setrlimit(RLIMIT_NOFILE, &none) == 0);
-  const std::string problem = FileWatch({folder / "a.json"}, [] {}).problem();
-  REQUIRE(setrlimit(RLIMIT_NOFILE, &before) == 0);
-  CHECK(problem == "Too many open files");
-}
-
-}  // namespace tyndall::test::watch_test
+}  // namespace tyndall::test::file_watch_test

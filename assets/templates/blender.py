@@ -1,9 +1,4 @@
-#include "app/export/blender_script.h"
-
-namespace tyndall {
-
-const char* const blender_script_head =
-    R"py("""A scene for Blender 3.4 to 3.6 (Cycles), by tyndall convert. It was tried with 3.4.1.
+"""A scene for Blender 3.4 to 3.6 (Cycles), by tyndall convert. It was tried with 3.4.1.
 
 blender -b --factory-startup -P THIS.py                           builds the scene
 blender -b --factory-startup -P THIS.py -- OUTPUT.exr [SAMPLES]   and renders it
@@ -12,9 +7,8 @@ Conventions: Blender's z is our y, its -y our z; a refractive index is inside ov
 sphere of negative radius has its faces turned; bounces are our scattering events less one; colours are linear Rec.709;
 emission strength 1 is radiance 1. Spheres are meshes of 256 x 128 faces with smooth normals, disks of 1024 sides.
 """
-)py";
+DATA = {{scene}}
 
-const char* const blender_script = R"py(
 import array
 import json
 import math
@@ -365,6 +359,3 @@ if ARGUMENTS and ARGUMENTS[0].endswith(".exr"):
         bpy.context.scene.cycles.samples = int(ARGUMENTS[1])
     bpy.context.scene.render.filepath = os.path.abspath(ARGUMENTS[0])
     bpy.ops.render.render(write_still=True)
-)py";
-
-}  // namespace tyndall

@@ -1,0 +1,352 @@
+#include "app/cli/command_rows.h"
+
+#include "app/book/load_program.h"
+#include "app/check/own_picture.h"
+#include "app/cli/commands.h"
+#include "app/cli/option_rows.h"
+#include "app/text/name_pattern.h"
+#include "core/base/text.h"
+
+#include <filesystem>
+
+namespace tyndall {
+namespace {
+
+using Text = const std::string&;
+
+std::string see_help(const Request& request) { return " (see tyndall " + request.command + " --help)"; }
+
+void require(const Request& request, bool given, const char* what) {
+  if (!given) throw UsageError(what + std::string(" is missing") + see_help(request));
+}
+
+/// A program may have further source files; nothing else takes more words than one.
+void take_scene(Request& request, std::size_t at = 0) {
+  if (request.operands.size() <= at) return;
+  request.scene.what = request.operands[at];
+  request.scene.program.allowed = true;
+  request.scene.program.differs = differs_from_own;
+  for (std::size_t k = at + 1; k < request.operands.size(); ++k) {
+    if (!is_program(request.operands[at]) || !is_program(request.operands[k]))
+      throw UsageError("unexpected argument " + in_quotes(request.operands[k]) + see_help(request));
+    request.scene.program.more_files.emplace_back(request.operands[k]);
+  }
+}
+
+void finish_view(Request& request) {
+  take_scene(request);
+  require(request, !request.scene.what.empty(), "SCENE");
+}
+
+void finish_inspect(Request& request) {
+  finish_view(request);
+  if (!request.isa.empty() && !request.measure) throw UsageError("--isa can only be given with --measure");
+}
+
+void finish_render(Request& request) {
+  finish_view(request);
+  require(request, request.replay || !request.outputs.empty(), "an output (-o FILE)");
+  refuse_conflicts(request);
+}
+
+void finish_sweep(Request& request) {
+  finish_view(request);
+  require(request, !request.axes.empty(), "a value to vary (--vary POINTER=FROM:TO:STEPS)");
+  if (request.axes.size() > 2)
+    throw UsageError("--vary: found it " + std::to_string(request.axes.size()) + " times, expected it once or twice");
+  require(request, !request.sheet.empty() || !request.csv.empty() || !request.outputs.empty(),
+          "an output (-o SHEET.png)");
+  refuse_conflicts(request);
+}
+
+/// Reads the name of a file that stands for many, for the message "--output: found X, expected Y".
+void check_numbered(const char* option, Text name) {
+  try {
+    read_numbered_name(name);
+  } catch (const UsageError& error) {
+    throw UsageError(std::string(option) + ": " + error.what());
+  }
+}
+
+/// Takes the video out of the outputs, and checks the names of the others.
+void finish_animate(Request& request) {
+  finish_view(request);
+  require(request, !request.outputs.empty(), "an output (-o 'f/%04d.png')");
+  std::vector<std::filesystem::path> pictures;
+  for (const std::filesystem::path& file : request.outputs) {
+    if (file != "-" && lower_case(file.extension().string()) != ".y4m") {
+      check_numbered("--output", file.string());
+      pictures.push_back(file);
+      continue;
+    }
+    if (!request.video.empty()) throw UsageError("--output: found two films, expected one .y4m or -");
+    request.video = file;
+  }
+  request.outputs = std::move(pictures);
+  if (!request.stats.empty()) check_numbered("--stats", request.stats.string());
+  refuse_conflicts(request);
+}
+
+/// Puts the images where they belong. Throws UsageError for too few or too many, and for options that do not go
+/// together.
+void finish_compare(Request& request) {
+  const std::vector<std::string>& images = request.operands;
+  request.baseline.ppm = request.form.ppm;
+  require(request, !images.empty(), "IMAGE");
+  if (!request.baseline.folder.empty()) {
+    request.baseline.images.assign(images.begin(), images.end());
+    request.baseline.limits = request.limits;
+    if (!request.heatmap.empty() || request.json)
+      throw UsageError("--baseline goes with --report and --junit, not with --heatmap or --json");
+    if (request.update && (!request.report.empty() || !request.junit.empty()))
+      throw UsageError("--update compares nothing, so it writes no report");
+    return;
+  }
+  require(request, images.size() > 1, "REFERENCE");
+  take_scene(request, 1);
+  if (request.update || !request.report.empty() || !request.junit.empty())
+    throw UsageError("--update, --report and --junit need --baseline");
+  request.image = images[0] == "-" ? "/dev/stdin" : images[0];
+  request.reference = images[1];
+}
+
+void finish_chart(Request& request) {
+  finish_view(request);
+  require(request, !request.output.empty(), "an output (-o FILE.svg)");
+  if (request.scene.what != "all") read_file_name(request.output.string(), ".svg");
+}
+
+void finish_nothing(Request&) {}
+
+void finish_merge(Request& request) {
+  require(request, !request.operands.empty(), "PART");
+  require(request, !request.outputs.empty(), "an output (-o FILE)");
+}
+
+void finish_denoise(Request& request) {
+  require(request, !request.image.empty(), "FILM.exr");
+  require(request, !request.outputs.empty(), "an output (-o FILE)");
+}
+
+void finish_convert(Request& request) {
+  finish_view(request);
+  require(request, !request.output.empty(), "an output (-o FILE)");
+}
+
+constexpr const char* usual_heading = "Options";  // the usual heading
+
+}  // namespace
+
+const std::vector<CommandRow>& command_rows() {
+  static const std::vector<CommandRow> rows{
+      {"view",
+       "open a scene in the window (also without this word; default: the showroom)",
+       "view [SCENE] [options]",
+       "Opens a scene in the window. 'tyndall' alone opens the showroom, 'tyndall SCENE' a scene.\n\n"
+       "Where standard input (-) begins with P3 or P6, it is a picture: its rows are shown as a program\n"
+       "writes them, to be enlarged, exposed, compared with --reference and saved.",
+       "Examples:\n"
+       "  tyndall view cornell-box\n"
+       "  tyndall view fog.json --set /camera/vfov=30 --spp 256\n"
+       "  tyndall view snapshot.png --reference reference.exr\n"
+       "  ./mine | tyndall view - --reference cover.exr",
+       {{usual_heading, "SCENE --set --include --trust"},
+        {"Limits (the first one reached pauses the picture; Space goes on)", "--spp --time --target-error"},
+        {"Image", "--size {display}"},
+        {"Method", "{render}"},
+        {"Machine", "--threads --isa --reference --gamma2 --ui-log"}},
+       finish_view,
+       run_view},
+      {"render",
+       "render without a window and write images",
+       "render SCENE -o FILE [options]",
+       "Renders a scene without a window and writes the image.",
+       "Examples:\n"
+       "  tyndall render cornell-box -o box.png\n"
+       "  tyndall render fog.json --spp 1000 -o fog.exr -o fog.png --stats fog-stats.json\n"
+       "  tyndall render box.png --set /camera/vfov=30 -o closer.png\n"
+       "  tyndall render next-week -o week.exr --watch-at localhost    # seen in tev meanwhile",
+       {{usual_heading, "SCENE --set --include --trust"},
+        {"Output",
+         "--output --format --gamma2 --exr-film --region --denoise --stats --frame --replay --checkpoint --fresh "
+         "--resume --watch-at --progress --quiet"},
+        {"Limits (the first one reached ends the render)", "--spp --time --target-error --samples"},
+        {"Image", "--size {display}"},
+        {"Method", "{render}"},
+        {"Machine", "--threads --isa"}},
+       finish_render,
+       run_render},
+      {"sweep",
+       "render one or two values of a scene in steps, and say which differences are real",
+       "sweep SCENE --vary POINTER=FROM:TO:STEPS -o SHEET.png [options]",
+       "Renders a scene with one or two of its values in steps: a sheet of all pictures with the values\n"
+       "beneath them, and a table of how far each differs from the one in the middle.\n\n"
+       "All pictures have one seed, so that most of their noise is the same, and differences are several times\n"
+       "cleaner than between pictures of different seeds. Their error is estimated from the two halves of the\n"
+       "difference itself.",
+       "Examples:\n"
+       "  tyndall sweep showroom --vary /materials/gold/fuzz=0:0.4:9 -o fuzz.png --csv fuzz.csv\n"
+       "  tyndall sweep glass-spheres --vary /materials/glass/refractive_index=[1.3,1.5,1.8] -o glass.png\n"
+       "  tyndall sweep showroom --vary /objects/0/material=gold,glass --vary /camera/vfov=20:40:3 -o two.png",
+       {{usual_heading, "SCENE --set --include --trust"},
+        {"Values", "--vary"},
+        {"Output",
+         "--output --csv --each --gamma2 --exr-film --region --denoise --checkpoint --fresh --progress --quiet"},
+        {"Limits (the first one reached ends the picture)", "--spp --time --target-error --total-time"},
+        {"Image", "--size {display}"},
+        {"Method", "{render}"},
+        {"Machine", "--threads --isa"}},
+       finish_sweep,
+       run_sweep},
+      {"animate",
+       "render the frames of a film, from keys or on a turntable",
+       "animate SCENE --frames N -o 'f/%04d.png' [options]",
+       "Renders the frames of a film: the values that have keys in the scene's \"animation\" follow them, and\n"
+       "--turntable moves the camera once around. Frames count from 0.\n\n"
+       "The same command goes on where it was stopped: frames that are there stay if their scene, settings and\n"
+       "version are the same, and are refused if not.",
+       "Examples:\n"
+       "  tyndall animate showroom --turntable --frames 48 --spp 16 -o 'turn-%04d.png'\n"
+       "  tyndall animate showroom --turntable --frames 48 --spp 16 -o turn.y4m\n"
+       "  tyndall animate film.json --frame-range 0:24 -o 'f/%04d.exr'\n"
+       "  tyndall animate film.json -o - |\n"
+       "    ffmpeg -i - -vf format=yuv420p,crop -crf 4 -x264-params chroma-qp-offset=-12 -colorspace smpte170m \\\n"
+       "      -color_primaries bt709 -color_trc iec61966-2-1 -color_range tv film.mp4",
+       {{usual_heading, "SCENE --set --include --trust"},
+        {"Film", "--frames --frame-range --turntable --seed-per-frame --fps"},
+        {"Output", "--output --gamma2 --exr-film --region --denoise --stats --checkpoint --fresh --progress --quiet"},
+        {"Limits (the first one reached ends the frame)", "--spp --time --target-error"},
+        {"Image", "--size {display}"},
+        {"Method", "{render}"},
+        {"Machine", "--threads --isa"}},
+       finish_animate,
+       run_animate},
+      {"compare",
+       "measure how far an image is from a reference",
+       "compare IMAGE REFERENCE | IMAGE SCENE | IMAGE... --baseline DIR [options]",
+       "Says how far an image is from a reference: MSE, RMSE, relMSE, PSNR, FLIP and the means.\n\n"
+       "MSE and RMSE are of linear values. relMSE is the mean over pixels and channels of\n"
+       "(x - ref)^2 / (ref^2 + 0.01), so it depends on the unit of radiance: the same scene with all\n"
+       "lights ten times as bright gives another number. PSNR (in dB) and FLIP (a difference that eyes\n"
+       "see, 0 to 1, at 67 pixels a degree) are of the sRGB images clipped to [0, 1].\n\n"
+       "What a file says of its pixels (exposure, curve, orientation) is honoured or refused; what is read\n"
+       "in another way than the file says, such as other primaries than sRGB's, is told in a line.\n\n"
+       "Two EXR files that Tyndall made also tell their noise: then z-scores of blocks of 16x16 pixels say\n"
+       "whether the difference is more than noise. --max-z makes that a test without a tolerance: with Z = 4\n"
+       "two pictures of the same scene fail once in 16,000 times at most, whatever their seeds.\n\n"
+       "With a scene in place of REFERENCE (its name, its file, or MAIN.cc) the scene is rendered in the\n"
+       "image's size, and the answer says whether they agree within the noise; else which objects differ,\n"
+       "and which usual mistake in a program of \"Ray Tracing in One Weekend\" explains that: each one is\n"
+       "rendered. What editions do otherwise (gamma, Schlick's rule, fuzz on the sphere, frame) is said, and\n"
+       "is no mistake. PNG and EXR are images here, even if they carry a scene.\n\n"
+       "EXR files of one display window and different data windows (a region, overscan) are compared by\n"
+       "position, over the pixels that both have. Beside an EXR, a picture of another format is its display\n"
+       "window if it has the size of that, else its data window.",
+       "Exit code 1: an error is above its --max-...; a value of one of the images is not finite (NaN and\n"
+       "infinity are equal to nothing, with --max-... or without); or --baseline found no image.\n\n"
+       "Examples:\n"
+       "  tyndall compare out.png snapshot.png\n"
+       "  tyndall compare a.exr reference.exr --max-relmse 0.01 --heatmap difference.png\n"
+       "  ./mine | tyndall compare - main.cc\n"
+       "  tyndall compare A.exr B.exr --max-z 4\n"
+       "  tyndall compare a.exr --baseline kept --report report.html",
+       {{usual_heading, "IMAGE_REFERENCE --gamma2 --heatmap --json"},
+        {"With a scene", "--time --set --include --trust"},
+        {"Checks", "--max-rmse --max-relmse --max-flip --max-z"},
+        {"Baseline (a folder of pictures that renders should go on looking like)",
+         "--baseline --update --report --junit"}},
+       finish_compare,
+       run_compare},
+      {"chart",
+       "chart speed against accuracy: error over time of several methods",
+       "chart SCENE -o FILE.svg [options]",
+       "Charts speed against accuracy: relMSE over seconds of rendering, a curve for each method, against\n"
+       "a reference. Without --method: the books' method and each improvement switched on in turn. Writes\n"
+       "the chart, a CSV file beside it (method,spp,seconds,relmse), and prints a table. SCENE 'all' makes\n"
+       "a gallery of charts in the folder -o.",
+       "Examples:\n"
+       "  tyndall chart cornell-smoke -o smoke.svg\n"
+       "  tyndall chart fog.json --method 'mis=' --method 'no MIS=--integrator nee' -o fog.svg",
+       {{usual_heading,
+         "SCENE --set --include --trust --output --method --reference --budget --size --threads --progress --quiet"}},
+       finish_chart,
+       run_chart},
+      {"verify",
+       "check the renderer against known answers",
+       "verify [NAME...] [options]",
+       "Renders pictures whose mean radiance is known, and prints a table: the expected mean, where it is\n"
+       "from, the measured one, its standard error, the deviation in standard errors (z), the verdict.\n\n"
+       "A case fails above |z| = 4 or if samples were rejected. The mean square of all z must be near 1:\n"
+       "otherwise the standard errors are wrong. Exit code 1 if anything fails.",
+       "Examples:\n"
+       "  tyndall verify\n"
+       "  tyndall verify plate fog-ball/ --isa scalar\n"
+       "  tyndall verify plate --fresnel schlick      # the books' rule fails",
+       {{usual_heading, "NAME --thorough --json --progress --quiet"},
+        {"Method", "{render}"},
+        {"Machine", "--threads --isa"}},
+       finish_nothing,
+       run_verify},
+      {"merge",
+       "add films whose sample ranges follow each other",
+       "merge PART... -o FILE [options]",
+       "Adds films whose sample ranges follow each other (see 'tyndall render --samples'). The result is,\n"
+       "bit for bit, the film of one render of all the samples.",
+       "Example:\n"
+       "  tyndall render fog.json --samples 0:64 -o a.exr\n"
+       "  tyndall render fog.json --samples 64:128 -o b.exr\n"
+       "  tyndall merge a.exr b.exr -o fog.exr -o fog.png",
+       {{usual_heading, "PART --output --format --gamma2 --exr-film --denoise"}},
+       finish_merge,
+       run_merge},
+      {"denoise",
+       "filter the picture of a finished film",
+       "denoise FILM.exr -o FILE [options]",
+       "Filters the picture of a finished film, and says how wrong the result still is. The film itself\n"
+       "stays as it is.\n\n"
+       "The samples are two independent halves, and each is filtered by itself. By comparing the halves the\n"
+       "filter decides where to show the filtered and where the raw picture, and estimates the error.",
+       "Example:\n  tyndall denoise fog.exr -o fog-clean.png",
+       {{usual_heading, "FILM.exr --output --format --gamma2 --exr-film --stats"}, {"Machine", "--threads --isa"}},
+       finish_denoise,
+       run_denoise},
+      {"inspect",
+       "say what a scene contains and which models it needs",
+       "inspect SCENE [options]",
+       "Says what a scene contains and which models its kernel needs.",
+       "Examples:\n"
+       "  tyndall inspect showroom\n"
+       "  tyndall inspect fog.json --measure\n"
+       "  tyndall inspect snapshot.png --json",
+       {{usual_heading, "SCENE --set --include --trust --json --measure --isa"}, {"", "--accuracy"}},
+       finish_inspect,
+       run_inspect},
+      {"scenes",
+       "list the built-in scenes",
+       "scenes",
+       "Lists the built-in scenes. Every command takes their names in place of a file.",
+       "",
+       {},
+       finish_nothing,
+       run_scenes},
+      {"convert",
+       "write a scene in normal form, also from an image",
+       "convert SCENE -o FILE [options]",
+       "Writes a scene in normal form (.json): every value that is not its default, keys in the format's\n"
+       "order, without comments. Also gets the scene out of an image that Tyndall made.\n\n"
+       "For checking elsewhere it writes the scene for pbrt-v4 (.pbrt), Mitsuba 3 (.xml) and Blender's\n"
+       "Cycles (.py, a script that builds it). What such a renderer has no equal of (fuzz, noise) is named\n"
+       "and ends the command; nothing is approximated.",
+       "Examples:\n"
+       "  tyndall convert snapshot.png -o snapshot.json\n"
+       "  tyndall convert cornell-box -o box.xml\n"
+       "  tyndall convert cornell-smoke -o smoke.py    # blender -b -P smoke.py -- smoke.exr",
+       {{usual_heading, "SCENE --set --include --trust --output"}},
+       finish_convert,
+       run_convert},
+
+  };
+  return rows;
+}
+
+}  // namespace tyndall

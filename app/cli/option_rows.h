@@ -1,0 +1,37 @@
+#pragma once
+#include "app/cli/parse.h"
+#include "app/cli/requests.h"
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// The options of all commands, a row each.
+namespace tyndall {
+
+/// What an option does with its text. Throws UsageError `found "X", expected Y`, before which the option's name is put.
+struct Taker {
+  std::function<void(Request&, const std::string&)> take;
+  Takes takes = Takes::once;
+  std::vector<std::string> choices{};  ///< the values that it takes, where they have names
+};
+
+struct OptionRow {
+  const char* names;  ///< "-t,--threads"
+  const char* unit;   ///< what the help calls the value; "": it takes none
+  Taker taker;
+  std::string help;
+  std::string_view commands{};  ///< those that it is an option of in this way; "": of all that name it
+};
+
+/// The row of an option, or of an argument such as "SCENE", of that command. There is one.
+const OptionRow& option_row(std::string_view name, std::string_view command);
+
+/// The curve of a chart that --method describes, NAME=FLAGS; its command is the name.
+Request read_method(const std::string& text);
+
+/// Refuses options of a render that exclude each other.
+void refuse_conflicts(const Request& request);
+
+}  // namespace tyndall

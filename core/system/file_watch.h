@@ -1,0 +1,25 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace tyndall {
+
+/// Tells when any of some files may hold something else than before: it was written in place, replaced by renaming,
+/// removed, or came back; also where it is reached through symbolic links, one of which may lead elsewhere now. It asks
+/// the system some times a second for what each file is and when it was changed, which takes no processor time to
+/// speak of, works for files of other machines, too, and can miss nothing that stays.
+class FileWatch {
+ public:
+  /// files: need not exist. on_change: called from a thread of the watch; must be quick. It is called when the files
+  /// have been the same for a moment, as many programs write a file in parts, or remove it and write it anew.
+  FileWatch(const std::vector<std::filesystem::path>& files, std::function<void()> on_change);
+  ~FileWatch();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace tyndall

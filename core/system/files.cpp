@@ -1,0 +1,118 @@
+#include "core/system/files.h"
+
+#include <sys/stat.h>
+#include <dirent.h>
+#include <fcntl.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <linux/magic.h>
+#include <sys/statfs.h>
+#endif
+#ifdef __GLIBC__
+#include <dlfcn.h>
+#include <link.h>
+#endif
+
+#include <cerrno>
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+#include <system_error>
+
+namespace tyndall {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FolderCloser {
+  void operator()(DIR* folder) const { closedir(folder); }
+};
+
+/// Whether files may be renamed and removed that only their owner or that of a sticky folder may. user: of the file. A
+/// process that is privileged among some users only sees the others as one that nobody is.
+bool overrides_owner(unsigned user) {
+  constexpr unsigned nobody = 65534;
+  constexpr unsigned long long cap_fowner = 1ULL << 3;
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("CapEff:"))
+      return user != nobody && (std::strtoull(line.c_str() + 7, nullptr, 16) & cap_fowner) != 0;
+  return geteuid() == 0;
+}
+
+}  // namespace
+
+std::vector<std::string> names_in_folder(const fs::path& folder) {
+  std::vector<std::string> names;
+  const std::unique_ptr<DIR, FolderCloser> entries(opendir(folder.c_str()));
+  for (const dirent* entry = nullptr; entries && (entry = readdir(entries.get())) != nullptr;)
+    names.emplace_back(entry->d_name);
+  return names;
+}
+
+std::size_t longest_name(const fs::path& folder) {
+  const long longest = pathconf(folder.c_str(), _PC_NAME_MAX);
+  return longest > 64 ? static_cast<std::size_t>(longest) : 255;
+}
+
+fs::path make_temporary_folder(const std::string& begin, int* error) {
+  std::error_code none;
+  std::string folder = (fs::temp_directory_path(none) / (begin + "XXXXXX")).string();
+  const bool made = !none && mkdtemp(folder.data());
+  if (error) *error = made ? 0 : none ? none.value() : errno;
+  return made ? fs::path(folder) : fs::path();
+}
+
+void remove_file(const fs::path& file) { unlink(file.c_str()); }
+
+fs::path own_file() {
+  std::error_code error;
+#ifdef __GLIBC__
+  Dl_info found{};
+  void* map = nullptr;
+  if (dladdr1(reinterpret_cast<void*>(&own_file), &found, &map, RTLD_DL_LINKMAP) != 0) {
+    const char* library = static_cast<const link_map*>(map)->l_name;  // "" of the program itself
+    if (library && *library) return fs::canonical(library, error);
+  }
+#endif
+  return fs::read_symlink("/proc/self/exe", error);
+}
+
+std::uint64_t process_number() { return static_cast<std::uint64_t>(getpid()); }
+
+FileOwner owner_of(const fs::path& file) {
+  struct stat status {};
+  if (stat(file.c_str(), &status) != 0) return {};
+  return {status.st_uid, status.st_gid};
+}
+
+bool is_open_file(const fs::path& link) {
+#ifdef __linux__
+  struct statfs system {};
+  const fs::path folder = link.has_parent_path() ? link.parent_path() : ".";
+  return statfs(folder.c_str(), &system) == 0 && system.f_type == PROC_SUPER_MAGIC;
+#else
+  return link.string().starts_with("/dev/");
+#endif
+}
+
+std::string protection_of([[maybe_unused]] const fs::path& file) {
+#ifdef STATX_ATTR_APPEND
+  struct statx status {};
+  if (statx(AT_FDCWD, file.c_str(), 0, 0, &status) != 0) return "";
+  if ((status.stx_attributes & STATX_ATTR_IMMUTABLE) != 0) return "not be changed";
+  if ((status.stx_attributes & STATX_ATTR_APPEND) != 0) return "only be appended to";
+#endif
+  return "";
+}
+
+bool is_kept_by_sticky_folder(const fs::path& file, const fs::path& folder) {
+  struct stat status {};
+  if (stat(folder.c_str(), &status) != 0 || (status.st_mode & S_ISVTX) == 0) return false;
+  const unsigned me = geteuid(), user = owner_of(file).user;
+  return user != me && status.st_uid != me && !overrides_owner(user);
+}
+
+int writing_error(const fs::path& file) { return access(file.c_str(), W_OK) == 0 ? 0 : errno; }
+
+}  // namespace tyndall

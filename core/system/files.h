@@ -1,0 +1,42 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tyndall {
+
+/// The names in a folder, in no order; none if it cannot be read. (std::filesystem's iterator ends the program when
+/// memory runs out.)
+std::vector<std::string> names_in_folder(const std::filesystem::path& folder);
+/// How many bytes a name in the folder may have.
+std::size_t longest_name(const std::filesystem::path& folder);
+
+/// Makes a new folder among the temporary files, only for this user: BEGIN and six letters. Empty: none can be made.
+/// error: why, if that is asked for.
+std::filesystem::path make_temporary_folder(const std::string& begin, int* error = nullptr);
+
+void remove_file(const std::filesystem::path& file);
+
+/// The file that holds this code: the library where another program uses it, else the program.
+std::filesystem::path own_file();
+/// A number that no other process of this machine has at the same time.
+std::uint64_t process_number();
+
+struct FileOwner {
+  unsigned user = 0, group = 0;
+};
+FileOwner owner_of(const std::filesystem::path& file);
+
+/// Whether the link stands for a file that is open, not for a name: those of /proc/self/fd, which /dev/stdout leads to.
+bool is_open_file(const std::filesystem::path& link);
+/// What the file system lets nobody do with a file or folder (chattr +a and +i), as the end of "it may ..."; "":
+/// nothing.
+std::string protection_of(const std::filesystem::path& file);
+/// Whether the file is another user's in a folder with the sticky bit, so that this user may not replace it.
+bool is_kept_by_sticky_folder(const std::filesystem::path& file, const std::filesystem::path& folder);
+/// 0, or the number of the error for which the file may not be written into.
+int writing_error(const std::filesystem::path& file);
+
+}  // namespace tyndall

@@ -1,0 +1,175 @@
+#include "core/system/open_file.h"
+
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <system_error>
+
+namespace tyndall {
+namespace {
+
+int flags_of(OpenFor purpose) {
+  switch (purpose) {
+    case OpenFor::reading:
+      return O_RDONLY;
+    case OpenFor::writing:
+      return O_WRONLY | O_NOCTTY;
+    case OpenFor::appending:
+      return O_WRONLY | O_APPEND | O_NOCTTY;
+    case OpenFor::adding:
+      return O_WRONLY | O_APPEND | O_CREAT;
+    case OpenFor::changing:
+      return O_RDWR | O_CREAT;
+    case OpenFor::creating:
+      return O_RDWR | O_CREAT | O_EXCL;
+    case OpenFor::looking:
+      return O_RDWR | O_NOFOLLOW | O_NONBLOCK;
+    case OpenFor::folder:
+      return O_RDONLY | O_DIRECTORY;
+  }
+  return O_RDONLY;
+}
+
+int result(long value) { return value < 0 ? errno : 0; }
+
+}  // namespace
+
+std::string error_text(int number) { return std::generic_category().message(number); }
+
+OpenFile::OpenFile(const std::filesystem::path& file, OpenFor purpose, unsigned mode)
+    : descriptor_(open(file.c_str(), flags_of(purpose) | O_CLOEXEC, mode)), error_(descriptor_ < 0 ? errno : 0) {}
+
+OpenFile& OpenFile::operator=(OpenFile&& other) noexcept {
+  std::swap(descriptor_, other.descriptor_), std::swap(error_, other.error_);
+  return *this;
+}
+
+OpenFile OpenFile::copy_of_standard_output() {
+  OpenFile file(fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3));
+  if (!file) file.error_ = errno;
+  return file;
+}
+
+OpenFile OpenFile::unnamed() {
+  std::FILE* stream = std::tmpfile();
+  OpenFile file(stream ? fcntl(fileno(stream), F_DUPFD_CLOEXEC, 3) : -1);
+  if (!file) file.error_ = errno;
+  if (stream) std::fclose(stream);
+  return file;
+}
+
+int OpenFile::close() { return descriptor_ > STDERR_FILENO ? result(::close(std::exchange(descriptor_, -1))) : 0; }
+
+int read_some(int file, void* to, std::size_t size, std::size_t& got) {
+  ssize_t count = -1;
+  do count = read(file, to, size);
+  while (count < 0 && errno == EINTR);
+  got = count > 0 ? static_cast<std::size_t>(count) : 0;
+  return result(count);
+}
+
+int OpenFile::write(const void* bytes, std::size_t size) const {
+  for (const char* at = static_cast<const char*>(bytes); size > 0;) {
+    const ssize_t written = ::write(descriptor_, at, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return written < 0 ? errno : EIO;
+    at += written, size -= static_cast<std::size_t>(written);
+  }
+  return 0;
+}
+
+int OpenFile::seek(std::uint64_t position) const {
+  return result(lseek(descriptor_, static_cast<off_t>(position), SEEK_SET));
+}
+
+int OpenFile::size(std::uint64_t& bytes) const {
+  struct stat status {};
+  const int error = result(fstat(descriptor_, &status));
+  bytes = static_cast<std::uint64_t>(status.st_size);
+  return error;
+}
+
+int OpenFile::truncate(std::uint64_t size) const { return result(ftruncate(descriptor_, static_cast<off_t>(size))); }
+
+/// Some file systems cannot synchronise folders, and say so in one of these ways.
+int OpenFile::synchronise() const {
+  struct stat status {};
+  while (fsync(descriptor_) != 0) {
+    const int error = errno;
+    if (error == EINTR) continue;
+    const bool is_folder = fstat(descriptor_, &status) == 0 && S_ISDIR(status.st_mode);
+    return is_folder && (error == EINVAL || error == ENOTSUP) ? 0 : error;
+  }
+  return 0;
+}
+
+int OpenFile::reserve([[maybe_unused]] std::uint64_t size) const {
+#ifdef __linux__
+  while (size > 0 && fallocate(descriptor_, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(size)) != 0) {
+    if (errno == EINTR) continue;
+    return errno == EOPNOTSUPP || errno == ENOSYS || errno == EINVAL ? 0 : errno;
+  }
+#endif
+  return 0;
+}
+
+int OpenFile::try_lock() const { return result(flock(descriptor_, LOCK_EX | LOCK_NB)); }
+
+void OpenFile::wait_for_lock() const {
+  while (flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) continue;
+}
+
+bool OpenFile::has_name() const {
+  struct stat status {};
+  return fstat(descriptor_, &status) != 0 || status.st_nlink > 0;
+}
+
+int OpenFile::set_owner(unsigned mode, unsigned user, unsigned group) const {
+  struct stat now {};
+  if (fstat(descriptor_, &now) != 0) return errno;
+  const bool same_group = now.st_gid == group || fchown(descriptor_, now.st_uid, group) == 0;
+  if (!same_group) mode = (mode & ~070u) | ((mode & 7u) << 3);
+  const bool same_user = now.st_uid == user || fchown(descriptor_, user, static_cast<gid_t>(-1)) == 0;
+  if (!same_user || !same_group) mode &= 0777u;  // nobody becomes what the old owner was by running the file
+  if ((now.st_mode & 07777u) == mode || fchmod(descriptor_, mode) == 0) return 0;
+  return errno == EPERM || errno == ENOTSUP ? 0 : errno;  // these two: the file system has no modes
+}
+
+Bell::Bell() {
+  int ends[2];
+  if (pipe(ends) != 0) return;
+  for (const int end : ends) fcntl(end, F_SETFD, FD_CLOEXEC);
+  heard_ = OpenFile(ends[0]), rung_ = OpenFile(ends[1]);
+}
+
+void Bell::ring() const {
+  constexpr char byte = 0;
+  [[maybe_unused]] const auto written = write(rung_.descriptor(), &byte, 1);
+}
+
+void Bell::wait() const {
+  char byte = 0;
+  std::size_t got = 0;
+  heard_.read(&byte, 1, got);
+}
+
+Bell::Woken Bell::wait_for(int file, double seconds) const {
+  pollfd watched[] = {{file, POLLIN, 0}, {heard_.descriptor(), POLLIN, 0}};
+  const int milliseconds = seconds < 0 ? -1 : static_cast<int>(std::ceil(1000 * seconds));
+  const bool woken = poll(watched, 2, milliseconds) > 0;
+  if (woken && watched[1].revents != 0) return Woken::by_bell;
+  return woken ? Woken::by_bytes : Woken::by_time;
+}
+
+bool has_bytes(int file, int milliseconds) {
+  pollfd watched{file, POLLIN, 0};
+  return poll(&watched, 1, milliseconds) > 0;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,52 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+/// This process: its standard streams, what it has used, and what it may still take.
+namespace tyndall {
+
+/// Call first. Where the caller closed one of the standard streams, the next file that the program opens would get its
+/// number, and messages would end up in that file: it gets one to which writing fails. Writing beyond a limit of file
+/// sizes fails from now on, too, and ends the program no more.
+void begin_process();
+
+bool is_terminal(int descriptor);
+/// Columns of the terminal that standard error is; 80 if it does not say.
+int terminal_columns();
+inline constexpr int standard_error = 2;
+
+/// Memory that large pages have, on x86-64 and, usually, on ARM.
+inline constexpr std::size_t large_page = std::size_t{2} << 20;
+/// A wish: where it is refused, the memory is as good. begin: on a large page.
+void ask_for_large_pages(void* begin, std::size_t bytes);
+/// Memory for std::free(); null: there is none.
+void* allocate_aligned(std::size_t bytes, std::size_t alignment);
+
+/// The soft limit of something; no_limit: there is none.
+enum class Limit { address_space, data, threads };
+inline constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
+std::uint64_t limit_of(Limit limit);
+
+/// Memory that this process could still take, bytes, and what limits it, such as "left by ulimit -v".
+struct FreeMemory {
+  std::uint64_t bytes = 0;
+  std::string limit;
+};
+/// root: see cgroup_folders().
+FreeMemory free_memory(const std::filesystem::path& root = "/");
+/// The most memory that the process has had at a time, bytes.
+std::size_t peak_memory();
+
+/// From now on the calling thread, and those that it starts, give way to others, as "nice" does. (On Linux a priority
+/// belongs to one thread, which cannot take it back; elsewhere this changes nothing.)
+void lower_priority(int niceness);
+/// Seconds of processor time that the calling thread has used.
+double thread_cpu_seconds();
+
+/// A function of a library that another part of the program has loaded; null: it has not.
+void* loaded_function(const char* library, const char* name);
+
+}  // namespace tyndall

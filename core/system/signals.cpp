@@ -1,0 +1,128 @@
+#include "core/system/signals.h"
+
+#include "core/system/open_file.h"
+
+#include <signal.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdint>
+#include <iterator>
+#include <utility>
+
+namespace tyndall {
+namespace {
+
+static_assert(signal_kill == SIGKILL && signal_terminate == SIGTERM);
+
+// A signal handler can reach nothing but globals; lock-free atomics are safe there.
+std::atomic<int> received_signal{0};
+std::atomic<std::int64_t> received_at{0};  ///< milliseconds
+std::atomic<bool> save_request{false};
+std::atomic<const Bell*> bell{nullptr};
+std::atomic<int> watches{0};  ///< that live
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
+
+/// A program such as timeout signals the process and then its group: what comes within this time is the same request.
+constexpr std::int64_t same_request_ms = 200;
+
+std::int64_t now_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1000000;
+}
+
+/// Asks for an end. SIGXCPU comes again every second, SIGHUP from the shell and from the terminal: no reason to hurry.
+void ask_for_end(int number) {
+  int none = 0;
+  if (!received_signal.compare_exchange_strong(none, number)) return;
+  received_at = now_ms();
+  if (const Bell* one = bell) one->ring();
+}
+
+void ask_for_end_or_end(int number) {
+  if (received_signal != 0 && received_at != 0 && now_ms() - received_at > same_request_ms) _exit(128 + number);
+  ask_for_end(number);
+}
+
+void ask_for_save(int) { save_request = true; }
+
+using Handler = void (*)(int);
+struct Watched {
+  int number;
+  Handler end, window, render;  ///< null: the signal is left alone
+};
+const Watched watched[] = {{SIGINT, ask_for_end, ask_for_end_or_end, ask_for_end_or_end},
+                           {SIGTERM, ask_for_end, ask_for_end_or_end, ask_for_end_or_end},
+                           {SIGHUP, ask_for_end, ask_for_end_or_end, ask_for_end},
+                           {SIGXCPU, nullptr, nullptr, ask_for_end},
+                           {SIGUSR2, nullptr, nullptr, ask_for_end},
+                           {SIGALRM, nullptr, nullptr, ask_for_end},
+                           {SIGUSR1, nullptr, nullptr, ask_for_save},
+                           {SIGPIPE, nullptr, nullptr, SIG_IGN}};
+
+Handler handler_of(const Watched& one, WatchedSignals signals) {
+  if (signals == WatchedSignals::render) return one.render;
+  return signals == WatchedSignals::window ? one.window : one.end;
+}
+
+}  // namespace
+
+struct SignalWatch::Before {
+  struct sigaction actions[std::size(watched)];
+  Bell bell;
+};
+
+SignalWatch::SignalWatch(WatchedSignals signals, std::function<void()> on_end)
+    : signals_(signals), before_(std::make_unique<Before>()) {
+  if (signals_ == WatchedSignals::none) return;
+  if (watches++ == 0) received_signal = 0, received_at = 0, save_request = false;
+  if (on_end) {
+    bell = &before_->bell;
+    thread_ = std::thread([this, call = std::move(on_end)] {
+      before_->bell.wait();
+      if (received_signal != 0) call();
+    });
+  }
+  for (std::size_t k = 0; k < std::size(watched); ++k) {
+    struct sigaction action {};
+    action.sa_handler = handler_of(watched[k], signals_);
+    action.sa_flags = SA_RESTART;
+    sigaction(watched[k].number, nullptr, &before_->actions[k]);
+    const bool stays = before_->actions[k].sa_handler == SIG_IGN && watched[k].number != SIGINT;
+    if (action.sa_handler && !stays) sigaction(watched[k].number, &action, nullptr);
+  }
+}
+
+SignalWatch::~SignalWatch() {
+  if (signals_ == WatchedSignals::none) return;
+  for (std::size_t k = 0; k < std::size(watched); ++k) sigaction(watched[k].number, &before_->actions[k], nullptr);
+  --watches;
+  if (!thread_.joinable()) return;
+  bell = nullptr;
+  before_->bell.ring();
+  thread_.join();
+}
+
+int SignalWatch::received() const { return signals_ == WatchedSignals::none ? 0 : received_signal.load(); }
+bool SignalWatch::take_save_request() const { return save_request.exchange(false); }
+
+void ignore_lost_pipes() { signal(SIGPIPE, SIG_IGN); }
+
+std::string signal_name(int signal) {
+  constexpr std::pair<int, const char*> names[] = {{SIGSEGV, "SIGSEGV, a pointer to nowhere"},
+                                                   {SIGABRT, "SIGABRT"},
+                                                   {SIGFPE, "SIGFPE, a division by 0"},
+                                                   {SIGBUS, "SIGBUS"},
+                                                   {SIGILL, "SIGILL"},
+                                                   {SIGKILL, "SIGKILL, often for lack of memory"},
+                                                   {SIGTERM, "SIGTERM"},
+                                                   {SIGXCPU, "SIGXCPU"},
+                                                   {SIGXFSZ, "SIGXFSZ, a file that is too large"}};
+  for (const auto& [number, name] : names)
+    if (number == signal) return name;
+  return "signal " + std::to_string(signal);
+}
+
+}  // namespace tyndall
