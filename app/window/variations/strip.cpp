@@ -153,7 +153,7 @@ double VariationStrip::update(const Now& now, const Rect& rect, float scale) {
 }
 
 void VariationStrip::show_pictures(const Display& display) {
-  const auto pictures = renders_.pictures();
+  const auto& pictures = renders_.pictures();
   const bool other = !(display == display_);
   display_ = display;
   for (std::size_t k = 0; k < std::min(pictures.size(), cells_.size()); ++k) {

@@ -28,7 +28,7 @@ std::vector<double> varied_values(const Slot& slot, double present, int steps);
 class VariationStrip {
  public:
   /// wake: a picture has come; called from any thread.
-  explicit VariationStrip(std::function<void()> wake) : renders_(std::move(wake)) {}
+  explicit VariationStrip(const std::function<void()>& wake) : renders_(wake) {}
 
   bool is_open() const { return !axes_.empty(); }
   /// Opens the strip for a value of the scene; once it is open, another value becomes the second one, and one that is
@@ -55,7 +55,7 @@ class VariationStrip {
   /// Arrow keys go through the pictures; key: GLFW's number. Returns whether it was meant for the strip.
   bool take_key(int key);
   /// Whether there is something new to draw.
-  bool collect() { return renders_.take_news(); }
+  bool collect() { return renders_.collect(); }
   /// All pictures have all their samples.
   bool at_rest() const { return renders_.finished(); }
 
