@@ -26,14 +26,14 @@ std::string found_text(const Fonts& fonts, const Characters& more) {
 /// Looks for characters that the fonts were not loaded for. Returns whether there are any.
 bool Appearance::find_characters(const std::vector<std::filesystem::path>& files) {
   bool added = add_characters(ui_.edit.text, more_);
-  added = add_characters(session_.messages().current().text, more_) || added;
+  added = add_characters(session_.messages.current().text, more_) || added;
   if (files.size() != files_)
     for (const auto& file : files) added = add_characters(file.string(), more_) || added;
   files_ = files.size();
-  if (session_.editor().changes() == changes_) return added;
-  changes_ = session_.editor().changes();
-  const Scene& scene = session_.editor().scene();
-  added = add_characters(session_.editor().document().origin->title, more_) || added;
+  if (session_.editor.changes() == changes_) return added;
+  changes_ = session_.editor.changes();
+  const Scene& scene = session_.editor.scene();
+  added = add_characters(session_.editor.document().origin->title, more_) || added;
   for (const Material& material : scene.materials) added = add_characters(material.name, more_) || added;
   for (const Texture& texture : scene.textures) added = add_characters(texture.name, more_) || added;
   return add_names(scene.objects, more_) || added;

@@ -81,7 +81,6 @@ class Commands {
   std::string why_not(const Command& command, const std::string& argument) const;
   bool take_key(const KeyPress& press);
   void open_menu(const std::string& title, CommandFlag which);
-  void show_view(int index);
   void step_text_size(int by);
   void play();
   void key_cameras();

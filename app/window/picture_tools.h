@@ -28,24 +28,26 @@ class PictureTools {
   /// Ends the innermost of what is shown. Returns whether there was anything.
   bool escape();
 
-  /// Puts the picture where the user has moved it. layout.image: where all of it is shown; dots: pixels of the screen
-  /// in a window unit.
-  void place(Layout& layout, float dots);
+  /// Where the user has moved the picture to. layout.image: where all of it is shown; width, height: in pixels; dots:
+  /// pixels of the screen in a window unit.
+  Rect place(const Layout& layout, int width, int height, float dots) {
+    return zoom_.place(layout.area, layout.image, width, height, dots);
+  }
   /// Whether pixels of the picture are shown as squares.
   bool shows_pixels() const { return !zoom_.fits() && zoom_.dots_a_pixel() >= 1; }
   /// The mouse, before all other tools. free: nothing else has it. Returns whether this has it.
-  bool use_mouse(const Mouse& mouse, const Layout& layout, bool free);
+  bool use_mouse(const Mouse& mouse, bool free);
   /// Takes what was found in the background. Whether there was anything.
-  bool collect() { return inspector_.collect(session_.renderers()); }
+  bool collect() { return inspector_.collect(session_.renderers); }
   /// The pixel of which reports are wanted, see RenderRequest.
   std::optional<std::pair<int, int>> watched_pixel() const { return inspector_.watched_pixel(); }
   bool at_rest() const { return !inspector_.busy(); }
 
   /// Draws what is known over the picture.
-  void draw(Ui& ui, const Layout& layout);
+  void draw(Ui& ui);
 
  private:
-  bool drag_picture(const Mouse& mouse, const Layout& layout, bool free);
+  bool drag_picture(const Mouse& mouse, bool free);
   std::string said_of_rectangle() const;
   void draw_zoom(Ui& ui, const Rect& visible) const;
 

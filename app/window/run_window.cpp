@@ -57,7 +57,7 @@ bool MainWindow::step() {
     if (log_ && press.character == '\0') log_->line("key " + std::to_string(press.key));
   commands_.take(events);
   const double now = clock_seconds();
-  if (session_.collect_errors()) pacing_.wake_at(now);
+  if (session_.accuracy.collect()) pacing_.wake_at(now);
   const bool due = picture_due(now), again = std::exchange(takes_in_again_, false);
   if (!due && !again) send(now);
   if (due || again || (pacing_.wait(now) <= 0 && !awaits_picture(now))) draw(now);
@@ -67,7 +67,7 @@ bool MainWindow::step() {
 /// Says what becomes of edits that no file has, which there are where a signal ends the window. Returns the exit code.
 int MainWindow::end_of_signal() {
   const int signal = signals_ ? signals_->received() : 0;
-  session_.wanted().paused = true;
+  session_.wanted.paused = true;
   session_.send(clock_seconds(), false);
   const std::string edits = session_.flush_edits();
   if (!edits.empty()) complain(printable(edits, 2000));

@@ -18,9 +18,7 @@ constexpr Tab tabs[] = {{"Object", "properties, selected object", ""},
                         {"Objects", "outliner, hierarchy, object list, tree", "Objects"},
                         {"Scenes", "examples, recent files, gallery", "Scenes"}};
 
-bool is_shown(const PanelState& state, std::string_view part) {
-  return state.model.has_scene || !is_part_of_scene(part);
-}
+bool is_shown(const PanelState& state, std::string_view part) { return state.now.has_scene || !is_part_of_scene(part); }
 
 constexpr float chart_height = 166;  // in units of the design
 
@@ -92,7 +90,7 @@ struct Part {
 };
 
 void histogram_part(Ui& ui, PanelState& state) {
-  histogram_section(ui, state.histogram, state.model.frame.get(), state.scene->display);
+  histogram_section(ui, state.histogram, state.now.frame.get(), state.scene->display);
 }
 
 /// Draws the parts; scrolls to the one that the column is sent to, and finds out which one is at its head.
@@ -125,10 +123,10 @@ void draw_edge(Ui& ui, PanelState& state, const Rect& column) {
     if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0, 1)) {
       const double wanted = static_cast<double>((column.x1 - ImGui::GetIO().MousePos.x) / ui.scale);
-      state.look.column =
+      state.look->column =
           std::clamp(std::round(wanted), static_cast<double>(narrowest_column), static_cast<double>(widest_column));
     }
-    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) state.look.column = column_width;
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) state.look->column = column_width;
   };
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
   draw_part(ui, "##edge", {column.x0 - reach, column.y0, column.x0 + reach, column.y1},
@@ -141,7 +139,7 @@ void draw_shown_column(Ui& ui, PanelState& state, const Rect& column) {
   if (column.width() <= 0 || column.height() <= 0) return;
   const float s = ui.scale, chart = chart_height * s, head = 34 * s;
   const bool has_tabs = column.height() > 8 * head;
-  const auto lines = static_cast<float>(accuracy_lines(*state.model.accuracy).size());
+  const auto lines = static_cast<float>(accuracy_lines(*state.now.accuracy).size());
   const bool folded = ui.folded.contains(tabs[4].section);
   const float foot = folded ? 40 * s : chart + 80 * s + lines * line_of_note_height(ui);
   const bool fixed_chart = column.height() > 2.2f * (chart + 80 * s + lines * line_of_note_height(ui));

@@ -135,9 +135,9 @@ void draw_picture(const Ui& ui, const PanelState& state, const std::string& what
   const ImVec2 place{picture_width * ui.scale, picture_height * ui.scale};
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddRectFilled(at, {at.x + place.x, at.y + place.y}, shade(palette::field), 3 * ui.scale);
-  if (!state.model.pictures) return;
-  const auto found = state.model.pictures->find(what);
-  if (found == state.model.pictures->end() || !found->second) return;
+  if (!state.now.pictures) return;
+  const auto found = state.now.pictures->find(what);
+  if (found == state.now.pictures->end() || !found->second) return;
   const PictureTexture& picture = *found->second;
   const float fit = std::min(place.x / picture.width(), place.y / picture.height());
   const ImVec2 size{fit * picture.width(), fit * picture.height()};
@@ -151,7 +151,7 @@ void draw_picture(const Ui& ui, const PanelState& state, const std::string& what
 bool scene_row(Ui& ui, PanelState& state, const SceneRow& row) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float s = ui.scale, right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
-  const bool on = row.what == state.model.what;
+  const bool on = row.what == state.now.what;
   const ImVec2 size{0, row_height * s - ImGui::GetStyle().ItemSpacing.y};
   const bool pressed = ImGui::Selectable(("##" + row.name).c_str(), on, 0, size);
   log_item(ui, row.name, on ? "on" : "off");
@@ -210,8 +210,8 @@ void objects_panel(Ui& ui, PanelState& state) {
 void scenes_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Scenes", "or drop a file")) return;
   const Scope scope(ui, "scenes");
-  scene_list(ui, state, "scenes", rows_of(state.model.scenes), 6);
-  const std::vector<SceneRow> recent = rows_of(state.model.recent);
+  scene_list(ui, state, "scenes", rows_of(state.now.scenes), 6);
+  const std::vector<SceneRow> recent = rows_of(state.now.recent);
   if (!recent.empty()) {
     note(ui, "Opened before", false);
     scene_list(ui, state, "recent", recent, 3);
@@ -222,18 +222,18 @@ void window_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Window", "remembered")) return;
   const Scope scope(ui, "window");
   static constexpr Choice themes[] = {{"dark"}, {"light"}};
-  int theme = static_cast<int>(state.look.theme);
+  int theme = static_cast<int>(state.look->theme);
   if (choice_row(ui, {"theme", "Theme", {}, {}, "", "of panels and lines; the picture stays as it is", ""}, themes,
                  theme))
-    state.look.theme = static_cast<Theme>(theme);
+    state.look->theme = static_cast<Theme>(theme);
   std::vector<std::string> names;
   std::vector<Choice> sizes;
   for (const double size : text_sizes) names.push_back(format_short(100 * size));
   for (const std::string& name : names) sizes.push_back({name.c_str()});
   int chosen =
-      static_cast<int>(std::find(text_sizes.begin(), text_sizes.end(), state.look.text_size) - text_sizes.begin());
+      static_cast<int>(std::find(text_sizes.begin(), text_sizes.end(), state.look->text_size) - text_sizes.begin());
   if (choice_row(ui, {"text", "Text size, %", {}, {}, "", "of all controls: Ctrl + and Ctrl -", ""}, sizes, chosen))
-    state.look.text_size = text_sizes[static_cast<std::size_t>(chosen)];
+    state.look->text_size = text_sizes[static_cast<std::size_t>(chosen)];
 }
 
 }  // namespace tyndall

@@ -1,15 +1,12 @@
 #pragma once
-#include "app/window/accuracy/live_accuracy.h"
 #include "app/window/document/edited_scene.h"
 #include "app/window/edit/material_edits.h"
-#include "app/window/gallery/gallery.h"
 #include "app/window/panels/camera_slots.h"
+#include "app/window/panels/context.h"
 #include "app/window/panels/histogram.h"
 #include "app/window/panels/widgets.h"
 #include "app/window/system/preferences.h"
 #include "app/window/tools/selection.h"
-#include "core/render/renderer.h"
-#include "core/scene/load.h"
 
 #include <map>
 #include <optional>
@@ -20,26 +17,6 @@
 
 /// The column of panels. Panels change the scene that they are given and leave requests; they start nothing.
 namespace tyndall {
-
-/// What panels show of the window, besides the scene.
-struct PanelModel {
-  std::shared_ptr<const Frame> frame;  ///< on the screen; null before the first
-  const LiveAccuracy* accuracy = nullptr;
-  std::string kept_method;       ///< of the left half of a split view; "": there is no split view
-  bool can_show_errors = false;  ///< there is something to measure the picture against
-  const Scene* saved = nullptr;  ///< what the scene's file holds
-  std::vector<BuiltIn> scenes;
-  std::vector<std::filesystem::path> recent;  ///< files that were opened before, the newest first
-  const SmallPictures* pictures = nullptr;    ///< of scenes; null: there are none
-  std::string what;                           ///< the open scene, by what load_scene takes
-  std::string title;                          ///< of the open scene
-  bool has_scene = true;                      ///< false: a picture without one is shown
-  bool renders = true;                        ///< false: what is shown has no samples that could still be taken
-  int clean = 0;                              ///< 0 off, 1 on, 2 beside the raw picture
-  int threads = 1;
-  bool at_window = false;  ///< the picture has as many pixels as the window shows; else as the file says
-  int view = 0;            ///< see view_entry()
-};
 
 /// How the list of objects is shown.
 struct ObjectsView {
@@ -73,7 +50,8 @@ struct ColumnTabs {
 
 /// What goes into the panels and comes out of them in each drawing.
 struct PanelState {
-  PanelModel model;
+  Context now;             ///< of this drawing
+  bool at_window = false;  ///< the picture is to have as many pixels as the window shows
   // Panels change these in place.
   EditedScene scene;
   ObjectPath selected;           ///< whose values the panels show; empty: nothing is selected
@@ -87,8 +65,8 @@ struct PanelState {
   LiveHistogram histogram;
   std::map<std::string, CameraSlots> cameras;  ///< by the scene's title
   ObjectsView objects;
-  ObjectPath shown;  ///< the selected object that the column has jumped to
-  Preferences look;  ///< theme, size of texts, width of the column; `clean` and `folded` are the window's
+  ObjectPath shown;             ///< the selected object that the column has jumped to
+  Preferences* look = nullptr;  ///< theme, size of texts and width of the column are changed here
   ColumnTabs tabs;
   std::optional<RowPlace> seek;              ///< the column goes to that row in the next drawings, see SoughtRow
   bool row_has_keys = false;                 ///< the arrow keys go through the choices of a row

@@ -111,15 +111,15 @@ void VariationStrip::look_at(const Scene& scene) {
   }
 }
 
-void VariationStrip::ask(const Now& now, const Rect& rect, float scale) {
+void VariationStrip::ask(const Context& context, const Rect& rect, float scale) {
   const Rect cell = cell_at(rect, 0, scale);
-  width_ = std::max(8, static_cast<int>(std::lround(cell.width() * now.dots)));
-  height_ = std::max(8, static_cast<int>(std::lround(cell.height() * now.dots)));
-  clean_ = now.clean;
+  width_ = std::max(8, static_cast<int>(std::lround(cell.width() * context.dots)));
+  height_ = std::max(8, static_cast<int>(std::lround(cell.height() * context.dots)));
+  clean_ = context.clean > 0;
   stale_ = false;
   cells_.clear();
   cells_.resize(count());
-  SmallRequest request{count(), {}, now.clean, now.threads};
+  SmallRequest request{count(), {}, clean_, context.wanted.threads};
   request.scene = [base = *base_, axes = axes_, width = width_, height = height_](std::size_t index) {
     std::optional<Scene> scene = varied_scene(base, axes, index);
     if (scene) scene->width = width, scene->height = height;
@@ -128,28 +128,29 @@ void VariationStrip::ask(const Now& now, const Rect& rect, float scale) {
   renders_.request(std::move(request));
 }
 
-double VariationStrip::update(const Now& now, const Rect& rect, float scale) {
+/// Asks for other pictures where that is due. Returns in how many seconds it is to be called again.
+double VariationStrip::update(const Context& context, const Rect& rect, const Scene& scene, float scale) {
   constexpr double never = 1e300, patience = 0.25;  // seconds after an edit; another one may follow
   if (!is_open()) return never;
   const bool begins = !base_;
-  if (seen_changes_ != now.changes || begins) {
-    seen_changes_ = now.changes;
-    look_at(now.scene);
+  if (seen_changes_ != context.changes || begins) {
+    seen_changes_ = context.changes;
+    look_at(scene);
     if (!is_open()) return never;
     // Which step the scene has now makes no difference to the pictures.
-    std::optional<Scene> base = varied_scene(now.scene, axes_, 0);
+    std::optional<Scene> base = varied_scene(scene, axes_, 0);
     if (!base) return close(), never;
     base->render.spp.reset();
-    if (begins || !same_picture(*base, *base_)) stale_ = true, changed_at_ = begins ? 0 : now.seconds;
+    if (begins || !same_picture(*base, *base_)) stale_ = true, changed_at_ = begins ? 0 : context.seconds;
     base_ = std::move(base);
   }
   const Rect cell = cell_at(rect, 0, scale);
-  const bool resized = std::abs(cell.width() * now.dots - static_cast<float>(width_)) > 1;
-  const bool wanted = (stale_ || resized || clean_ != now.clean) && rect.width() > 0;
-  const double wait = changed_at_ + patience - now.seconds;
-  if (wanted && now.calm && wait <= 0) ask(now, rect, scale);
-  show_pictures(now.scene.display);
-  return wanted && now.calm && wait > 0 ? wait : never;
+  const bool resized = std::abs(cell.width() * context.dots - static_cast<float>(width_)) > 1;
+  const bool wanted = (stale_ || resized || clean_ != (context.clean > 0)) && rect.width() > 0;
+  const double wait = changed_at_ + patience - context.seconds;
+  if (wanted && context.calm && wait <= 0) ask(context, rect, scale);
+  show_pictures(scene.display);
+  return wanted && context.calm && wait > 0 ? wait : never;
 }
 
 void VariationStrip::show_pictures(const Display& display) {
@@ -195,8 +196,9 @@ void VariationStrip::draw_cell(Ui& ui, const Rect& cell, std::size_t index) cons
   ImGui::PopFont();
 }
 
-std::optional<Scene> VariationStrip::draw(Ui& ui, const Rect& rect, const Scene& scene) {
+std::optional<Scene> VariationStrip::draw(Ui& ui, const Context& context, const Rect& rect, const Scene& scene) {
   std::optional<Scene> taken;
+  ui.wake_in = std::min(ui.wake_in, update(context, rect, scene, ui.scale));
   if (!is_open() || rect.height() <= 0) return taken;
   const float s = ui.scale;
   std::size_t wanted = count();
