@@ -44,7 +44,8 @@ const char* Commands::requires_of_view(const Commands& c, const std::string& nam
 }
 
 const char* Commands::requires_of_part(const Commands& c, const std::string& part) {
-  return is_part_of_scene(part) ? requires_scene(c, part) : "";
+  const Section& section = column_sections()[static_cast<std::size_t>(section_named(part.substr(0, part.find('/'))))];
+  return section.is(of_scene) ? requires_scene(c, part) : "";
 }
 
 std::vector<Command> Commands::table_of_objects() {
@@ -178,13 +179,13 @@ std::vector<Command> Commands::unlisted_table() {
          c.open_menu(none ? "Add here" : title_of(c.session_.editor.scene(), c.panels_.selected), in_object_menu);
        }},
       {"part", "", no_key, unlisted,  // of the column; argument: its tab
-       [](Commands& c, const std::string& name) { c.panels_.tabs.jump = tab_named(name), c.shows_panels_ = true; },
+       [](Commands& c, const std::string& name) { c.panels_.tabs.jump = section_named(name), c.shows_panels_ = true; },
        requires_of_part},
       {"row", "", no_key, unlisted,  // of the column; argument: its part and its label, "Camera/Focus"
-       [](Commands& c, const std::string& place) { c.go_to_row(place); },
-       [](const Commands& c, const std::string& place) {
-         return requires_of_part(c, place.substr(0, place.find('/')));
-       }},
+       [](Commands& c, const std::string& place) { c.go_to_row(place); }, requires_of_part},
+      {"say", "", no_key, unlisted,  // what a row that the column does not show needs first: "Camera/Focus: " and that
+       [](Commands& c, const std::string& row) { c.session_.messages.say(row.substr(row.find('/') + 1)); },
+       requires_of_part},
       {"vary", "", no_key, unlisted, [](Commands& c, const std::string& pointer) { c.vary(pointer); }},
       {"key", "", no_key, unlisted, [](Commands& c, const std::string& pointer) { c.add_key(pointer); },
        requires_scene},

@@ -67,16 +67,12 @@ void Commands::open_menu(const std::string& title, CommandFlag which) {
 
 void Commands::open_palette() {
   objects_.look_under_mouse();
-  palette_.open(palette_items(session_.editor.scene(), panels_.selected, listed_scenes()));
+  opens_palette_ = true;
 }
 
 void Commands::go_to_row(const std::string& place) {
   const std::size_t slash = place.find('/');
-  const RowPlace wanted{place.substr(0, slash), place.substr(slash + 1)};
-  for (const RowEntry& row : row_entries(session_.editor.scene(), panels_.selected))
-    if (row.part == wanted.part && row.label == wanted.label && !row.missing.empty())
-      return session_.messages.say(row.label + ": " + row.missing);
-  panels_.seek = wanted;
+  panels_.seek = RowPlace{place.substr(0, slash), place.substr(slash + 1)};
   shows_panels_ = true;
 }
 
@@ -207,6 +203,8 @@ void Commands::escape() {
 void Commands::draw(Ui& ui, const Rect& area) {
   shows_menu_ = menu_.is_open();
   if (auto chosen = menu_.draw(ui, area)) ui.requests.push_back(std::move(*chosen));
+  if (std::exchange(opens_palette_, false))
+    palette_.open(palette_items(listed_rows(rows_of_column(ui, panels_)), listed_scenes()));
   if (auto chosen = palette_.draw(ui, area)) ui.requests.push_back(std::move(*chosen));
   if (shows_help_) draw_help(ui, shows_help_);
   if (session_.editor.offers_reload() && !has_question())

@@ -47,7 +47,8 @@ MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Refer
   panels_.now.scenes = built_in_scenes();
   panels_.look = &session_.preferences;
   ui_.folded = panels_.look->folded;
-  ui_.folded.insert("Histogram");  // it takes time with each picture
+  for (const Section& one : column_sections())
+    if (one.is(starts_folded)) ui_.folded.insert(one.heading);
   if (!options.hosted) signals_.emplace(wake_);
   if (log_) log_commands(*log_);
   if (reference) session_.references.set(std::move(reference));
@@ -101,8 +102,8 @@ double MainWindow::waiting_time(double now) {
 void MainWindow::use_preferences() {
   std::set<std::string>& folded = session_.preferences.folded;
   folded.clear();
-  for (const char* section : lasting_sections())
-    if (ui_.folded.contains(section)) folded.insert(section);
+  for (const Section& one : column_sections())
+    if (!one.is(starts_folded) && ui_.folded.contains(one.heading)) folded.insert(one.heading);
   if (!read_mouse().any_down()) session_.keep_preferences();
 }
 

@@ -1,7 +1,6 @@
 #include "app/window/palette_list.h"
 
 #include "app/window/command.h"
-#include "app/window/menus/row_list.h"
 #include "app/window/panels/panels.h"
 
 #include <cctype>
@@ -20,8 +19,7 @@ std::string name_of_row(const RowEntry& row) {
 
 }  // namespace
 
-std::vector<PaletteItem> palette_items(const Scene& scene, const ObjectPath& selected,
-                                       const std::vector<std::string>& scenes) {
+std::vector<PaletteItem> palette_items(const std::vector<ListedRow>& rows, const std::vector<std::string>& scenes) {
   std::vector<PaletteItem> lines;
   const auto add_commands = [&lines](bool views) {
     for (const Command& command : commands())
@@ -29,14 +27,14 @@ std::vector<PaletteItem> palette_items(const Scene& scene, const ObjectPath& sel
         lines.push_back({command.name, text_of(command.key), command.words, {command.name}});
   };
   add_commands(false);
-  for (const RowEntry& row : row_entries(scene, selected))
-    lines.push_back({name_of_row(row),
-                     row.missing.empty() ? row.owner : row.missing,
-                     row.synonyms,
-                     {"row", row.part + "/" + row.label}});
+  for (const auto& [row, missing] : rows) {
+    const bool shown = missing.empty();
+    const Request request{shown ? "row" : "say", row.part + "/" + row.label + (shown ? "" : ": " + missing)};
+    lines.push_back({name_of_row(row), shown ? row.owner : missing, row.words, request});
+  }
   add_commands(true);
-  for (const Tab& tab : column_tabs())
-    lines.push_back({std::string("go to: ") + tab.name, "", tab.words, {"part", tab.name}});
+  for (const Section& one : column_sections())
+    if (one.is(has_tab)) lines.push_back({std::string("go to: ") + one.name, "", one.words, {"part", one.name}});
   for (const std::string& what : scenes) lines.push_back({"open: " + what, "", "scene", {"scene", what}});
   return lines;
 }

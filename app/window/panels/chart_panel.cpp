@@ -226,12 +226,12 @@ std::vector<AccuracyLine> accuracy_lines(const LiveAccuracy& accuracy) {
   return lines;
 }
 
-void chart_panel(Ui& ui, PanelState& state, float height) {
+void chart_panel(Ui& ui, PanelState& state) {
   const char* about = state.now.accuracy->is_true() ? "true relMSE over time" : "estimated relMSE over time";
   if (!section(ui, "Speed and accuracy", about)) return;
   const float width = ImGui::GetWindowContentRegionMax().x - ImGui::GetCursorPosX();
   if (width < 80 * ui.scale) return;
-  draw_chart(ui, state, {width, height});
+  draw_chart(ui, state, {width, chart_height * ui.scale});
   std::string all;
   for (const AccuracyLine& line : accuracy_lines(*state.now.accuracy)) {
     line_of_note(ui, line.text, line.warning ? palette::amber : palette::dim);

@@ -223,8 +223,16 @@ void window_panel(Ui& ui, PanelState& state) {
   const Scope scope(ui, "window");
   static constexpr Choice themes[] = {{"dark"}, {"light"}};
   int theme = static_cast<int>(state.look->theme);
-  if (choice_row(ui, {"theme", "Theme", {}, {}, "", "of panels and lines; the picture stays as it is", ""}, themes,
-                 theme))
+  if (choice_row(ui,
+                 {"theme",
+                  "Theme",
+                  {},
+                  {},
+                  "",
+                  "of panels and lines; the picture stays as it is",
+                  "",
+                  "colour scheme, color scheme"},
+                 themes, theme))
     state.look->theme = static_cast<Theme>(theme);
   std::vector<std::string> names;
   std::vector<Choice> sizes;
@@ -232,7 +240,9 @@ void window_panel(Ui& ui, PanelState& state) {
   for (const std::string& name : names) sizes.push_back({name.c_str()});
   int chosen =
       static_cast<int>(std::find(text_sizes.begin(), text_sizes.end(), state.look->text_size) - text_sizes.begin());
-  if (choice_row(ui, {"text", "Text size, %", {}, {}, "", "of all controls: Ctrl + and Ctrl -", ""}, sizes, chosen))
+  if (choice_row(ui,
+                 {"text", "Text size, %", {}, {}, "", "of all controls: Ctrl + and Ctrl -", "", "text size, ui scale"},
+                 sizes, chosen))
     state.look->text_size = text_sizes[static_cast<std::size_t>(chosen)];
 }
 

@@ -25,20 +25,29 @@ struct ObjectsView {
   ObjectPath shown;              ///< the selected object that the list has scrolled to
 };
 
-/// The parts of the column that its tabs lead to.
-struct Tab {
-  const char* name;
-  const char* words;    ///< by which the palette finds it, too
-  const char* section;  ///< its heading; "": that of the selected object
+struct PanelState;
+
+enum SectionFlag : unsigned {
+  has_tab = 1,   ///< a tab leads there
+  of_scene = 2,  ///< a picture without a scene does not have it
+  starts_folded =
+      4  ///< because it takes time with each picture; the others stay as they were from one start to the next
 };
-std::span<const Tab> column_tabs();
-/// The number of the tab of that name, which is there.
-int tab_named(std::string_view name);
-/// Whether a part of the column is about the scene, so that a picture without one does not have it.
-bool is_part_of_scene(std::string_view part);
-/// The sections that stay folded from one start to the next: all but those of objects, and the histogram, which begins
-/// folded because it takes time with each picture.
-std::span<const char* const> lasting_sections();
+
+/// A section of the column, or those of objects: all that is known of it.
+struct Section {
+  const char* name;
+  const char* heading;  ///< "": the titles of objects
+  const char* words;    ///< by which the palette finds it, too
+  unsigned flags;       ///< of SectionFlag
+  void (*draw)(Ui& ui, PanelState& state);
+
+  bool is(SectionFlag flag) const { return (flags & flag) != 0; }
+};
+/// All of them, from top to bottom.
+std::span<const Section> column_sections();
+/// The number of the one of that name, which is there.
+int section_named(std::string_view name);
 
 /// Which tab is lit, and which one the column is to go to.
 struct ColumnTabs {
@@ -82,11 +91,14 @@ void forget_scene(PanelState& state);
 
 /// Tabs, all sections in the column, and the chart at its foot. The column's edge can be dragged.
 void draw_column(Ui& ui, PanelState& state, const Rect& column);
+/// All rows that it has now, also those in folded sections. Within a frame of Dear ImGui.
+std::vector<RowEntry> rows_of_column(const Ui& ui, const PanelState& state);
 
 void object_panel(Ui& ui, PanelState& state);
 void camera_panel(Ui& ui, PanelState& state);
 void background_panel(Ui& ui, PanelState& state);
 void image_panel(Ui& ui, PanelState& state);
+void histogram_panel(Ui& ui, PanelState& state);
 /// Only of a scene with an animation.
 void film_panel(Ui& ui, PanelState& state);
 void render_panel(Ui& ui, PanelState& state);
@@ -100,7 +112,7 @@ struct AccuracyLine {
 };
 std::vector<AccuracyLine> accuracy_lines(const LiveAccuracy& accuracy);
 
-/// height: of the chart itself.
-void chart_panel(Ui& ui, PanelState& state, float height);
+inline constexpr float chart_height = 166;  ///< of the chart itself, units of the design
+void chart_panel(Ui& ui, PanelState& state);
 
 }  // namespace tyndall

@@ -76,7 +76,7 @@ bool choose(Ui& ui, const Slot& slot, Row row, double& value) {
 }  // namespace
 
 Row row_of(const Slot& slot, std::string meaning) {
-  Row row{name_of(slot), slot.label, slot.valid, slot.slider, slot.unit, slot.help, std::move(meaning)};
+  Row row{name_of(slot), slot.label, slot.valid, slot.slider, slot.unit, slot.help, std::move(meaning), slot.synonyms};
   row.whole = slot.form == ValueForm::whole;
   row.pointer = slot.pointer;
   return row;

@@ -15,6 +15,9 @@
 #include <cmath>
 
 namespace tyndall {
+
+const Row sky_file{"file", "Picture", {}, {}, "", "", "", "sky picture, hdr, environment map, environment texture"};
+
 namespace {
 
 std::string focus_meaning(const Scene& scene) {
@@ -77,7 +80,14 @@ std::string setting_meaning(const PanelState& state, std::string_view name) {
 void threads_row(Ui& ui, PanelState& state) {
   double threads = state.now.wanted.threads;
   static const double cores = std::max(2, thread_count().count);  // asking takes longer than drawing the row
-  Row row{"threads", "Threads", between(1, max_threads), {1, cores}, "", "never changes the picture", ""};
+  Row row{"threads",
+          "Threads",
+          between(1, max_threads),
+          {1, cores},
+          "",
+          "never changes the picture",
+          "",
+          "cpu, cores, processors"};
   row.whole = true;
   if (slider_row(ui, row, threads)) ui.requests.push_back({"threads", std::to_string(static_cast<int>(threads))});
 }
@@ -85,7 +95,14 @@ void threads_row(Ui& ui, PanelState& state) {
 /// Width and height of the picture. Sizes that do not fit into memory are refused.
 void pixels_row(Ui& ui, PanelState& state) {
   const Scene& scene = *state.scene;
-  Row row{"size", "Image size", between(1, 65536), {0, 4000}, "", "width and height in pixels, also of snapshots", ""};
+  Row row{"size",
+          "Image size",
+          between(1, 65536),
+          {0, 4000},
+          "",
+          "width and height in pixels, also of snapshots",
+          "",
+          "resolution, width, height, dimensions, film size"};
   row.whole = true;
   double width = scene.width, height = scene.height;
   begin_row(ui, row);
@@ -119,7 +136,7 @@ void size_row(Ui& ui, PanelState& state) {
   const Frame* frame = state.now.frame.get();
   const std::string meaning = frame ? fmt::format("{} x {} pixels", frame->width, frame->height) : "";
   const char* help = "the picture has the size that the scene's file says, or as many pixels as the window shows";
-  const Row row{"at", "Render at", {}, {}, "", help, meaning};
+  const Row row{"at", "Render at", {}, {}, "", help, meaning, "window size, preview size"};
   request_row(ui, row, choices, state.at_window ? 1 : 0, "render at");
 }
 
@@ -128,7 +145,7 @@ void split_row(Ui& ui, PanelState& state) {
   const char* help = "A keeps these settings, B takes what you change; both get the same processor time";
   const std::string meaning = state.now.split ? "A keeps " + state.now.kept_method + "; above: B" : "";
   int chosen = state.now.split ? 1 : 0;
-  if (choice_row(ui, {"split", "Split", {}, {}, "", help, meaning}, choices, chosen))
+  if (choice_row(ui, {"split", "Split", {}, {}, "", help, meaning, "split settings"}, choices, chosen))
     ui.requests.push_back({"split view"});
 }
 
@@ -143,7 +160,7 @@ std::string clean_meaning(const PanelState& state) {
 void clean_row(Ui& ui, PanelState& state) {
   static constexpr Choice choices[] = {{"off"}, {"on"}, {"beside raw"}};
   const char* help = "filters noise away where the samples show that it is noise: key N";
-  const Row row{"clean", "Clean", {}, {}, "", help, clean_meaning(state)};
+  const Row row{"clean", "Clean", {}, {}, "", help, clean_meaning(state), "clean view, filtered"};
   request_row(ui, row, choices, state.now.clean, "clean");
 }
 
@@ -184,7 +201,7 @@ void camera_panel(Ui& ui, PanelState& state) {
   part_rows(
       ui, state, "/camera", [](const Slot& slot) { return slot.form == ValueForm::number; }, said);
   part_rows(ui, state, "/camera", [&](const Slot& slot) {
-    const bool hidden = plain_up && slot.name == std::string_view("vup") && !is_sought(ui, slot.label);
+    const bool hidden = plain_up && slot.name == std::string_view("vup") && !ui.rows && !is_sought(ui, slot.label);
     return slot.form == ValueForm::place && !hidden;
   });
   CameraSlots& slots = state.cameras[state.now.origin->title];
@@ -200,11 +217,11 @@ void background_panel(Ui& ui, PanelState& state) {
   int kind = static_cast<int>(background.index());
   const std::vector<Choice> kinds = sky_choices(background, state.backgrounds);
   const int columns = kinds.size() > 3 ? 2 : 0;  // the names of four do not fit side by side
-  if (choice_row(ui, {"kind", "Kind", {}, {}, "", "", ""}, kinds, kind, columns))
+  const Row row{"kind", "Kind", {}, {}, "", "", "", "background, sky, environment, environment light, world, hdri"};
+  if (choice_row(ui, row, kinds, kind, columns))
     set_background_kind(state.scene.change().background, kind, state.backgrounds);
   const Background& now = state.scene->background;
-  if (const SkyPicture* sky = std::get_if<SkyPicture>(&now))
-    text_row(ui, {"file", "Picture", {}, {}, "", sky->file, ""}, sky->file);
+  if (const SkyPicture* sky = std::get_if<SkyPicture>(&now)) file_row(ui, sky_file, sky->file);
   part_rows(ui, state, std::holds_alternative<Vec3d>(now) ? "" : "/background");
 }
 
@@ -215,7 +232,7 @@ void image_panel(Ui& ui, PanelState& state) {
   if (state.now.has_scene) clean_row(ui, state);
   Choice choices[view_count];
   for (int k = 0; k < view_count; ++k) choices[k] = {view_entry(k).name, missing_for_view(state.now, k)};
-  const Row row{"view", "View", {}, {}, "", "keys 1 to 9", view_meaning(state)};
+  const Row row{"view", "View", {}, {}, "", "keys 1 to 9", view_meaning(state), "aov, render pass, passes, channel"};
   int view = state.now.view;
   if (choice_row(ui, row, choices, view, 3)) ui.requests.push_back({std::string("view: ") + view_entry(view).name});
 }

@@ -171,7 +171,7 @@ bool section(Ui& ui, const std::string& name, const std::string& note_text) {
 void begin_row(Ui& ui, const Row& row) {
   ui.sought.here = is_sought(ui, row.label) && !ui.sought.met;
   if (ui.sought.here) meet_sought(ui, 0.3f);
-  if (ui.rows) ui.rows->push_back({ui.drawn.part, row.label});
+  if (ui.rows) ui.rows->push_back({ui.drawn.part, row.label, row.words, ui.drawn.label});
   ImGui::PushID(row.name.c_str());
   ImGui::AlignTextToFramePadding();
   clipped_text(row.label, label_column * ui.scale - ImGui::GetCursorPosX() - 4 * ui.scale);
@@ -215,10 +215,11 @@ bool slider_row(Ui& ui, const Row& row, double& value) {
   return changed;
 }
 
-void text_row(Ui& ui, const Row& row, const std::string& text) {
+void file_row(Ui& ui, Row row, const std::string& file) {
+  row.help = file;
   begin_row(ui, row);
   ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
-  clipped_text(text, value_width(ui));
+  clipped_text(file, value_width(ui));
   ImGui::PopStyleColor();
   end_row(ui, row);
 }

@@ -44,6 +44,13 @@ struct RowPlace {
   std::string part, label;
 };
 
+/// A row of the column as the palette knows it.
+struct RowEntry {
+  std::string part, label;
+  std::string words;  ///< other words for it, separated by ", "
+  std::string owner;  ///< whose it is: the title of an object, else its section
+};
+
 /// The row that the column was sent to. In the first drawing its section is opened, in the second it is scrolled to, in
 /// the third the keyboard goes there: into its first number, or to its choices, through which the arrow keys go then.
 struct SoughtRow {
@@ -84,6 +91,7 @@ struct Row {
   const char* unit = "";
   std::string help;      ///< tooltip
   std::string meaning;   ///< grey line beneath; "": none
+  std::string words{};   ///< by which the palette finds it, too, separated by ", "
   bool whole = false;    ///< whole numbers only
   bool warning = false;  ///< the line beneath is one
   std::optional<Vec3d> original =
@@ -108,7 +116,7 @@ struct Ui {
   double wake_in = 1e300;                 ///< seconds until something appears by itself
   bool has_question = false;              ///< a dialog waits for an answer: the column takes no input
   bool close_popup = false;               ///< a list or a picker that is open closes in this drawing
-  std::vector<RowPlace>* rows = nullptr;  ///< gets the place of each row that is drawn; null: nobody asks
+  std::vector<RowEntry>* rows = nullptr;  ///< gets each row that is drawn; null: nobody asks
   std::vector<Request> requests;          ///< of controls, until they are carried out
   std::string problem;                    ///< why a typed value was refused: one line; "": it was not
   std::set<std::string> folded;           ///< sections that are closed
@@ -164,8 +172,8 @@ bool combo_row(Ui& ui, const Row& row, std::span<const std::string> names, int& 
 bool combo_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& chosen);
 /// Label and a text to type. hint: shown grey where it is empty. begin: typing begins now.
 bool name_row(Ui& ui, const Row& row, const std::string& hint, bool begin, std::string& value);
-/// Label and text.
-void text_row(Ui& ui, const Row& row, const std::string& text);
+/// Label and the name of a file.
+void file_row(Ui& ui, Row row, const std::string& file);
 /// A small button in the label's column or anywhere; logged as `name`.
 bool small_button(Ui& ui, const std::string& name, const std::string& label, float width = 0);
 /// Grey small text, wrapped. indent: start in the column of the values.

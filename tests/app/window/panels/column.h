@@ -52,6 +52,15 @@ class Column {
       }
     });
   }
+  /// All rows of the column, also those that are folded.
+  std::vector<RowEntry> all_rows() {
+    std::vector<RowEntry> rows;
+    imgui_.frame([&] {
+      draw_column(ui, state, {0, 0, 372, height});
+      rows = rows_of_column(ui, state);
+    });
+    return rows;
+  }
   bool has_query_for(const Request& request) const {
     return std::find(requested.begin(), requested.end(), request) != requested.end();
   }

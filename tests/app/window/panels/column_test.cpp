@@ -23,13 +23,13 @@ TEST_CASE("a tab brings its part to the head of the column, opens it, and is lit
     CHECK_FALSE(column.ui.folded.contains(name));
     REQUIRE(column.has(std::string("section.") + name));
     CHECK(heading(column, name).y0 < 90);
-    CHECK(column_tabs()[static_cast<std::size_t>(column.state.tabs.lit)].name == std::string(name));
+    CHECK(column_sections()[static_cast<std::size_t>(column.state.tabs.lit)].name == std::string(name));
   }
   column.click("tab.Scenes");  // the last part cannot reach the head
   column.draw();
   column.draw();
   CHECK(column.has("scenes.showroom"));
-  CHECK(column_tabs()[static_cast<std::size_t>(column.state.tabs.lit)].name == std::string("Scenes"));
+  CHECK(column_sections()[static_cast<std::size_t>(column.state.tabs.lit)].name == std::string("Scenes"));
 }
 
 TEST_CASE("selecting an object in the picture brings its values to the head of the column") {
