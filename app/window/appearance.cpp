@@ -1,18 +1,11 @@
 #include "app/window/appearance.h"
 
+#include "app/window/tools/selection.h"
+
 #include <algorithm>
 
 namespace tyndall {
 namespace {
-
-bool add_names(const std::vector<Object>& objects, Characters& more) {
-  bool added = false;
-  for (const Object& object : objects) {
-    added = add_characters(object.name, more) || added;
-    if (const Group* group = std::get_if<Group>(&object.kind)) added = add_names(group->objects, more) || added;
-  }
-  return added;
-}
 
 /// "2 of 3": how many of the characters the fonts have.
 std::string found_text(const Fonts& fonts, const Characters& more) {
@@ -36,7 +29,8 @@ bool Appearance::find_characters(const std::vector<std::filesystem::path>& files
   added = add_characters(session_.editor.document().origin->title, more_) || added;
   for (const Material& material : scene.materials) added = add_characters(material.name, more_) || added;
   for (const Texture& texture : scene.textures) added = add_characters(texture.name, more_) || added;
-  return add_names(scene.objects, more_) || added;
+  each_object(scene.objects, [&](const Object& object) { added = add_characters(object.name, more_) || added; });
+  return added;
 }
 
 void Appearance::update(const Preferences& look, const std::vector<std::filesystem::path>& files) {

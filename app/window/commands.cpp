@@ -78,12 +78,10 @@ void Commands::go_to_row(const std::string& place) {
 
 /// Gives the value a key at the frame that the film shows.
 void Commands::add_key(const std::string& pointer) {
-  Scene scene = session_.editor.scene();
-  const auto slot = find_slot(scene, pointer);
+  const auto slot = find_slot(session_.editor.scene(), pointer);
   if (!slot) return;
-  tyndall::add_key(scene, *slot, timeline_.frame());
   session_.messages.say("key of " + slot->label + " at frame " + std::to_string(timeline_.frame()));
-  session_.editor.edit(std::move(scene), gestures_.begin());
+  session_.editor.change(gestures_.begin(), [&](Scene& scene) { tyndall::add_key(scene, *slot, timeline_.frame()); });
 }
 
 void Commands::vary(const std::string& pointer) {
@@ -106,24 +104,21 @@ void Commands::play() {
 void Commands::key_cameras() {
   const CameraSlots& slots = panels_.cameras[panels_.now.origin->title];
   if (slots.size() < 2) return session_.messages.say("store two cameras or more first: see Camera");
-  Scene scene = session_.editor.scene();
-  tyndall::key_cameras(scene, slots);
-  session_.editor.edit(std::move(scene), gestures_.begin());
+  session_.editor.change(gestures_.begin(), [&](Scene& scene) { tyndall::key_cameras(scene, slots); });
 }
 
 void Commands::reset_camera() {
-  Scene scene = session_.editor.scene();
-  scene.camera = session_.editor.document().origin->saved.camera;
-  session_.editor.edit(std::move(scene), gestures_.begin());
+  const Camera saved = session_.editor.document().origin->saved.camera;
+  session_.editor.change(gestures_.begin(), [&](Scene& scene) { scene.camera = saved; });
 }
 
 void Commands::frame_selection() {
   const auto sphere = bounding_sphere(session_.editor.scene(), panels_.selected);
   if (!sphere) return;  // an empty group
-  Scene scene = session_.editor.scene();
-  scene.camera =
-      frame_sphere(scene.camera, sphere->center, sphere->radius, static_cast<double>(scene.width) / scene.height);
-  session_.editor.edit(std::move(scene), gestures_.begin());
+  session_.editor.change(gestures_.begin(), [&](Scene& scene) {
+    const double aspect = static_cast<double>(scene.width) / scene.height;
+    scene.camera = frame_sphere(scene.camera, sphere->center, sphere->radius, aspect);
+  });
 }
 
 void Commands::step_text_size(int by) {

@@ -147,7 +147,7 @@ void MainWindow::draw(double now) {
   use_mouse_and_keys(now);
   apply_panels(now);
   session_.input_time = 0;
-  session_.wanted.watched_pixel = picture_tools_.watched_pixel();
+  session_.wanted.watched_pixel = picture_tools_.inspector.watched_pixel();
   if (!fresh) picture_.note_shown();  // the one before; if a newer scene is sent now, the workers begin with that
   if (send(now, !fresh) && !fresh) {
     awaits_until_ = now + longest_await;
@@ -329,7 +329,7 @@ void MainWindow::apply_panels(double now) {
   session_.editor.select(all_selected(panels_));
   if (!ui_.problem.empty()) session_.messages.say(ui_.problem, true);
   commands_.carry_out(ui_);
-  gallery_.want(panels_.wanted_pictures);
+  gallery_.thumbnails.want(panels_.wanted_pictures);
   use_preferences();
   if (shows_errors(session_.view()) && !session_.can_show_errors())
     commands_.act({std::string("view: ") + view_entry(0).name});

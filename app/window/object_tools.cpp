@@ -50,26 +50,24 @@ bool ObjectTools::escape() {
 }
 
 void ObjectTools::add(const Addition& what) {
-  Scene scene = session_.editor.scene();
-  const ObjectPaths added = what.add(scene, spot_);
-  session_.editor.edit(std::move(scene), gestures_.begin());
+  ObjectPaths added;
+  session_.editor.change(gestures_.begin(), [&](Scene& scene) { added = what.add(scene, spot_); });
   select_all({added.front()});
   session_.messages.say("added: " + title_of(session_.editor.scene(), added.front()) + " (add " + what.name + ")");
 }
 
 void ObjectTools::duplicate() {
-  Scene scene = session_.editor.scene();
-  const ObjectPaths copies = duplicate_objects(scene, selected());
-  session_.editor.edit(std::move(scene), gestures_.begin());
+  ObjectPaths copies;
+  session_.editor.change(gestures_.begin(), [&](Scene& scene) { copies = duplicate_objects(scene, selected()); });
   select_all(copies);
   session_.messages.say("duplicated: the copy is in the same place, and is selected");
 }
 
 void ObjectTools::remove() {
-  Scene scene = session_.editor.scene();
-  const std::string title = title_of(scene, panels_.selected);
-  const int count = delete_objects(scene, selected(), session_.editor.document().origin->saved.materials);
-  session_.editor.edit(std::move(scene), gestures_.begin());
+  const std::string title = title_of(session_.editor.scene(), panels_.selected);
+  const auto& kept = session_.editor.document().origin->saved.materials;
+  int count = 0;
+  session_.editor.change(gestures_.begin(), [&](Scene& scene) { count = delete_objects(scene, selected(), kept); });
   select_all({});
   session_.messages.say("deleted " + (count == 1 ? title : std::to_string(count) + " objects") + "; Ctrl + Z: undo");
 }

@@ -4,6 +4,7 @@
 #include "app/text/progress.h"
 #include "app/window/command.h"
 #include "app/window/dialog.h"
+#include "app/window/inspector/drawings.h"
 #include "app/window/system/imgui_compat.h"
 #include "core/render/clean_film.h"
 
@@ -195,12 +196,8 @@ void draw_outline(Ui& ui, const Rect& image, const std::vector<ImageLine>& lines
   if (lines.empty() || image.width() <= 0) return;
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
   draw->PushClipRect({image.x0, image.y0}, {image.x1, image.y1}, true);
-  const auto at = [&](ImagePoint p) {
-    // Points far outside would overflow the draw list's arithmetic.
-    const auto limited = [](double v) { return static_cast<float>(std::clamp(v, -20.0, 21.0)); };
-    return ImVec2{image.x0 + limited(p.x) * image.width(), image.y0 + limited(p.y) * image.height()};
-  };
-  for (const ImageLine& line : lines) draw->AddLine(at(line.a), at(line.b), shade(palette::blue, 0.95f), 2 * ui.scale);
+  for (const ImageLine& line : lines)
+    draw->AddLine(in_window(image, line.a), in_window(image, line.b), shade(palette::blue, 0.95f), 2 * ui.scale);
   draw->PopClipRect();
 }
 

@@ -11,8 +11,8 @@
 namespace tyndall {
 
 void PictureTools::find_path() {
-  inspector_.set_on(true);
-  inspector_.find_path(session_.renderers, session_.wanted.scene);
+  inspector.set_on(true);
+  inspector.find_path(session_.renderers, session_.wanted.scene);
 }
 
 void PictureTools::store_camera() {
@@ -23,11 +23,9 @@ void PictureTools::store_camera() {
 
 void PictureTools::look_through_next() {
   const CameraSlots& slots = panels_.cameras[panels_.now.origin->title];
-  Scene scene = session_.editor.scene();
-  const auto next = next_slot(slots, scene.camera);
+  const auto next = next_slot(slots, session_.editor.scene().camera);
   if (!next) return session_.messages.say("no camera is stored yet");
-  scene.camera = slots[*next].camera;
-  session_.editor.edit(std::move(scene), gestures_.begin());
+  session_.editor.change(gestures_.begin(), [&](Scene& scene) { scene.camera = slots[*next].camera; });
 }
 
 void PictureTools::refine() {
@@ -46,9 +44,9 @@ void PictureTools::refine() {
 bool PictureTools::escape() {
   pacing_.on_event();
   if (rectangle_.cancel()) return session_.messages.dismiss(), true;
-  if (inspector_.drop_path()) return true;
-  if (!inspector_.on()) return false;
-  inspector_.set_on(false);
+  if (inspector.drop_path()) return true;
+  if (!inspector.on()) return false;
+  inspector.set_on(false);
   return true;
 }
 
@@ -70,8 +68,8 @@ bool PictureTools::use_mouse(const Mouse& mouse, bool free) {
   const Rect& image = panels_.now.layout.image;
   const Frame* frame = panels_.now.frame.get();
   const bool over = frame && !mouse.taken && panels_.now.visible.contains(mouse.x, mouse.y);
-  inspector_.point_at(over ? std::optional(click_at(image, mouse.x, mouse.y, frame->width, frame->height))
-                           : std::nullopt);
+  inspector.point_at(over ? std::optional(click_at(image, mouse.x, mouse.y, frame->width, frame->height))
+                          : std::nullopt);
   if (drag_picture(mouse, free)) {
     if (mouse.any_down() || mouse.wheel != 0) pacing_.on_event();
     return true;
@@ -116,7 +114,7 @@ void PictureTools::draw(Ui& ui) {
   const bool as_chosen = frame->view == view_entry(context.view).view;
   if (as_chosen) draw_legend(ui, visible, legend_of(context.view, frame->white));
   draw_zoom(ui, visible);
-  inspector_.draw(ui, context, *panels_.scene, session_.renderers);
+  inspector.draw(ui, context, *panels_.scene, session_.renderers);
 }
 
 }  // namespace tyndall

@@ -17,10 +17,9 @@ class PictureTools {
  public:
   /// The arguments belong to the window and must outlive this. wake: see JobQueue.
   PictureTools(Session& session, PanelState& panels, Gestures& gestures, Pacing& pacing, std::function<void()> wake)
-      : session_(session), panels_(panels), gestures_(gestures), pacing_(pacing), inspector_(std::move(wake)) {}
+      : inspector(std::move(wake)), session_(session), panels_(panels), gestures_(gestures), pacing_(pacing) {}
 
   void toggle_actual_size() { zoom_.toggle(mouse_.x, mouse_.y); }
-  void inspect() { inspector_.set_on(!inspector_.on()); }
   void find_path();          ///< why the pixel under the cursor is noisy
   void refine();             ///< begins to draw a rectangle, or gives one up
   void store_camera();       ///< puts the camera aside
@@ -37,14 +36,10 @@ class PictureTools {
   bool shows_pixels() const { return !zoom_.fits() && zoom_.dots_a_pixel() >= 1; }
   /// The mouse, before all other tools. free: nothing else has it. Returns whether this has it.
   bool use_mouse(const Mouse& mouse, bool free);
-  /// Takes what was found in the background. Whether there was anything.
-  bool collect() { return inspector_.collect(session_.renderers); }
-  /// The pixel of which reports are wanted, see RenderRequest.
-  std::optional<std::pair<int, int>> watched_pixel() const { return inspector_.watched_pixel(); }
-  bool at_rest() const { return !inspector_.busy(); }
-
   /// Draws what is known over the picture.
   void draw(Ui& ui);
+
+  Inspector inspector;
 
  private:
   bool drag_picture(const Mouse& mouse, bool free);
@@ -56,7 +51,6 @@ class PictureTools {
   Gestures& gestures_;
   Pacing& pacing_;
   ImageZoom zoom_;
-  Inspector inspector_;
   RectangleTool rectangle_;
   Mouse mouse_;      ///< as the last drawing found it
   int button_ = -1;  ///< that drags the picture; -1: none

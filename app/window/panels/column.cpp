@@ -1,4 +1,3 @@
-#include "app/window/panels/list_rows.h"
 #include "app/window/panels/panels.h"
 #include "app/window/system/imgui_compat.h"
 
@@ -24,20 +23,6 @@ constexpr Section sections[] = {
     {"Window", "Window", "", 0, window_panel}};
 
 bool is_shown(const PanelState& state, const Section& one) { return state.now.has_scene || !one.is(of_scene); }
-
-constexpr ImGuiWindowFlags part_flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
-constexpr ImGuiWindowFlags stays_behind = ImGuiWindowFlags_NoBringToFrontOnFocus;
-
-/// A window of ImGui's own. padding: around what `draw` puts into it.
-void draw_part(Ui& ui, const char* name, const Rect& where, ImGuiWindowFlags more, ImVec2 padding, auto draw) {
-  ImGui::SetNextWindowPos({where.x0, where.y0});
-  ImGui::SetNextWindowSize({where.width(), where.height()});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
-  if (ImGui::Begin(name, nullptr, part_flags | more | (ui.has_question ? ImGuiWindowFlags_NoInputs : 0))) draw();
-  ImGui::End();
-  ImGui::PopStyleVar();
-}
 
 /// The row of tabs, and a button for all actions.
 void draw_tabs(Ui& ui, PanelState& state) {

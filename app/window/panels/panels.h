@@ -104,6 +104,8 @@ void film_panel(Ui& ui, PanelState& state);
 void render_panel(Ui& ui, PanelState& state);
 void objects_panel(Ui& ui, PanelState& state);
 void scenes_panel(Ui& ui, PanelState& state);
+/// At the end of the column's window: the wheel scrolls it unless it has scrolled a list.
+void scroll_column(Ui& ui);
 void window_panel(Ui& ui, PanelState& state);
 /// The measured errors in words: a line for each that is known.
 struct AccuracyLine {

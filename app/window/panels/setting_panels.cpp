@@ -259,4 +259,32 @@ void render_panel(Ui& ui, PanelState& state) {
   note(ui, contents_text(*state.scene), false);
 }
 
+void window_panel(Ui& ui, PanelState& state) {
+  if (!section(ui, "Window", "remembered")) return;
+  const Scope scope(ui, "window");
+  static constexpr Choice themes[] = {{"dark"}, {"light"}};
+  int theme = static_cast<int>(state.look->theme);
+  if (choice_row(ui,
+                 {"theme",
+                  "Theme",
+                  {},
+                  {},
+                  "",
+                  "of panels and lines; the picture stays as it is",
+                  "",
+                  "colour scheme, color scheme"},
+                 themes, theme))
+    state.look->theme = static_cast<Theme>(theme);
+  std::vector<std::string> names;
+  std::vector<Choice> sizes;
+  for (const double size : text_sizes) names.push_back(format_short(100 * size));
+  for (const std::string& name : names) sizes.push_back({name.c_str()});
+  int chosen =
+      static_cast<int>(std::find(text_sizes.begin(), text_sizes.end(), state.look->text_size) - text_sizes.begin());
+  if (choice_row(ui,
+                 {"text", "Text size, %", {}, {}, "", "of all controls: Ctrl + and Ctrl -", "", "text size, ui scale"},
+                 sizes, chosen))
+    state.look->text_size = text_sizes[static_cast<std::size_t>(chosen)];
+}
+
 }  // namespace tyndall

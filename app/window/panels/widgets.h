@@ -1,11 +1,13 @@
 #pragma once
 #include "app/text/numbers.h"
+#include "app/window/picture/display.h"
 #include "app/window/system/style.h"
 #include "app/window/system/ui_log.h"
 #include "core/base/vec.h"
 
 #include <imgui.h>
 
+#include <functional>
 #include <optional>
 #include <set>
 #include <span>
@@ -187,8 +189,24 @@ std::string clipped(const std::string& text, float width);
 void clipped_text(const std::string& text, float width);
 void clipped_text_at(const std::string& text, ImVec2 at, float width, Tone colour);
 
+/// A picture in the middle of a place of the window, as large as that allows.
+void draw_fitted(const PictureTexture& picture, const Rect& place, float rounding);
+
+/// A part of the window with controls, in a window of Dear ImGui's own. padding: around what `draw` puts into it.
+void draw_part(Ui& ui, const char* name, const Rect& where, ImGuiWindowFlags more, ImVec2 padding,
+               const std::function<void()>& draw);
+inline constexpr ImGuiWindowFlags stays_behind = ImGuiWindowFlags_NoBringToFrontOnFocus;
+/// Of a bar beneath the picture.
+inline constexpr ImGuiWindowFlags bar_flags =
+    stays_behind | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoNav;
+
 /// Whether a list or a colour picker is open.
 bool popup_is_open();
+
+/// Begins to type into the box of that number.
+void begin_typing(Ui& ui, ImGuiID id, const std::string& text);
+/// The box that is typed into; it is the last item then. Returns whether typing has ended: ui.edit has the text.
+bool type_text(Ui& ui, const char* hint, float width);
 
 /// Parts that rows are made of.
 bool slider(Ui& ui, const Row& row, double& value, float width);

@@ -61,7 +61,7 @@ class VariationStrip {
   double update(const Context& context, const Rect& rect, const Scene& scene, float scale);
   void ask(const Context& context, const Rect& rect, float scale);
   void show_pictures(const Display& display);
-  void draw_cell(Ui& ui, const Rect& cell, std::size_t index) const;
+  bool draw_cell(Ui& ui, const Rect& cell, std::size_t index) const;
   std::string label_of_cell(std::size_t index) const;
 
   std::vector<VariedValue> axes_;  ///< one or two; none: the strip is closed
