@@ -1,18 +1,11 @@
 #include "app/window/appearance.h"
 
+#include "app/window/tools/selection.h"
+
 #include <algorithm>
 
 namespace tyndall {
 namespace {
-
-bool add_names(const std::vector<Object>& objects, Characters& more) {
-  bool added = false;
-  for (const Object& object : objects) {
-    added = add_characters(object.name, more) || added;
-    if (const Group* group = std::get_if<Group>(&object.kind)) added = add_names(group->objects, more) || added;
-  }
-  return added;
-}
 
 /// "2 of 3": how many of the characters the fonts have.
 std::string found_text(const Fonts& fonts, const Characters& more) {
@@ -26,17 +19,18 @@ std::string found_text(const Fonts& fonts, const Characters& more) {
 /// Looks for characters that the fonts were not loaded for. Returns whether there are any.
 bool Appearance::find_characters(const std::vector<std::filesystem::path>& files) {
   bool added = add_characters(ui_.edit.text, more_);
-  added = add_characters(session_.messages().current().text, more_) || added;
+  added = add_characters(session_.messages.current().text, more_) || added;
   if (files.size() != files_)
     for (const auto& file : files) added = add_characters(file.string(), more_) || added;
   files_ = files.size();
-  if (session_.editor().changes() == changes_) return added;
-  changes_ = session_.editor().changes();
-  const Scene& scene = session_.editor().scene();
-  added = add_characters(session_.editor().document().origin->title, more_) || added;
+  if (session_.editor.changes() == changes_) return added;
+  changes_ = session_.editor.changes();
+  const Scene& scene = session_.editor.scene();
+  added = add_characters(session_.editor.document().origin->title, more_) || added;
   for (const Material& material : scene.materials) added = add_characters(material.name, more_) || added;
   for (const Texture& texture : scene.textures) added = add_characters(texture.name, more_) || added;
-  return add_names(scene.objects, more_) || added;
+  each_object(scene.objects, [&](const Object& object) { added = add_characters(object.name, more_) || added; });
+  return added;
 }
 
 void Appearance::update(const Preferences& look, const std::vector<std::filesystem::path>& files) {

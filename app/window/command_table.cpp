@@ -44,7 +44,8 @@ const char* Commands::requires_of_view(const Commands& c, const std::string& nam
 }
 
 const char* Commands::requires_of_part(const Commands& c, const std::string& part) {
-  return is_part_of_scene(part) ? requires_scene(c, part) : "";
+  const Section& section = column_sections()[static_cast<std::size_t>(section_named(part.substr(0, part.find('/'))))];
+  return section.is(of_scene) ? requires_scene(c, part) : "";
 }
 
 std::vector<Command> Commands::table_of_objects() {
@@ -85,7 +86,8 @@ std::vector<Command> Commands::table_of_picture() {
       {"reset the camera", "home, reset view", home_key, beside_previous, [](Commands& c, auto&) { c.reset_camera(); },
        requires_scene},
       {"inspect pixels", "pick, probe, pixel value, eyedropper, color picker", plain('I'), 0,
-       [](Commands& c, auto&) { c.picture_.inspect(); }, nullptr, "value, error and object under the cursor"},
+       [](Commands& c, auto&) { c.picture_.inspector.set_on(!c.picture_.inspector.on()); }, nullptr,
+       "value, error and object under the cursor"},
       {"why noisy", "path, fireflies, variance, light paths", shift('I'), beside_previous,
        [](Commands& c, auto&) { c.picture_.find_path(); }, requires_scene, "the path that adds most to that pixel"},
       {"actual size", "1:1, zoom 1:1, 100 %, pixel for pixel", plain('0'), 0,
@@ -102,14 +104,14 @@ std::vector<Command> Commands::table_of_picture() {
       {"film through the stored cameras", "animate the cameras, camera path, fly through", no_key, 0,
        [](Commands& c, auto&) { c.key_cameras(); }, requires_scene},
       {"pause or go on", "stop, resume, continue", plain(' '), 0,
-       [](Commands& c, auto&) { c.session_.wanted().paused = !c.session_.wanted().paused; }, requires_rendering},
+       [](Commands& c, auto&) { c.session_.wanted.paused = !c.session_.wanted.paused; }, requires_rendering},
       {"start over", "restart, render again, clear", plain('R'), beside_previous | begins_picture,
-       [](Commands& c, auto&) { ++c.session_.wanted().restarts; }, requires_rendering}};
+       [](Commands& c, auto&) { ++c.session_.wanted.restarts; }, requires_rendering}};
 }
 
 std::vector<Command> Commands::table_of_files() {
-  return {{"undo", "back, revert", ctrl('Z'), 0, [](Commands& c, auto&) { c.session_.editor().undo(); }},
-          {"redo", "repeat", ctrl_shift('Z'), beside_previous, [](Commands& c, auto&) { c.session_.editor().redo(); },
+  return {{"undo", "back, revert", ctrl('Z'), 0, [](Commands& c, auto&) { c.session_.editor.undo(); }},
+          {"redo", "repeat", ctrl_shift('Z'), beside_previous, [](Commands& c, auto&) { c.session_.editor.redo(); },
            nullptr, "", ctrl('Y')},
           {"open a file", "load, import, browse", ctrl('O'), 0, [](Commands& c, auto&) { c.dialog_ = open_dialog(); },
            nullptr, "a scene, or an image that Tyndall made"},
@@ -123,13 +125,14 @@ std::vector<Command> Commands::table_of_files() {
 std::vector<Command> Commands::table_of_views() {
   std::vector<Command> table = {
       {"clean view on or off", "clean, denoise, denoiser, denoising, filter", plain('N'), begins_picture,
-       [](Commands& c, auto&) { c.session_.set_clean(!c.session_.clean()); }, requires_scene, "noise filtered away"},
+       [](Commands& c, auto&) { c.session_.preferences.clean = !c.session_.clean(); }, requires_scene,
+       "noise filtered away"},
       {"clean beside raw", "compare clean and raw, denoise beside raw", shift('N'), beside_previous | begins_picture,
        [](Commands& c, auto&) { c.session_.set_clean_beside_raw(!c.session_.clean_beside_raw()); }, requires_scene},
       {"split view", "split, split screen, A/B, compare, compare settings, side by side", no_key, begins_picture,
        [](Commands& c, auto&) { c.session_.split() ? c.end_split() : c.session_.set_split(true); }, requires_scene},
       {"reference picture", "reference, reference image, ground truth, compare with an image, true error", no_key, 0,
-       [](Commands& c, auto&) { c.dialog_ = reference_dialog(c.session_.accuracy().reference() != nullptr); }},
+       [](Commands& c, auto&) { c.dialog_ = reference_dialog(c.session_.accuracy.reference() != nullptr); }},
       {"export the chart", "csv, svg, export csv, save the chart", no_key, 0,
        [](Commands& c, auto&) { c.session_.export_chart(); }}};
   for (int k = 0; k < view_count; ++k)
@@ -137,7 +140,7 @@ std::vector<Command> Commands::table_of_views() {
                      view_entry(k).words,
                      k < keyed_views ? plain(static_cast<char>('1' + k)) : no_key,
                      begins_picture | shows_view,
-                     [](Commands& c, const std::string& name) { c.show_view(view_named(name)); },
+                     [](Commands& c, const std::string& name) { c.session_.show_view(view_named(name)); },
                      requires_of_view,
                      "",
                      {},
@@ -155,9 +158,12 @@ std::vector<Command> Commands::table_of_window() {
        [](Commands& c, auto&) { c.step_text_size(1); }},
       {"smaller text", "smaller font", ctrl('-'), beside_previous, [](Commands& c, auto&) { c.step_text_size(-1); }},
       {"usual text", "reset font size", ctrl('0'), beside_previous,
-       [](Commands& c, auto&) { c.panels_.look.text_size = 1; }},
+       [](Commands& c, auto&) { c.session_.preferences.text_size = 1; }},
       {"dark or light theme", "dark mode, light mode, colours of the window, colors of the window", no_key, 0,
-       [](Commands& c, auto&) { c.panels_.look.theme = other_theme(c.panels_.look.theme); }},
+       [](Commands& c, auto&) {
+         Theme& theme = c.session_.preferences.theme;
+         theme = other_theme(theme);
+       }},
       {"close the window", "exit, quit", ctrl('Q'), 0, [](Commands& c, auto&) { c.ask_to_close(); }},
       {"all actions by name", "", ctrl('K'), 0, [](Commands& c, auto&) { c.open_palette(); }, nullptr,
        "and all rows: ior, roughness, fov"},
@@ -171,53 +177,53 @@ std::vector<Command> Commands::unlisted_table() {
       {"menu", "", no_key, unlisted,  // of what is selected
        [](Commands& c, auto&) {
          const bool none = c.panels_.selected.empty();
-         c.open_menu(none ? "Add here" : title_of(c.session_.editor().scene(), c.panels_.selected), in_object_menu);
+         c.open_menu(none ? "Add here" : title_of(c.session_.editor.scene(), c.panels_.selected), in_object_menu);
        }},
       {"part", "", no_key, unlisted,  // of the column; argument: its tab
-       [](Commands& c, const std::string& name) { c.panels_.tabs.jump = tab_named(name), c.shows_panels_ = true; },
+       [](Commands& c, const std::string& name) { c.panels_.tabs.jump = section_named(name), c.shows_panels_ = true; },
        requires_of_part},
       {"row", "", no_key, unlisted,  // of the column; argument: its part and its label, "Camera/Focus"
-       [](Commands& c, const std::string& place) { c.go_to_row(place); },
-       [](const Commands& c, const std::string& place) {
-         return requires_of_part(c, place.substr(0, place.find('/')));
-       }},
+       [](Commands& c, const std::string& place) { c.go_to_row(place); }, requires_of_part},
+      {"say", "", no_key, unlisted,  // what a row that the column does not show needs first: "Camera/Focus: " and that
+       [](Commands& c, const std::string& row) { c.session_.messages.say(row.substr(row.find('/') + 1)); },
+       requires_of_part},
       {"vary", "", no_key, unlisted, [](Commands& c, const std::string& pointer) { c.vary(pointer); }},
       {"key", "", no_key, unlisted, [](Commands& c, const std::string& pointer) { c.add_key(pointer); },
        requires_scene},
       {"scene", "", no_key, unlisted,  // argument: as load_scene takes it
-       [](Commands& c, const std::string& what) { c.session_.editor().open(what); }},
+       [](Commands& c, const std::string& what) { c.session_.editor.open(what); }},
       {"clean", "", no_key, unlisted | begins_picture,  // argument: off, on or beside raw
        [](Commands& c, const std::string& how) {
-         c.session_.set_clean(how != "off"), c.session_.set_clean_beside_raw(how == "beside raw");
+         c.session_.preferences.clean = how != "off", c.session_.set_clean_beside_raw(how == "beside raw");
        },
        requires_scene},
       {"render at", "", no_key, unlisted | begins_picture,  // argument: the size of the file or of the window
-       [](Commands& c, const std::string& size) { c.panels_.model.at_window = size == "window"; }},
+       [](Commands& c, const std::string& size) { c.panels_.at_window = size == "window"; }},
       {"threads", "", no_key, unlisted,
-       [](Commands& c, const std::string& count) { c.session_.wanted().threads = std::stoi(count); }},
+       [](Commands& c, const std::string& count) { c.session_.wanted.threads = std::stoi(count); }},
       {"keep half", "", no_key, unlisted | begins_picture,  // argument: A, the left one, or B
        [](Commands& c, const std::string& half) { c.session_.keep_half(half == "A" ? Half::kept : Half::current); }},
       {"keep the edits", "", no_key, unlisted,  // another program has changed the file
-       [](Commands& c, auto&) { c.session_.editor().answer_about_file(false); }},
-      {"take the file", "", no_key, unlisted, [](Commands& c, auto&) { c.session_.editor().answer_about_file(true); }},
+       [](Commands& c, auto&) { c.session_.editor.answer_about_file(false); }},
+      {"take the file", "", no_key, unlisted, [](Commands& c, auto&) { c.session_.editor.answer_about_file(true); }},
       {"open", "", no_key, unlisted,  // argument: the file of a scene, a picture of one, or a reference
        [](Commands& c, const std::string& file) {
-         c.session_.references().open_dropped(std::filesystem::absolute(file));
+         c.session_.references.open_dropped(std::filesystem::absolute(file));
        }},
       {"sky", "", no_key, unlisted,  // argument: its file
-       [](Commands& c, const std::string& file) { c.session_.editor().set_sky(file); }},
+       [](Commands& c, const std::string& file) { c.session_.editor.set_sky(file); }},
       {"save to", "", no_key, unlisted,  // argument: the file, which is replaced if it exists
        [](Commands& c, const std::string& file) { c.save_to(file); }},
       {"save named", "", no_key, unlisted,  // argument: the file, as the user has typed it
        [](Commands& c, const std::string& file) { c.save_named(file); }},
       {"save and close", "", no_key, unlisted,  // the edits that no file has, wherever they are
-       [](Commands& c, auto&) { c.closing_.save(), c.session_.editor().go_to_unsaved(), c.save(); }},
+       [](Commands& c, auto&) { c.closing_.save(), c.session_.editor.go_to_unsaved(), c.save(); }},
       {"discard and close", "", no_key, unlisted, [](Commands& c, auto&) { c.closing_.discard(); }},
       {"open the reference", "", no_key, unlisted,  // argument: its file
-       [](Commands& c, const std::string& file) { c.session_.references().open(file); }},
+       [](Commands& c, const std::string& file) { c.session_.references.open(file); }},
       {"render a reference", "", no_key, unlisted, [](Commands& c, auto&) { c.session_.render_reference(); },
        requires_scene},
-      {"drop the reference", "", no_key, unlisted, [](Commands& c, auto&) { c.session_.references().drop(); }}};
+      {"drop the reference", "", no_key, unlisted, [](Commands& c, auto&) { c.session_.references.drop(); }}};
 }
 
 std::vector<Command> Commands::table() {

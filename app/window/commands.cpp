@@ -32,7 +32,7 @@ void Commands::take(const InputEvents& events) {
     act({command->name});
   }
   for (const std::filesystem::path& file : events.dropped)
-    session_.references().open_dropped(std::filesystem::absolute(file));
+    session_.references.open_dropped(std::filesystem::absolute(file));
 }
 
 std::string Commands::why_not(const Command& command, const std::string& argument) const {
@@ -44,7 +44,7 @@ void Commands::act(const Request& request) {
   const std::string& argument = request.argument.empty() ? command.argument : request.argument;
   if (log_ && !command.is(unlisted)) log_->line("did " + command.name);
   pacing_.on_event();
-  if (const std::string why = why_not(command, argument); !why.empty()) return session_.messages().say(why);
+  if (const std::string why = why_not(command, argument); !why.empty()) return session_.messages.say(why);
   command.run(*this, argument);
   if (command.is(begins_picture)) pacing_.on_new_start(clock_seconds());
 }
@@ -67,89 +67,83 @@ void Commands::open_menu(const std::string& title, CommandFlag which) {
 
 void Commands::open_palette() {
   objects_.look_under_mouse();
-  palette_.open(palette_items(session_.editor().scene(), panels_.selected, listed_scenes()));
+  opens_palette_ = true;
 }
 
 void Commands::go_to_row(const std::string& place) {
   const std::size_t slash = place.find('/');
-  const RowPlace wanted{place.substr(0, slash), place.substr(slash + 1)};
-  for (const RowEntry& row : row_entries(session_.editor().scene(), panels_.selected))
-    if (row.part == wanted.part && row.label == wanted.label && !row.missing.empty())
-      return session_.messages().say(row.label + ": " + row.missing);
-  panels_.seek = wanted;
+  panels_.seek = RowPlace{place.substr(0, slash), place.substr(slash + 1)};
   shows_panels_ = true;
 }
 
 /// Gives the value a key at the frame that the film shows.
 void Commands::add_key(const std::string& pointer) {
-  Scene scene = session_.editor().scene();
-  const auto slot = find_slot(scene, pointer);
+  const auto slot = find_slot(session_.editor.scene(), pointer);
   if (!slot) return;
-  tyndall::add_key(scene, *slot, timeline_.frame());
-  session_.messages().say("key of " + slot->label + " at frame " + std::to_string(timeline_.frame()));
-  session_.editor().edit(std::move(scene), gestures_.begin());
+  session_.messages.say("key of " + slot->label + " at frame " + std::to_string(timeline_.frame()));
+  session_.editor.change(gestures_.begin(), [&](Scene& scene) { tyndall::add_key(scene, *slot, timeline_.frame()); });
 }
 
 void Commands::vary(const std::string& pointer) {
-  if (const auto slot = find_slot(session_.editor().scene(), pointer)) strip_.vary(*slot);
+  if (const auto slot = find_slot(session_.editor.scene(), pointer)) strip_.vary(*slot);
 }
 
 std::vector<std::string> Commands::listed_scenes() const {
   std::vector<std::string> all;
-  for (const BuiltIn& scene : panels_.model.scenes) all.push_back(scene.name);
-  for (const std::filesystem::path& file : panels_.model.recent) all.push_back(file.string());
+  for (const BuiltIn& scene : panels_.now.scenes) all.push_back(scene.name);
+  for (const std::filesystem::path& file : panels_.now.recent) all.push_back(file.string());
   return all;
 }
 
 void Commands::play() {
-  if (!session_.editor().scene().animation)
-    return session_.messages().say("no value has keys: right click on a row, or store cameras and film through them");
+  if (!session_.editor.scene().animation)
+    return session_.messages.say("no value has keys: right click on a row, or store cameras and film through them");
   timeline_.play_or_stop(clock_seconds());
 }
 
 void Commands::key_cameras() {
-  const CameraSlots& slots = panels_.cameras[panels_.model.title];
-  if (slots.size() < 2) return session_.messages().say("store two cameras or more first: see Camera");
-  Scene scene = session_.editor().scene();
-  tyndall::key_cameras(scene, slots);
-  session_.editor().edit(std::move(scene), gestures_.begin());
+  const CameraSlots& slots = panels_.cameras[panels_.now.origin->title];
+  if (slots.size() < 2) return session_.messages.say("store two cameras or more first: see Camera");
+  session_.editor.change(gestures_.begin(), [&](Scene& scene) { tyndall::key_cameras(scene, slots); });
 }
 
 void Commands::reset_camera() {
-  Scene scene = session_.editor().scene();
-  scene.camera = session_.editor().document().origin->saved.camera;
-  session_.editor().edit(std::move(scene), gestures_.begin());
+  const Camera saved = session_.editor.document().origin->saved.camera;
+  session_.editor.change(gestures_.begin(), [&](Scene& scene) { scene.camera = saved; });
 }
 
 void Commands::frame_selection() {
-  const auto sphere = bounding_sphere(session_.editor().scene(), panels_.selected);
+  const auto sphere = bounding_sphere(session_.editor.scene(), panels_.selected);
   if (!sphere) return;  // an empty group
-  Scene scene = session_.editor().scene();
-  scene.camera =
-      frame_sphere(scene.camera, sphere->center, sphere->radius, static_cast<double>(scene.width) / scene.height);
-  session_.editor().edit(std::move(scene), gestures_.begin());
+  session_.editor.change(gestures_.begin(), [&](Scene& scene) {
+    const double aspect = static_cast<double>(scene.width) / scene.height;
+    scene.camera = frame_sphere(scene.camera, sphere->center, sphere->radius, aspect);
+  });
 }
 
-void Commands::step_text_size(int by) { panels_.look.text_size = stepped_text_size(panels_.look.text_size, by); }
+void Commands::step_text_size(int by) {
+  double& size = session_.preferences.text_size;
+  size = stepped_text_size(size, by);
+}
 
 void Commands::save_as() {
-  const Origin& origin = *session_.editor().document().origin;
+  const Origin& origin = *session_.editor.document().origin;
   dialog_ = name_dialog(origin.file.empty() ? std::filesystem::path(stem_of(origin.title) + ".json") : origin.file);
 }
 
 /// Asks first before saving destroys something of the document's file.
 void Commands::save() {
-  const Origin& origin = *session_.editor().document().origin;
+  const Origin& origin = *session_.editor.document().origin;
   if (origin.file.empty()) return save_as();
   const bool differs = file_differs(origin);
   if (differs || origin.comments)
     dialog_ = loss_dialog(origin, differs);
   else
-    session_.editor().save(origin.file);
+    session_.editor.save(origin.file);
 }
 
 void Commands::save_to(const std::filesystem::path& file) {
-  if (!session_.editor().save(file)) dialog_ = name_dialog(file);  // what was typed is not lost
+  if (!session_.editor.save(file)) dialog_ = name_dialog(file);  // what was typed is not lost
 }
 
 void Commands::save_named(std::filesystem::path file) {
@@ -157,11 +151,6 @@ void Commands::save_named(std::filesystem::path file) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) return save_to(file);
   dialog_ = replace_dialog(file);
-}
-
-void Commands::show_view(int index) {
-  panels_.model.view = index;
-  session_.set_view(view_entry(index).view, view_entry(index).error);
 }
 
 void Commands::end_split() {
@@ -180,7 +169,7 @@ void Commands::escape() {
     panels_.cancel_drag = true;
     return;
   }
-  if (dialog_.kind == Dialog::Kind::changed_file) session_.editor().answer_about_file(false);
+  if (dialog_.kind == Dialog::Kind::changed_file) session_.editor.answer_about_file(false);
   if (closing_.cancel()) return;
   if (popup_is_open()) {
     panels_.close_popup = true;
@@ -193,16 +182,15 @@ void Commands::escape() {
   }
   if (menu_.is_open()) return menu_.close();
   if (objects_.escape()) return;
-  if (strip_.is_open() && !has_question() && !shows_help_ && !session_.messages().current().error)
-    return strip_.close();
-  const bool covered = has_question() || shows_help_ || session_.messages().current().error;
+  if (strip_.is_open() && !has_question() && !shows_help_ && !session_.messages.current().error) return strip_.close();
+  const bool covered = has_question() || shows_help_ || session_.messages.current().error;
   if (!covered && picture_.escape()) return;
   if (has_question())
     dialog_.kind = Dialog::Kind::none;
   else if (shows_help_)
     shows_help_ = false;
-  else if (session_.messages().current().error)
-    session_.messages().dismiss();
+  else if (session_.messages.current().error)
+    session_.messages.dismiss();
   else
     objects_.select_all({});
 }
@@ -210,12 +198,14 @@ void Commands::escape() {
 void Commands::draw(Ui& ui, const Rect& area) {
   shows_menu_ = menu_.is_open();
   if (auto chosen = menu_.draw(ui, area)) ui.requests.push_back(std::move(*chosen));
+  if (std::exchange(opens_palette_, false))
+    palette_.open(palette_items(listed_rows(rows_of_column(ui, panels_)), listed_scenes()));
   if (auto chosen = palette_.draw(ui, area)) ui.requests.push_back(std::move(*chosen));
   if (shows_help_) draw_help(ui, shows_help_);
-  if (session_.editor().offers_reload() && !has_question())
-    dialog_ = changed_file_dialog(*session_.editor().document().origin);
+  if (session_.editor.offers_reload() && !has_question())
+    dialog_ = changed_file_dialog(*session_.editor.document().origin);
   if (!has_question())
-    if (const std::filesystem::path picture = session_.references().take_doubtful(); !picture.empty())
+    if (const std::filesystem::path picture = session_.references.take_doubtful(); !picture.empty())
       dialog_ = picture_dialog(picture);
   if (dialog_.kind == Dialog::Kind::halves && !session_.split()) dialog_.kind = Dialog::Kind::none;
   closing_.draw(ui, area, dialog_);

@@ -2,7 +2,6 @@
 #include "app/window/command.h"
 #include "app/window/dialog.h"
 #include "app/window/menus/menu.h"
-#include "app/window/menus/row_list.h"
 #include "app/window/object_tools.h"
 #include "app/window/overlays.h"
 #include "app/window/panels/panels.h"
@@ -81,14 +80,13 @@ class Commands {
   std::string why_not(const Command& command, const std::string& argument) const;
   bool take_key(const KeyPress& press);
   void open_menu(const std::string& title, CommandFlag which);
-  void show_view(int index);
   void step_text_size(int by);
   void play();
   void key_cameras();
   void reset_camera();
   void frame_selection();
   void open_palette();
-  /// Brings up a row of the column, "Camera/Focus"; where that is not shown a message says what to do first.
+  /// Brings up a row of the column, "Camera/Focus".
   void go_to_row(const std::string& place);
   void add_key(const std::string& pointer);
   void vary(const std::string& pointer);
@@ -116,7 +114,7 @@ class Commands {
   Palette palette_;
   Closing closing_;
   UiLog* log_;  ///< may be null
-  bool shows_help_ = false, shows_panels_ = true, shows_menu_ = false;
+  bool shows_help_ = false, shows_panels_ = true, shows_menu_ = false, opens_palette_ = false;
 };
 
 }  // namespace tyndall

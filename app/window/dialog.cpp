@@ -215,10 +215,10 @@ void Closing::discard() {
 
 /// Nothing is left but to write files; rendering would take the processors from that.
 void Closing::finish() {
-  step_ = session_.writes_files() ? Step::writes : Step::done;
+  step_ = !session_.saving.idle() ? Step::writes : Step::done;
   since_ = clock_seconds();
-  errors_before_ = session_.messages().errors();
-  paused_before_ = std::exchange(session_.wanted().paused, true);
+  errors_before_ = session_.messages.errors();
+  paused_before_ = std::exchange(session_.wanted.paused, true);
   if (step_ == Step::done) leave();
 }
 
@@ -228,14 +228,13 @@ void Closing::leave() {
 }
 
 void Closing::draw_progress(Ui& ui, const Rect& area) {
-  const bool failed = session_.messages().errors() > errors_before_;
-  if (!session_.writes_files() && failed) return static_cast<void>(cancel());  // the message says what is missing
-  if (!session_.writes_files()) return leave();
+  const bool failed = session_.messages.errors() > errors_before_;
+  if (session_.saving.idle() && failed) return static_cast<void>(cancel());  // the message says what is missing
+  if (session_.saving.idle()) return leave();
   const double seconds = clock_seconds() - since_;
   begin_dialog(ui, area);
   ImGui::TextUnformatted("Writing files; the window closes when they are there.");
-  note(ui, fmt::format("{} to go, {:.0f} s; rendering is stopped", session_.jobs_of_writing(), std::floor(seconds)),
-       false);
+  note(ui, fmt::format("{} to go, {:.0f} s; rendering is stopped", session_.saving.open(), std::floor(seconds)), false);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = 360 * ui.scale, height = 4 * ui.scale, part = 0.3f * width;
   const float left = (width - part) * static_cast<float>(0.5 - 0.5 * std::cos(2 * seconds));
@@ -252,7 +251,7 @@ void Closing::draw_progress(Ui& ui, const Rect& area) {
 bool Closing::cancel() {
   if (step_ != Step::writes) return false;
   step_ = Step::none;
-  session_.wanted().paused = paused_before_;
+  session_.wanted.paused = paused_before_;
   return true;
 }
 

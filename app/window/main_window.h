@@ -53,22 +53,21 @@ class MainWindow {
   double waiting_time(double now);
   bool picture_due(double now) const;
   void draw(double now);
-  void fill_panels();
-  ShownState shown_state() const;
-  void draw_interface(const Layout& layout);
-  void use_mouse_and_keys(const Layout& layout, double now);
+  Context context(double now);
+  void draw_interface();
+  void use_mouse_and_keys(double now);
   void set_camera(const Camera& camera);
   void take_edit();
   void apply_panels(double now);
   void draw_strip(const Rect& rect);
-  void draw_timeline(const Rect& rect, double now);
+  void draw_timeline(const Rect& rect);
   bool send(double now, bool scene_too = true);
   bool awaits_picture(double now) const;
   void keep_message(double now);
   int end_of_signal();
   void finish_drawing(double now, double cpu_before, bool fresh);
   Layout layout_for(const WindowSize& size, int image_width, int image_height) const;
-  void follow_window_size(const WindowSize& size, float dots);
+  void follow_window_size();
   void use_preferences();
   void note_files();
 

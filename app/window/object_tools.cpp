@@ -11,29 +11,29 @@
 
 namespace tyndall {
 void ObjectTools::select_all(const ObjectPaths& paths) {
-  session_.editor().select(paths);
+  session_.editor.select(paths);
   set_selected(panels_, paths);
   pacing_.on_event();
 }
 
 /// The pixel is one of the picture that is rendered, which may have another size than the scene's file asks for.
-PictureClick ObjectTools::click_in(const Scene& scene, const Rect& image, float x, float y) const {
+PictureClick ObjectTools::click_in(const Scene& scene, float x, float y) const {
   const PictureSize size = session_.picture_size().value_or(PictureSize{scene.width, scene.height});
-  return click_at(image, x, y, size.width, size.height);
+  return click_at(panels_.now.layout.image, x, y, size.width, size.height);
 }
 
 void ObjectTools::look_under_mouse() {
-  const Scene& scene = session_.editor().scene();
-  const Rect& image = layout_.image;
+  const Scene& scene = session_.editor.scene();
+  const Rect& image = panels_.now.layout.image;
   if (!(image.width() > 0)) return;  // nothing was drawn yet
   const bool over = image.contains(mouse_.x, mouse_.y);
   const float at_x = over ? mouse_.x : (image.x0 + image.x1) / 2, at_y = over ? mouse_.y : (image.y0 + image.y1) / 2;
-  const PictureClick click = click_in(scene, image, at_x, at_y);
-  const Renderer::Pick pick = session_.renderers().pick(click.x, click.y);
+  const PictureClick click = click_in(scene, at_x, at_y);
+  const Renderer::Pick pick = session_.renderers.pick(click.x, click.y);
   spot_ = spot_at(scene, click.at, find_object(scene, pick.object) ? pick.object : ObjectPath{}, pick.point);
 }
 
-void ObjectTools::grab() { handles_.grab(mouse_, selected(), session_.editor().scene()); }
+void ObjectTools::grab() { handles_.grab(mouse_, selected(), session_.editor.scene()); }
 
 bool ObjectTools::take_press(const KeyPress& press) {
   const bool typed = press.character != '\0';
@@ -50,52 +50,50 @@ bool ObjectTools::escape() {
 }
 
 void ObjectTools::add(const Addition& what) {
-  Scene scene = session_.editor().scene();
-  const ObjectPaths added = what.add(scene, spot_);
-  session_.editor().edit(std::move(scene), gestures_.begin());
+  ObjectPaths added;
+  session_.editor.change(gestures_.begin(), [&](Scene& scene) { added = what.add(scene, spot_); });
   select_all({added.front()});
-  session_.messages().say("added: " + title_of(session_.editor().scene(), added.front()) + " (add " + what.name + ")");
+  session_.messages.say("added: " + title_of(session_.editor.scene(), added.front()) + " (add " + what.name + ")");
 }
 
 void ObjectTools::duplicate() {
-  Scene scene = session_.editor().scene();
-  const ObjectPaths copies = duplicate_objects(scene, selected());
-  session_.editor().edit(std::move(scene), gestures_.begin());
+  ObjectPaths copies;
+  session_.editor.change(gestures_.begin(), [&](Scene& scene) { copies = duplicate_objects(scene, selected()); });
   select_all(copies);
-  session_.messages().say("duplicated: the copy is in the same place, and is selected");
+  session_.messages.say("duplicated: the copy is in the same place, and is selected");
 }
 
 void ObjectTools::remove() {
-  Scene scene = session_.editor().scene();
-  const std::string title = title_of(scene, panels_.selected);
-  const int count = delete_objects(scene, selected(), session_.editor().document().origin->saved.materials);
-  session_.editor().edit(std::move(scene), gestures_.begin());
+  const std::string title = title_of(session_.editor.scene(), panels_.selected);
+  const auto& kept = session_.editor.document().origin->saved.materials;
+  int count = 0;
+  session_.editor.change(gestures_.begin(), [&](Scene& scene) { count = delete_objects(scene, selected(), kept); });
   select_all({});
-  session_.messages().say("deleted " + (count == 1 ? title : std::to_string(count) + " objects") + "; Ctrl + Z: undo");
+  session_.messages.say("deleted " + (count == 1 ? title : std::to_string(count) + " objects") + "; Ctrl + Z: undo");
 }
 
 void ObjectTools::own_material() {
-  Scene scene = session_.editor().scene();
+  Scene scene = session_.editor.scene();
   for (const ObjectPath& path : selected()) make_single_user(scene, path);
-  if (scene == session_.editor().scene()) return session_.messages().say("nothing else has its material");
-  session_.editor().edit(std::move(scene), gestures_.begin());
+  if (scene == session_.editor.scene()) return session_.messages.say("nothing else has its material");
+  session_.editor.edit(std::move(scene), gestures_.begin());
   pacing_.on_event();
 }
 
-bool ObjectTools::use_mouse(const Mouse& mouse, const Layout& layout, float scale, bool free) {
-  mouse_ = mouse, layout_ = layout, scale_ = scale;
+bool ObjectTools::use_mouse(const Mouse& mouse, float scale, bool free) {
+  mouse_ = mouse, scale_ = scale;
   const bool was_active = handles_.active();
-  const bool taken = handles_.update(mouse, layout, scale, free, selected(), panels_.scene);
-  if (handles_.clicked_through()) click(layout, mouse, PressedButton::left);
+  const bool taken = handles_.update(mouse, panels_.now.layout, scale, free, selected(), panels_.scene);
+  if (handles_.clicked_through()) click(mouse, PressedButton::left);
   if (was_active != handles_.active()) pacing_.on_event();
   return taken;
 }
 
-bool ObjectTools::click(const Layout& layout, const Mouse& mouse, PressedButton button) {
-  if (!layout.image.contains(mouse.x, mouse.y)) return false;
+bool ObjectTools::click(const Mouse& mouse, PressedButton button) {
+  if (!panels_.now.layout.image.contains(mouse.x, mouse.y)) return false;
   const Scene& scene = *panels_.scene;
-  const PictureClick click = click_in(scene, layout.image, mouse.x, mouse.y);
-  const Renderer::Pick pick = session_.renderers().pick(click.x, click.y);
+  const PictureClick click = click_in(scene, mouse.x, mouse.y);
+  const Renderer::Pick pick = session_.renderers.pick(click.x, click.y);
   if (button == PressedButton::left) {
     const bool again = clicks_.again(mouse.x, mouse.y, scale_, scene.camera);
     mouse.shift ? focus_on(pick, mouse.control) : select(click, pick, mouse.control, again);
@@ -126,15 +124,16 @@ void ObjectTools::select(const PictureClick& click, const Renderer::Pick& pick, 
 }
 
 void ObjectTools::focus_on(const Renderer::Pick& pick, bool keep_blur) {
-  if (pick.object.empty() || !(pick.depth > 0)) return session_.messages().say("nothing to focus on there");
+  if (pick.object.empty() || !(pick.depth > 0)) return session_.messages.say("nothing to focus on there");
   panels_.scene.change().camera = focus(panels_.scene->camera, pick.depth, keep_blur);
 }
 
-void ObjectTools::draw(Ui& ui, const Layout& layout) {
+void ObjectTools::draw(Ui& ui) {
+  const Rect& image = panels_.now.layout.image;
   const ObjectPaths all = selected();
-  for (const ObjectPath& path : all) draw_outline(ui, layout.image, outline(*panels_.scene, path));
-  if (!all.empty() && layout.image.width() > 0) {
-    const PictureFrame frame = frame_of(*panels_.scene, layout.image, static_cast<double>(ui.scale));
+  for (const ObjectPath& path : all) draw_outline(ui, image, outline(*panels_.scene, path));
+  if (!all.empty() && image.width() > 0) {
+    const PictureFrame frame = frame_of(*panels_.scene, image, static_cast<double>(ui.scale));
     const auto handles = handles_of(*panels_.scene, frame, all, handles_.origin(*panels_.scene, frame, all));
     draw_handles(frame, handles, handles_.hovered(), handles_.active());
     draw_handle_text(frame, handles_.said());

@@ -35,12 +35,12 @@ class ObjectTools {
 
   /// The mouse in the picture, before the tool that orbits; moves objects of the panels' scene. free: nothing else has
   /// the mouse. Returns whether this has it.
-  bool use_mouse(const Mouse& mouse, const Layout& layout, float scale, bool free);
+  bool use_mouse(const Mouse& mouse, float scale, bool free);
   /// A click of the left button selects or focuses; for one of the right button it returns true: it asks for the menu.
-  bool click(const Layout& layout, const Mouse& mouse, PressedButton button);
+  bool click(const Mouse& mouse, PressedButton button);
 
   /// Draws outline and handles.
-  void draw(Ui& ui, const Layout& layout);
+  void draw(Ui& ui);
   const Mouse& mouse() const { return mouse_; }
   /// Whether something is being moved: edits until its end are one step.
   bool active() const { return handles_.active(); }
@@ -48,7 +48,7 @@ class ObjectTools {
  private:
   void select(const PictureClick& click, const Renderer::Pick& pick, bool more, bool again);
   void focus_on(const Renderer::Pick& pick, bool keep_blur);
-  PictureClick click_in(const Scene& scene, const Rect& image, float x, float y) const;
+  PictureClick click_in(const Scene& scene, float x, float y) const;
   ObjectPaths selected() const { return all_selected(panels_); }
 
   Session& session_;
@@ -57,8 +57,7 @@ class ObjectTools {
   Pacing& pacing_;
   HandleTool handles_;
   ClickPlace clicks_;
-  Mouse mouse_;    ///< as the last drawing found it
-  Layout layout_;  ///< of the last drawing
+  Mouse mouse_;  ///< as the last drawing found it
   float scale_ = 1;
   Spot spot_;  ///< where the next object is added
 };

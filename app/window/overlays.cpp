@@ -4,6 +4,7 @@
 #include "app/text/progress.h"
 #include "app/window/command.h"
 #include "app/window/dialog.h"
+#include "app/window/inspector/drawings.h"
 #include "app/window/system/imgui_compat.h"
 #include "core/render/clean_film.h"
 
@@ -28,9 +29,9 @@ std::string state_of(const Frame* frame, bool paused) {
   return frame->finished ? "finished" : "rendering";
 }
 
-std::string time_left(const Frame& frame, const ErrorCurve& run) {
-  if (run.edit != frame.edit || run.points.empty()) return "?";
-  const double seconds = seconds_left(0.01, run.points.back(), frame.seconds);
+std::string time_left(const Frame& frame, const ErrorCurve* run) {
+  if (!run || run->edit != frame.edit || run->points.empty()) return "?";
+  const double seconds = seconds_left(0.01, run->points.back(), frame.seconds);
   return seconds > 0 ? duration(seconds) : "reached";
 }
 
@@ -48,18 +49,20 @@ std::string missing_in(const Scene& scene) {
 }
 
 /// What is said of the errors: of the clean view first, as that is shown.
-void add_errors(const Frame& frame, const ErrorCurve& run, const StatusState& state, std::vector<StatusCell>& cells) {
+void add_errors(const Context& context, std::vector<StatusCell>& cells) {
+  const Frame& frame = *context.frame;
   if (frame.clean) {
-    cells.push_back({state.is_true ? "true clean" : "clean",
-                     state.is_true ? measured(state.clean_run, frame.edit) : percent(frame.clean->relative_error), 1});
+    cells.push_back({context.is_true ? "true clean" : "clean",
+                     context.is_true ? measured(context.clean_run, frame.edit) : percent(frame.clean->relative_error),
+                     1});
     if (frame.clean->spp == 0)
       cells.push_back({"", "coarse at first", 2, true});
     else if (frame.clean->spp < rough_clean_spp)
       cells.push_back({"", fmt::format("rough below {} spp", rough_clean_spp), 2, true});
   }
   const char* raw = frame.clean ? "raw" : "error";
-  if (state.is_true) cells.push_back({frame.clean ? "true raw" : "true error", measured(&run, frame.edit), 1});
-  cells.push_back({state.is_true ? "estimated" : raw, percent(frame.relative_error), state.is_true ? 3 : 1});
+  if (context.is_true) cells.push_back({frame.clean ? "true raw" : "true error", measured(context.run, frame.edit), 1});
+  cells.push_back({context.is_true ? "estimated" : raw, percent(frame.relative_error), context.is_true ? 3 : 1});
 }
 
 /// How quickly a picture is rendered: in rays, or in samples where a caller's function computes these.
@@ -71,42 +74,42 @@ std::string speed(const Frame& frame, bool has_scene) {
 }
 
 /// Of a picture that another program writes: nothing is rendered, but it may be compared.
-std::vector<StatusCell> cells_of_picture(const Frame* frame, const ErrorCurve& run, const Document& document,
-                                         const StatusState& state) {
-  std::vector<StatusCell> cells{{"", state.arrived, 0}};
+std::vector<StatusCell> cells_of_picture(const Context& context) {
+  const Frame* frame = context.frame.get();
+  std::vector<StatusCell> cells{{"", context.arrived, 0}};
   if (frame) cells.push_back({"", fmt::format("{} x {} pixels", frame->width, frame->height), 3});
-  if (frame && state.is_true) cells.push_back({"true error", measured(&run, frame->edit), 1});
-  cells.push_back({document.origin->title, "", 2});
+  if (frame && context.is_true) cells.push_back({"true error", measured(context.run, frame->edit), 1});
+  cells.push_back({context.origin->title, "", 2});
   return cells;
 }
 
 }  // namespace
 
-std::vector<StatusCell> status_cells(const Frame* frame, const ErrorCurve& run, const Document& document,
-                                     StatusState state) {
-  if (!state.arrived.empty()) return cells_of_picture(frame, run, document, state);
-  std::vector<StatusCell> cells{{state.split ? "B" : "", state_of(frame, state.paused), 0}};
+std::vector<StatusCell> status_cells(const Context& context, const Scene& scene) {
+  if (!context.arrived.empty()) return cells_of_picture(context);
+  const Frame* frame = context.frame.get();
+  std::vector<StatusCell> cells{{context.split ? "B" : "", state_of(frame, context.wanted.paused), 0}};
   if (frame) {
     const std::string spp = frame->spp > 0 ? format_count(frame->spp) : fmt::format("1/{}", frame->step * frame->step);
     cells.push_back({"spp", spp, 1});
-    const std::string missing = state.has_scene ? missing_in(document.scene) : "";
+    const std::string missing = context.has_scene ? missing_in(scene) : "";
     if (missing.empty()) {
-      add_errors(*frame, run, state, cells);
-      cells.push_back({"to 1 %", time_left(*frame, run), 2});
+      add_errors(context, cells);
+      cells.push_back({"to 1 %", time_left(*frame, context.run), 2});
     } else {
       cells.push_back({"", missing, 1, true});
     }
-    cells.push_back({"", speed(*frame, state.has_scene), 3});
-    cells.push_back({state.has_scene ? frame->isa + " x" + std::to_string(frame->lanes) : "",
+    cells.push_back({"", speed(*frame, context.has_scene), 3});
+    cells.push_back({context.has_scene ? frame->isa + " x" + std::to_string(frame->lanes) : "",
                      std::to_string(frame->threads) + (frame->threads == 1 ? " thread" : " threads"), 7});
     cells.push_back({"film", fmt::format("{:.0f} MB", static_cast<double>(frame->film_bytes) / 1e6), 6});
     cells.push_back({"rejected", format_count(frame->rejected), frame->rejected > 0 ? 1 : 5, frame->rejected > 0});
     if (frame->rare_bright_paths) cells.push_back({"not converged", "rare bright paths", 1, true});
     if (frame->cut_throughput > notable_cut) cells.push_back({"cut off", percent(frame->cut_throughput), 1, true});
   }
-  if (state.has_scene)
-    cells.push_back({"", method_of(document.scene.render), 4, document.scene.render.fresnel == FresnelKind::schlick});
-  cells.push_back({document.origin->title, state.has_scene && state.edited ? "edited" : "", 2});
+  if (context.has_scene)
+    cells.push_back({"", method_of(scene.render), 4, scene.render.fresnel == FresnelKind::schlick});
+  cells.push_back({context.origin->title, context.has_scene && context.edited ? "edited" : "", 2});
   return cells;
 }
 
@@ -193,12 +196,8 @@ void draw_outline(Ui& ui, const Rect& image, const std::vector<ImageLine>& lines
   if (lines.empty() || image.width() <= 0) return;
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
   draw->PushClipRect({image.x0, image.y0}, {image.x1, image.y1}, true);
-  const auto at = [&](ImagePoint p) {
-    // Points far outside would overflow the draw list's arithmetic.
-    const auto limited = [](double v) { return static_cast<float>(std::clamp(v, -20.0, 21.0)); };
-    return ImVec2{image.x0 + limited(p.x) * image.width(), image.y0 + limited(p.y) * image.height()};
-  };
-  for (const ImageLine& line : lines) draw->AddLine(at(line.a), at(line.b), shade(palette::blue, 0.95f), 2 * ui.scale);
+  for (const ImageLine& line : lines)
+    draw->AddLine(in_window(image, line.a), in_window(image, line.b), shade(palette::blue, 0.95f), 2 * ui.scale);
   draw->PopClipRect();
 }
 

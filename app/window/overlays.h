@@ -1,10 +1,8 @@
 #pragma once
-#include "app/curves/curve.h"
-#include "app/window/document/document.h"
 #include "app/window/document/message.h"
+#include "app/window/panels/context.h"
 #include "app/window/panels/widgets.h"
 #include "app/window/tools/projection.h"
-#include "core/render/frame.h"
 
 #include <string>
 #include <vector>
@@ -19,19 +17,8 @@ struct StatusCell {
   bool warning = false;
 };
 
-struct StatusState {
-  bool paused = false;
-  bool is_true = false;                   ///< errors are against a reference, not estimated
-  bool split = false;                     ///< the frame is the right half, B
-  bool edited = false;                    ///< the document differs from its file
-  const ErrorCurve* clean_run = nullptr;  ///< how the error of its clean view fell; null: not known
-  std::string arrived{};  ///< how much is there of a picture that another program writes; "": what is shown is rendered
-  bool has_scene = true;  ///< false: samples come from a caller's function
-};
-
-/// The parts for a state of things. frame: what is on the screen, may be null; run: how its error fell.
-std::vector<StatusCell> status_cells(const Frame* frame, const ErrorCurve& run, const Document& document,
-                                     StatusState state);
+/// The parts for a state of things.
+std::vector<StatusCell> status_cells(const Context& context, const Scene& scene);
 
 /// Which cells fit: drops those of the highest rank, last ones first, until the rest is at most `room` wide.
 std::vector<std::size_t> fitting_cells(const std::vector<StatusCell>& cells, const std::vector<float>& widths,

@@ -11,56 +11,49 @@
 namespace tyndall {
 
 void PictureTools::find_path() {
-  inspector_.set_on(true);
-  inspector_.find_path(session_.renderers(), session_.wanted().scene);
+  inspector.set_on(true);
+  inspector.find_path(session_.renderers, session_.wanted.scene);
 }
 
 void PictureTools::store_camera() {
-  const Scene& scene = session_.editor().scene();
-  tyndall::store_camera(panels_.cameras[panels_.model.title], scene.camera, panels_.model.frame.get(), scene.display);
+  const Scene& scene = session_.editor.scene();
+  tyndall::store_camera(panels_.cameras[panels_.now.origin->title], scene.camera, panels_.now.frame.get(),
+                        scene.display);
 }
 
 void PictureTools::look_through_next() {
-  const CameraSlots& slots = panels_.cameras[panels_.model.title];
-  Scene scene = session_.editor().scene();
-  const auto next = next_slot(slots, scene.camera);
-  if (!next) return session_.messages().say("no camera is stored yet");
-  scene.camera = slots[*next].camera;
-  session_.editor().edit(std::move(scene), gestures_.begin());
+  const CameraSlots& slots = panels_.cameras[panels_.now.origin->title];
+  const auto next = next_slot(slots, session_.editor.scene().camera);
+  if (!next) return session_.messages.say("no camera is stored yet");
+  session_.editor.change(gestures_.begin(), [&](Scene& scene) { scene.camera = slots[*next].camera; });
 }
 
 void PictureTools::refine() {
-  Region& part = session_.wanted().refine_first;
-  if (rectangle_.cancel()) return session_.messages().dismiss();
+  Region& part = session_.wanted.refine_first;
+  if (rectangle_.cancel()) return session_.messages.dismiss();
   if (part.width() > 0) {
     part = {};
-    return session_.messages().say("the whole picture is refined again");
+    return session_.messages.say("the whole picture is refined again");
   }
-  if (session_.editor().scene().render.adaptive)
-    return session_.messages().say("adaptive sampling says by itself where samples go: switch it off first");
+  if (session_.editor.scene().render.adaptive)
+    return session_.messages.say("adaptive sampling says by itself where samples go: switch it off first");
   rectangle_.begin();
-  session_.messages().say("drag over the part of the picture to be refined first");
+  session_.messages.say("drag over the part of the picture to be refined first");
 }
 
 bool PictureTools::escape() {
   pacing_.on_event();
-  if (rectangle_.cancel()) return session_.messages().dismiss(), true;
-  if (inspector_.drop_path()) return true;
-  if (!inspector_.on()) return false;
-  inspector_.set_on(false);
+  if (rectangle_.cancel()) return session_.messages.dismiss(), true;
+  if (inspector.drop_path()) return true;
+  if (!inspector.on()) return false;
+  inspector.set_on(false);
   return true;
 }
 
-void PictureTools::place(Layout& layout, float dots) {
-  const Frame* frame = panels_.model.frame.get();
-  const Scene& scene = session_.editor().scene();
-  layout.image = zoom_.place(layout.area, layout.image, frame ? frame->width : scene.width,
-                             frame ? frame->height : scene.height, dots);
-}
-
 /// Alt + wheel and Alt + drag, and without Alt where there is no camera to move.
-bool PictureTools::drag_picture(const Mouse& mouse, const Layout& layout, bool free) {
-  const bool over = free && (mouse.alt || session_.shows_picture()) && layout.area.contains(mouse.x, mouse.y);
+bool PictureTools::drag_picture(const Mouse& mouse, bool free) {
+  const bool over =
+      free && (mouse.alt || session_.shows_picture()) && panels_.now.layout.area.contains(mouse.x, mouse.y);
   if (over && mouse.wheel != 0) zoom_.enlarge(std::pow(1.25f, mouse.wheel), mouse.x, mouse.y);
   for (int button = 0; button < 3 && over && button_ < 0; ++button)
     if (mouse.clicked[button]) button_ = button;
@@ -70,28 +63,29 @@ bool PictureTools::drag_picture(const Mouse& mouse, const Layout& layout, bool f
   return true;
 }
 
-bool PictureTools::use_mouse(const Mouse& mouse, const Layout& layout, bool free) {
+bool PictureTools::use_mouse(const Mouse& mouse, bool free) {
   mouse_ = mouse;
-  const Frame* frame = panels_.model.frame.get();
-  const bool over = frame && !mouse.taken && overlap(layout.image, layout.area).contains(mouse.x, mouse.y);
-  inspector_.point_at(over ? std::optional(click_at(layout.image, mouse.x, mouse.y, frame->width, frame->height))
-                           : std::nullopt);
-  if (drag_picture(mouse, layout, free)) {
+  const Rect& image = panels_.now.layout.image;
+  const Frame* frame = panels_.now.frame.get();
+  const bool over = frame && !mouse.taken && panels_.now.visible.contains(mouse.x, mouse.y);
+  inspector.point_at(over ? std::optional(click_at(image, mouse.x, mouse.y, frame->width, frame->height))
+                          : std::nullopt);
+  if (drag_picture(mouse, free)) {
     if (mouse.any_down() || mouse.wheel != 0) pacing_.on_event();
     return true;
   }
   if (!frame || !rectangle_.active()) return false;
-  const auto drawn = rectangle_.update(mouse, layout.image, free, frame->width, frame->height);
+  const auto drawn = rectangle_.update(mouse, image, free, frame->width, frame->height);
   if (drawn) {
-    session_.wanted().refine_first = *drawn;
+    session_.wanted.refine_first = *drawn;
     pacing_.on_event();
   }
   return true;
 }
 
 std::string PictureTools::said_of_rectangle() const {
-  const Frame* frame = panels_.model.frame.get();
-  if (session_.editor().scene().render.adaptive) return "not refined first: adaptive sampling is on";
+  const Frame* frame = panels_.now.frame.get();
+  if (session_.editor.scene().render.adaptive) return "not refined first: adaptive sampling is on";
   if (!frame || frame->max_spp <= frame->spp) return "refined first";
   return fmt::format("refined first: {} spp", format_count(frame->max_spp));
 }
@@ -111,17 +105,16 @@ void PictureTools::draw_zoom(Ui& ui, const Rect& visible) const {
   if (ui.log) ui.log->widget("zoom", box, text);
 }
 
-void PictureTools::draw(Ui& ui, const Layout& layout) {
-  const Rect visible = overlap(layout.image, layout.area);
-  const Frame* frame = panels_.model.frame.get();
+void PictureTools::draw(Ui& ui) {
+  const Context& context = panels_.now;
+  const Rect &image = context.layout.image, &visible = context.visible;
+  const Frame* frame = context.frame.get();
   if (visible.width() <= 0 || visible.height() <= 0 || !frame) return;
-  rectangle_.draw(ui, layout.image, visible, session_.wanted().refine_first, frame->width, frame->height,
-                  said_of_rectangle());
-  const bool as_chosen = frame->view == view_entry(panels_.model.view).view;
-  if (as_chosen) draw_legend(ui, visible, legend_of(panels_.model.view, frame->white));
+  rectangle_.draw(ui, image, visible, session_.wanted.refine_first, frame->width, frame->height, said_of_rectangle());
+  const bool as_chosen = frame->view == view_entry(context.view).view;
+  if (as_chosen) draw_legend(ui, visible, legend_of(context.view, frame->white));
   draw_zoom(ui, visible);
-  inspector_.draw(ui, {frame, *panels_.scene, session_.wanted().scene.get(), layout.image, visible},
-                  session_.renderers());
+  inspector.draw(ui, context, *panels_.scene, session_.renderers);
 }
 
 }  // namespace tyndall

@@ -17,10 +17,9 @@ class PictureTools {
  public:
   /// The arguments belong to the window and must outlive this. wake: see JobQueue.
   PictureTools(Session& session, PanelState& panels, Gestures& gestures, Pacing& pacing, std::function<void()> wake)
-      : session_(session), panels_(panels), gestures_(gestures), pacing_(pacing), inspector_(std::move(wake)) {}
+      : inspector(std::move(wake)), session_(session), panels_(panels), gestures_(gestures), pacing_(pacing) {}
 
   void toggle_actual_size() { zoom_.toggle(mouse_.x, mouse_.y); }
-  void inspect() { inspector_.set_on(!inspector_.on()); }
   void find_path();          ///< why the pixel under the cursor is noisy
   void refine();             ///< begins to draw a rectangle, or gives one up
   void store_camera();       ///< puts the camera aside
@@ -28,24 +27,22 @@ class PictureTools {
   /// Ends the innermost of what is shown. Returns whether there was anything.
   bool escape();
 
-  /// Puts the picture where the user has moved it. layout.image: where all of it is shown; dots: pixels of the screen
-  /// in a window unit.
-  void place(Layout& layout, float dots);
+  /// Where the user has moved the picture to. layout.image: where all of it is shown; width, height: in pixels; dots:
+  /// pixels of the screen in a window unit.
+  Rect place(const Layout& layout, int width, int height, float dots) {
+    return zoom_.place(layout.area, layout.image, width, height, dots);
+  }
   /// Whether pixels of the picture are shown as squares.
   bool shows_pixels() const { return !zoom_.fits() && zoom_.dots_a_pixel() >= 1; }
   /// The mouse, before all other tools. free: nothing else has it. Returns whether this has it.
-  bool use_mouse(const Mouse& mouse, const Layout& layout, bool free);
-  /// Takes what was found in the background. Whether there was anything.
-  bool collect() { return inspector_.collect(session_.renderers()); }
-  /// The pixel of which reports are wanted, see RenderRequest.
-  std::optional<std::pair<int, int>> watched_pixel() const { return inspector_.watched_pixel(); }
-  bool at_rest() const { return !inspector_.busy(); }
-
+  bool use_mouse(const Mouse& mouse, bool free);
   /// Draws what is known over the picture.
-  void draw(Ui& ui, const Layout& layout);
+  void draw(Ui& ui);
+
+  Inspector inspector;
 
  private:
-  bool drag_picture(const Mouse& mouse, const Layout& layout, bool free);
+  bool drag_picture(const Mouse& mouse, bool free);
   std::string said_of_rectangle() const;
   void draw_zoom(Ui& ui, const Rect& visible) const;
 
@@ -54,7 +51,6 @@ class PictureTools {
   Gestures& gestures_;
   Pacing& pacing_;
   ImageZoom zoom_;
-  Inspector inspector_;
   RectangleTool rectangle_;
   Mouse mouse_;      ///< as the last drawing found it
   int button_ = -1;  ///< that drags the picture; -1: none

@@ -43,7 +43,8 @@ int MainWindow::run() {
 bool MainWindow::step() {
   if (commands_.closed() || (signals_ && signals_->received() != 0)) return false;
   // Asked first: a picture that comes later is not missed.
-  const bool at_rest = log_ && session_.at_rest() && picture_tools_.at_rest() && gallery_.idle() && strip_.at_rest();
+  const bool at_rest =
+      log_ && session_.at_rest() && !picture_tools_.inspector.busy() && gallery_.thumbnails.idle() && strip_.at_rest();
   const double wait = waiting_time(clock_seconds());
   if (at_rest && wait >= 1) log_->rest();
   platform_->wait(wait);
@@ -51,13 +52,14 @@ bool MainWindow::step() {
   if (platform_->take_close_wish()) commands_.ask_to_close();
   const InputEvents events = platform_->take_events();
   if (input_since_ <= 0) input_since_ = events.first;
-  const bool looked = picture_tools_.collect(), came = gallery_.collect(), varied = strip_.collect();
+  const bool looked = picture_tools_.inspector.collect(session_.renderers), came = gallery_.collect(),
+             varied = strip_.collect();
   if (events.any || session_.collect() || looked || came || varied) pacing_.on_event();
   for (const KeyPress& press : events.keys)
     if (log_ && press.character == '\0') log_->line("key " + std::to_string(press.key));
   commands_.take(events);
   const double now = clock_seconds();
-  if (session_.collect_errors()) pacing_.wake_at(now);
+  if (session_.accuracy.collect()) pacing_.wake_at(now);
   const bool due = picture_due(now), again = std::exchange(takes_in_again_, false);
   if (!due && !again) send(now);
   if (due || again || (pacing_.wait(now) <= 0 && !awaits_picture(now))) draw(now);
@@ -67,7 +69,7 @@ bool MainWindow::step() {
 /// Says what becomes of edits that no file has, which there are where a signal ends the window. Returns the exit code.
 int MainWindow::end_of_signal() {
   const int signal = signals_ ? signals_->received() : 0;
-  session_.wanted().paused = true;
+  session_.wanted.paused = true;
   session_.send(clock_seconds(), false);
   const std::string edits = session_.flush_edits();
   if (!edits.empty()) complain(printable(edits, 2000));

@@ -23,8 +23,8 @@ struct PictureSize {
 };
 
 /// All that a window does apart from drawing and input. Its parts do the work: the editor holds the document, the pair
-/// of renderers makes pictures of it, the accuracy measures them. The session passes on what concerns several of them.
-/// For the main thread; never waits for rendering or for files.
+/// of renderers makes pictures of it, the accuracy measures them. The session does what concerns several of them. For
+/// the main thread; never waits for rendering or for files.
 class Session {
  public:
   /// wake: called from any thread when collect() has something to do; on_frame: from a renderer's thread, after each
@@ -33,38 +33,18 @@ class Session {
   /// Finishes what is being saved.
   ~Session();
 
-  Editor& editor() { return editor_; }
-  const Editor& editor() const { return editor_; }
-  References& references() { return references_; }
-  MessageLine& messages() { return messages_; }
-  const MessageLine& messages() const { return messages_; }
-  RendererPair& renderers() { return renderers_; }
-  const RendererPair& renderers() const { return renderers_; }
-  const LiveAccuracy& accuracy() const { return accuracy_; }
-
   /// Whether what is shown is a picture that another program writes, without a scene that could be edited.
-  bool shows_picture() const { return editor_.document().origin->is_picture; }
+  bool shows_picture() const { return editor.document().origin->is_picture; }
   /// Whether what is shown is rendered: a scene, or a picture whose samples a caller's function computes.
   bool renders() const { return !shows_picture() || function_ != nullptr; }
   /// How much of an arriving picture is there, a few words; "": none is shown.
   std::string arrived() const;
 
-  /// What the renderers are asked for, in a split view of the right half. Goes to them with the next send(); all parts
-  /// but the scene, its film and `clean` can be changed here.
-  RenderRequest& wanted() { return wanted_; }
-  const RenderRequest& wanted() const { return wanted_; }
   /// Asks the renderers for what is wanted now, in each drawing. The edited scene becomes part of that when its time
   /// has come, see SendTimer, if scene_too. Returns whether it did.
   bool send(double now, bool scene_too = true);
-  /// When send() will not wait any longer for a picture; infinite: nothing is to be sent.
-  double send_time() const { return timer_.latest(); }
-  /// When the input came that the next edits are due to, in clock seconds; latencies are counted from then on. 0: they
-  /// are not due to input.
-  void set_input_time(double time) { input_time_ = time; }
   /// A frame is about to be drawn: for the chart.
   void shown(Half half, const std::shared_ptr<const Frame>& frame);
-  /// Takes what was measured in the background. Whether it is to be shown before the next picture comes.
-  bool collect_errors() { return accuracy_.collect(); }
   /// Takes what the background has done, a changed file, a problem of the renderer. Whether anything came.
   bool collect();
   /// Whether nothing will change until something happens: the pictures are finished, and nothing is being read, written
@@ -87,23 +67,17 @@ class Session {
   const Document* unsaved() const;
   /// The user does not want the edits: they are not kept any longer.
   void discard_edits();
-  /// Whether something is still to be written, and how much: a snapshot counts once.
-  bool writes_files() const { return !saving_.idle(); }
-  std::size_t jobs_of_writing() const { return saving_.open(); }
-
   /// Pixels of the picture, in place of those that the scene's file asks for; nothing: as the file asks. What is saved
   /// keeps the file's.
   void set_picture_size(std::optional<PictureSize> size);
   const std::optional<PictureSize>& picture_size() const { return picture_size_; }
 
-  /// error: a picture of differences instead of the view.
-  void set_view(View view, ErrorView error);
-  /// What is remembered from one start to the next. Changes are written in the background.
-  const Preferences& preferences() const { return preferences_; }
-  void set_preferences(const Preferences& preferences);
-  /// Shows pictures filtered, or as they are: one of the preferences.
-  void set_clean(bool clean);
-  bool clean() const { return preferences_.clean && !shows_picture(); }
+  /// number: see view_entry().
+  void show_view(int number);
+  int view() const { return view_; }
+  /// Writes the preferences in the background, if they were changed.
+  void keep_preferences();
+  bool clean() const { return preferences.clean && !shows_picture(); }
   /// The picture as it is on the left, the clean view on the right, while the clean view is on and nothing else is
   /// compared.
   void set_clean_beside_raw(bool beside);
@@ -143,24 +117,18 @@ class Session {
   void read_preferences_file();
   void pause_at_limits(const Frame& frame);
 
-  double input_time_ = 0;
-  std::shared_ptr<Film> opened_film_;  ///< of the scene that was opened, until it goes to the renderer
-  RenderRequest wanted_;
+  std::shared_ptr<Film> opened_film_;        ///< of the scene that was opened, until it goes to the renderer
   std::shared_ptr<const Scene> kept_scene_;  ///< of the left half of a split view; null: there is none
   UiLog* log_;
   std::string isa_;  ///< "": the best
-  MessageLine messages_;
-  Preferences preferences_;
   PauseLimits limits_;
-  std::uint64_t limited_edit_ = 0;  ///< the picture of this edit was paused by a limit; 0: none
-  LiveAccuracy accuracy_;
-  RendererPair renderers_;
-  SendTimer timer_;
+  std::uint64_t limited_edit_ = 0;                     ///< the picture of this edit was paused by a limit; 0: none
   std::shared_ptr<const RenderProblem> told_problem_;  ///< the newest one
   std::atomic<bool> closing_ = false;
   bool beside_ = false;  ///< the clean view beside the raw one
-  Editor editor_;
+  int view_ = 0;
   std::optional<PictureSize> picture_size_;
+  Preferences kept_preferences_;                         ///< as the file has them
   std::uint64_t kept_changes_ = 0;                       ///< Editor::changes() when the edits were kept last
   bool discarded_ = false;                               ///< edits are not kept any more
   Keeping::Kind told_keeping_ = Keeping::Kind::nothing;  ///< what the user was told last
@@ -169,9 +137,28 @@ class Session {
   Arrival arrival_;                            ///< of the picture, as it is known here
   std::shared_ptr<WatchedFunction> function_;  ///< null: none was given
   std::string told_function_problem_;          ///< what the user was told of it
-  References references_;
+
+ public:
+  /// What the renderers are asked for, in a split view of the right half. Goes to them with the next send(); all parts
+  /// but the scene, its film and `clean` can be changed here.
+  RenderRequest wanted;
+  /// When the input came that the next edits are due to, in clock seconds; latencies are counted from then on. 0: they
+  /// are not due to input.
+  double input_time = 0;
+  SendTimer timer;
+  MessageLine messages;
+  Preferences preferences;  ///< see keep_preferences()
+  LiveAccuracy accuracy;
+  RendererPair renderers;
+  Editor editor;
+  References references;
+
+ private:
   NumberedFiles snapshots_, charts_;
-  JobQueue loading_, saving_;  // last: their jobs use the others
+  JobQueue loading_;
+
+ public:
+  JobQueue saving;  ///< what is being written: a snapshot is one job. Last: its jobs use the others
 };
 
 }  // namespace tyndall

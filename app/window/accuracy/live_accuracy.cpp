@@ -7,42 +7,77 @@ namespace {
 
 constexpr const char* clean_suffix = " + clean";
 
+std::optional<ReferenceFit> fit_to(const std::shared_ptr<const Reference>& reference, const ComparedHalf& half) {
+  return reference ? std::optional(fit_of(*reference, *half.scene)) : std::nullopt;
+}
+
 }  // namespace
 
-void ComparedPictures::set_reference(std::shared_ptr<const Reference> reference) {
+LiveAccuracy::LiveAccuracy(const std::function<void()>& on_result, std::function<double()> clock)
+    : clock_(std::move(clock)),
+      measured_{{{ProcessorBudget(0.003)},
+                 {ProcessorBudget(0.003)},
+                 {ProcessorBudget(0.002)},
+                 {ProcessorBudget(0.01)},
+                 {ProcessorBudget(0.1)},
+                 {ProcessorBudget(0.008)}}},
+      quick_{JobQueue(on_result)},
+      slow_{JobQueue(on_result)} {}
+
+void LiveAccuracy::set_reference(std::shared_ptr<const Reference> reference) {
   reference_ = std::move(reference);
-  for (ComparedHalf& one : halves_) one.truth.clear(), one.clean_truth.clear(), judge(one);
+  for (ComparedHalf& one : halves_) one.truth.clear(), one.clean_truth.clear(), one.fit = fit_to(reference_, one);
+  forget_results();
+  consider();
 }
 
-void ComparedPictures::judge(ComparedHalf& half) const {
-  half.fit.reset();
-  if (reference_) half.fit = fit_of(*reference_, *half.scene);
-}
-
-bool ComparedPictures::set_scene(Half which, std::shared_ptr<const Scene> scene) {
-  ComparedHalf& one = changed(which);
-  const auto before = one.fit;
+void LiveAccuracy::set_scene(Half which, std::shared_ptr<const Scene> scene) {
+  ComparedHalf& one = half(which);
   one.scene = std::move(scene);
-  judge(one);
   one.newest = false;
-  return one.fit != before;
+  renew_maps();
+  const auto before = std::exchange(one.fit, fit_to(reference_, one));
+  if (one.fit != before) ++generation_, pair_ = {};
 }
 
-bool ComparedPictures::set_view(ErrorView view) { return std::exchange(view_, view) != view; }
-
-bool ComparedPictures::set_split(bool split) {
-  if (split == split_) return false;
-  split_ = split;
-  changed(Half::kept) = {};
-  return true;
+void LiveAccuracy::set_view(ErrorView view) {
+  if (std::exchange(view_, view) == view) return;
+  map_.reset();
+  renew_maps();
+  for (const Measurement what : {Measurement::map, Measurement::flip_map}) measured(what).newest = {};
+  consider();
 }
 
-void ComparedPictures::forget_curves() {
+/// The user waits for a map after each edit, so its fraction of the processors does not hold it back.
+void LiveAccuracy::renew_maps() {
+  for (const Measurement what : {Measurement::map, Measurement::flip_map}) measured(what).budget.renew();
+}
+
+void LiveAccuracy::set_split(bool split) {
+  if (std::exchange(split_, split) == split) return;
+  half(Half::kept) = {};
+  forget_results();
+}
+
+void LiveAccuracy::clear() {
   for (ComparedHalf& one : halves_) one.estimated = one.truth = one.clean_estimated = one.clean_truth = {};
+  forget_results();
 }
 
-void ComparedPictures::shown(Half which, std::shared_ptr<const Frame> frame, const std::string& method, bool newest) {
-  ComparedHalf& one = changed(which);
+/// Drops all results, because they were measured for another pair of pictures. The curves stay.
+void LiveAccuracy::forget_results() {
+  ++generation_;
+  pair_ = {};
+  map_.reset();
+  for (Measured& one : measured_) one.budget.renew(), one.newest = {}, one.seconds = 0;
+}
+
+void LiveAccuracy::set_resting(bool resting) {
+  if (std::exchange(resting_, resting) != resting) consider();
+}
+
+void LiveAccuracy::shown(Half which, std::shared_ptr<const Frame> frame, const std::string& method, bool newest) {
+  ComparedHalf& one = half(which);
   const double error = frame->relative_error, rel_mse = error * error;
   one.estimated.add(frame->edit, method, {frame->seconds, rel_mse, frame->spp, rel_mse});
   if (const auto& clean = frame->clean; clean && clean->spp > 0) {
@@ -52,36 +87,28 @@ void ComparedPictures::shown(Half which, std::shared_ptr<const Frame> frame, con
   one.frame = std::move(frame);
   one.method = method;
   one.newest = newest;
+  consider();
 }
 
-void ComparedPictures::add_truth(Half which, const Frame& frame, const std::string& method, double rel_mse) {
-  const double noise = frame.relative_error * frame.relative_error;
-  changed(which).truth.add(frame.edit, method, {frame.seconds, rel_mse, frame.spp, noise});
-}
-
-void ComparedPictures::add_clean_truth(Half which, const Frame& frame, const std::string& method, double rel_mse) {
-  changed(which).clean_truth.add(frame.edit, method + clean_suffix,
-                                 {frame.clean->seconds, rel_mse, frame.clean->spp, 0});
-}
-
-const Convergence& ComparedPictures::curves(Half which, Kind kind) const {
+const Convergence& LiveAccuracy::curves(Half which, Kind kind) const {
   const ComparedHalf& one = half(which);
   if (kind == Kind::clean) return is_true() ? one.clean_truth : one.clean_estimated;
   return is_true() ? one.truth : one.estimated;
 }
 
-bool ComparedPictures::is_true() const {
+bool LiveAccuracy::is_true() const {
   const auto fit = half(Half::current).fit;
   return fit == ReferenceFit::fits || fit == ReferenceFit::same_samples;
 }
 
-std::vector<NamedCurve> ComparedPictures::named_curves() const {
+std::vector<NamedCurve> LiveAccuracy::named_curves() const {
   return tyndall::named_curves(
       curves(Half::current), split_ ? &curves(Half::kept) : nullptr,
       half(Half::current).frame && half(Half::current).frame->clean ? &curves(Half::current, Kind::clean) : nullptr);
 }
 
-bool ComparedPictures::wanted(Measurement what) const {
+/// Whether there is a use for this measurement.
+bool LiveAccuracy::wanted(Measurement what) const {
   const bool newest = half(Half::current).newest, kept_newest = half(Half::kept).newest;
   if (what == Measurement::map) return view_ == ErrorView::error;
   if (what == Measurement::flip_map) return view_ == ErrorView::flip;
@@ -91,7 +118,7 @@ bool ComparedPictures::wanted(Measurement what) const {
   return newest && (split_ ? kept_newest : is_true());  // Measurement::flip
 }
 
-ComparisonOrder ComparedPictures::order_of(Measurement what) const {
+ComparisonOrder LiveAccuracy::order_of(Measurement what) const {
   const bool between_halves = split_ && !is_truth(what);
   const ComparedHalf& measured = half(half_of(what));
   ComparisonOrder order;
@@ -111,68 +138,6 @@ ComparisonOrder ComparedPictures::order_of(Measurement what) const {
   return order;
 }
 
-LiveAccuracy::LiveAccuracy(const std::function<void()>& on_result, std::function<double()> clock)
-    : clock_(std::move(clock)),
-      measured_{{{ProcessorBudget(0.003)},
-                 {ProcessorBudget(0.003)},
-                 {ProcessorBudget(0.002)},
-                 {ProcessorBudget(0.01)},
-                 {ProcessorBudget(0.1)},
-                 {ProcessorBudget(0.008)}}},
-      quick_{JobQueue(on_result)},
-      slow_{JobQueue(on_result)} {}
-
-void LiveAccuracy::set_reference(std::shared_ptr<const Reference> reference) {
-  pictures_.set_reference(std::move(reference));
-  forget_results();
-  consider();
-}
-
-void LiveAccuracy::set_scene(Half half, std::shared_ptr<const Scene> scene) {
-  const bool fits_otherwise = pictures_.set_scene(half, std::move(scene));
-  renew_maps();
-  if (fits_otherwise) ++generation_, pair_ = {};
-}
-
-void LiveAccuracy::set_view(ErrorView view) {
-  if (!pictures_.set_view(view)) return;
-  map_.reset();
-  renew_maps();
-  for (const Measurement what : {Measurement::map, Measurement::flip_map}) measured(what).newest = {};
-  consider();
-}
-
-/// The user waits for a map after each edit, so its fraction of the processors does not hold it back.
-void LiveAccuracy::renew_maps() {
-  for (const Measurement what : {Measurement::map, Measurement::flip_map}) measured(what).budget.renew();
-}
-
-void LiveAccuracy::set_split(bool split) {
-  if (pictures_.set_split(split)) forget_results();
-}
-
-void LiveAccuracy::clear() {
-  pictures_.forget_curves();
-  forget_results();
-}
-
-/// Drops all results, because they were measured for another pair of pictures. The curves stay.
-void LiveAccuracy::forget_results() {
-  ++generation_;
-  pair_ = {};
-  map_.reset();
-  for (Measured& one : measured_) one.budget.renew(), one.newest = {}, one.seconds = 0;
-}
-
-void LiveAccuracy::set_resting(bool resting) {
-  if (std::exchange(resting_, resting) != resting) consider();
-}
-
-void LiveAccuracy::shown(Half half, std::shared_ptr<const Frame> frame, const std::string& method, bool newest) {
-  pictures_.shown(half, std::move(frame), method, newest);
-  consider();
-}
-
 bool LiveAccuracy::collect() {
   quick_.jobs.collect();
   slow_.jobs.collect();
@@ -180,20 +145,16 @@ bool LiveAccuracy::collect() {
 }
 
 bool LiveAccuracy::due(Measurement what, double now) const {
-  if (!pictures_.wanted(what)) return false;
-  const ComparisonOrder order = pictures_.order_of(what);
+  if (!wanted(what)) return false;
+  const ComparisonOrder order = order_of(what);
   if (!can_compare(order)) return false;
   if (id_of(order) == measured(what).newest) return false;
   if (resting_) return true;
   // FLIP takes a second and says little about the noise of the first samples: it waits for 16.
   if (what == Measurement::flip && (order.frame->spp < 16 || !has_grown(what, order, 2))) return false;
-  return measured(what).budget.due(now) || is_early(what, order);
-}
-
-/// Whether a point is measured although measuring has used up its fraction of the processors. At the start of a curve
-/// the error falls fast, so points are wanted close to each other; over the first second they take little time in all.
-bool LiveAccuracy::is_early(Measurement what, const ComparisonOrder& order) const {
-  return is_truth(what) && has_grown(what, order, 1.25);
+  // At the start of a curve the error falls fast, so points are wanted close to each other, although measuring has used
+  // up its fraction of the processors; over the first second they take little time in all.
+  return measured(what).budget.due(now) || (is_truth(what) && has_grown(what, order, 1.25));
 }
 
 /// Whether the picture has rendered `times` times as long as when this was measured last, or has begun anew.
@@ -219,12 +180,12 @@ void LiveAccuracy::consider() {
 }
 
 void LiveAccuracy::start(Measurement what, double now) {
-  const ComparisonOrder order = pictures_.order_of(what);
+  const ComparisonOrder order = order_of(what);
   Worker& by = worker(what);
   by.busy = true;
   measured(what).newest = id_of(order);
   measured(what).seconds = order.frame->seconds;
-  const std::string& method = pictures_.half(half_of(what)).method;
+  const std::string& method = half(half_of(what)).method;
   by.jobs.run([this, what, order, now, &by, method, generation = generation_] {
     std::optional<ComparisonResult> found;
     try {
@@ -246,13 +207,17 @@ void LiveAccuracy::take(Measurement what, const ComparisonOrder& order, const st
   news_ = news_ || resting_ || !result.map.empty();
   const Frame& frame = *order.frame;
   if (is_truth(what)) {
-    pictures_.add_truth(half_of(what), frame, method, result.rel_mse);
-    if (result.clean_rel_mse) pictures_.add_clean_truth(half_of(what), frame, method, *result.clean_rel_mse);
-    if (pictures_.split()) return;  // this was no comparison of the two halves
+    ComparedHalf& one = half(half_of(what));
+    const double noise = frame.relative_error * frame.relative_error;
+    one.truth.add(frame.edit, method, {frame.seconds, result.rel_mse, frame.spp, noise});
+    if (result.clean_rel_mse)
+      one.clean_truth.add(frame.edit, method + clean_suffix,
+                          {frame.clean->seconds, *result.clean_rel_mse, frame.clean->spp, 0});
+    if (split_) return;  // this was no comparison of the two halves
   }
   if (!is_slow(what)) pair_.rel_mse = result.rel_mse;
   if (result.flip) pair_.flip = result.flip, pair_.flip_spp = frame.spp;
-  if (!result.map.empty() && order.map == pictures_.view())
+  if (!result.map.empty() && order.map == view_)
     map_ = std::make_shared<const ErrorMap>(ErrorMap{frame.width, frame.height, order.map, std::move(result.map)});
 }
 

@@ -38,46 +38,6 @@ struct ComparedHalf {
   bool newest = false;                 ///< the frame is of `scene`, not of an earlier one
 };
 
-/// Follows what is on the screen, and tells what can be measured there. It measures nothing itself and has no clock.
-class ComparedPictures {
- public:
-  void set_reference(std::shared_ptr<const Reference> reference);
-  const std::shared_ptr<const Reference>& reference() const { return reference_; }
-  /// Returns whether the reference fits the new scene in another way than the one before.
-  bool set_scene(Half half, std::shared_ptr<const Scene> scene);
-  /// Returns whether that is another view.
-  bool set_view(ErrorView view);
-  ErrorView view() const { return view_; }
-  /// Begins or ends a split view; the left half begins without curves. Returns whether that changes anything.
-  bool set_split(bool split);
-  bool split() const { return split_; }
-  void forget_curves();
-  void shown(Half half, std::shared_ptr<const Frame> frame, const std::string& method, bool newest);
-  /// Adds a measured point to a half's curve.
-  void add_truth(Half half, const Frame& frame, const std::string& method, double rel_mse);
-  /// The same of the frame's clean view.
-  void add_clean_truth(Half half, const Frame& frame, const std::string& method, double rel_mse);
-
-  const ComparedHalf& half(Half which) const { return halves_[static_cast<std::size_t>(which)]; }
-  /// Whether errors are measured against a reference of this scene; else they are estimates.
-  bool is_true() const;
-  const Convergence& curves(Half which, Kind kind = Kind::raw) const;
-  std::vector<NamedCurve> named_curves() const;
-
-  /// Whether there is a use for this measurement.
-  bool wanted(Measurement what) const;
-  ComparisonOrder order_of(Measurement what) const;
-
- private:
-  void judge(ComparedHalf& half) const;
-  ComparedHalf& changed(Half which) { return halves_[static_cast<std::size_t>(which)]; }
-
-  std::shared_ptr<const Reference> reference_;
-  ErrorView view_ = ErrorView::none;
-  bool split_ = false;
-  std::array<ComparedHalf, 2> halves_;
-};
-
 /// A picture of differences, 4 floats a pixel.
 struct ErrorMap {
   int width = 0, height = 0;
@@ -101,16 +61,15 @@ class LiveAccuracy {
   explicit LiveAccuracy(const std::function<void()>& on_result, std::function<double()> clock = clock_seconds);
 
   void set_reference(std::shared_ptr<const Reference> reference);  ///< null: none
-  const std::shared_ptr<const Reference>& reference() const { return pictures_.reference(); }
+  const std::shared_ptr<const Reference>& reference() const { return reference_; }
   /// The scene that a half renders from now on.
   void set_scene(Half half, std::shared_ptr<const Scene> scene);
-  void set_scene(Half half, Scene scene) { set_scene(half, std::make_shared<const Scene>(std::move(scene))); }
   /// Whether the reference is of that scene; nothing without a reference.
-  std::optional<ReferenceFit> fit(Half half) const { return pictures_.half(half).fit; }
+  std::optional<ReferenceFit> fit(Half which) const { return half(which).fit; }
   void set_view(ErrorView view);
-  /// Begins or ends a split view. The left half's curves end with it.
+  /// Begins or ends a split view. The left half's curves begin and end with it.
   void set_split(bool split);
-  bool split() const { return pictures_.split(); }
+  bool split() const { return split_; }
   /// Another scene was opened: its curves do not belong to those before.
   void clear();
   /// How many threads render, in all.
@@ -126,11 +85,11 @@ class LiveAccuracy {
   /// Whether something is being measured, or was measured and not collected yet.
   bool busy() const { return quick_.busy || slow_.busy; }
 
-  /// Whether the curves are errors against the reference; else they are estimates.
-  bool is_true() const { return pictures_.is_true(); }
-  const Convergence& curves(Half half, Kind kind = Kind::raw) const { return pictures_.curves(half, kind); }
+  /// Whether the curves are errors against a reference of this scene; else they are estimates.
+  bool is_true() const;
+  const Convergence& curves(Half half, Kind kind = Kind::raw) const;
   /// All curves of the chart, under their names.
-  std::vector<NamedCurve> named_curves() const { return pictures_.named_curves(); }
+  std::vector<NamedCurve> named_curves() const;
   const PairErrors& pair() const { return pair_; }
   /// Of the chosen view; null: there is none yet.
   std::shared_ptr<const ErrorMap> map() const { return map_; }
@@ -152,22 +111,27 @@ class LiveAccuracy {
     bool busy = false;
   };
 
+  bool wanted(Measurement what) const;
+  ComparisonOrder order_of(Measurement what) const;
   void consider();
   bool due(Measurement what, double now) const;
-  bool is_early(Measurement what, const ComparisonOrder& order) const;
   bool has_grown(Measurement what, const ComparisonOrder& order, double times) const;
   static PairId id_of(const ComparisonOrder& order);
   void start(Measurement what, double now);
   void take(Measurement what, const ComparisonOrder& order, const std::string& method, ComparisonResult result);
   void renew_maps();
   void forget_results();
+  ComparedHalf& half(Half which) { return halves_[static_cast<std::size_t>(which)]; }
+  const ComparedHalf& half(Half which) const { return halves_[static_cast<std::size_t>(which)]; }
   Measured& measured(Measurement what) { return measured_[static_cast<std::size_t>(what)]; }
   const Measured& measured(Measurement what) const { return measured_[static_cast<std::size_t>(what)]; }
   Worker& worker(Measurement what) { return is_slow(what) ? slow_ : quick_; }
 
   std::function<double()> clock_;
-  ComparedPictures pictures_;
-  bool resting_ = false;
+  std::shared_ptr<const Reference> reference_;
+  ErrorView view_ = ErrorView::none;
+  bool split_ = false, resting_ = false;
+  std::array<ComparedHalf, 2> halves_;
   int threads_ = 1;
   std::array<Measured, measurement_count> measured_;
   std::uint64_t generation_ = 0;  ///< results of earlier ones are dropped

@@ -52,6 +52,13 @@ class Editor {
   /// same number that follow each other are one step to undo; 0: none. pointer: of the value in which it differs, by
   /// which no scenes need to be compared; "": it may differ in anything.
   void edit(Scene scene, std::uint64_t gesture, const std::string& pointer = "");
+  /// The same of a change to a copy of the scene, as a step to undo of its own or of a gesture.
+  template <class F>
+  void change(std::uint64_t gesture, const F& change_of) {
+    Scene next = scene();
+    change_of(next);
+    edit(std::move(next), gesture);
+  }
   void undo();
   void redo();
   /// What is selected. Edits, undo and redo keep it, wherever it stands then; what undo or redo take away gives place

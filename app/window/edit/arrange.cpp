@@ -11,22 +11,23 @@ namespace {
 
 constexpr int min_exponent = -300, max_exponent = 300;  // where powers of ten are numbers
 
-Vec3d place_of(const Sphere<>& sphere) { return sphere.center; }
-Vec3d place_of(const Quad<>& quad) { return quad.corner; }
-Vec3d place_of(const Box<>& box) { return box.min; }
-Vec3d place_of(const Triangle<>& triangle) { return triangle.corner; }
-Vec3d place_of(const Disk<>& disk) { return disk.center; }
-
-void set_place(Sphere<>& sphere, Vec3d place) {
-  if (sphere.center_end) sphere.center_end = without_noise(*sphere.center_end + (place - sphere.center));
-  sphere.center = place;
+template <class Shape>
+auto& place_of(Shape& shape) {
+  if constexpr (requires { shape.center; })
+    return shape.center;
+  else if constexpr (requires { shape.corner; })
+    return shape.corner;
+  else
+    return shape.min;
 }
-void set_place(Quad<>& quad, Vec3d place) { quad.corner = place; }
-void set_place(Triangle<>& triangle, Vec3d place) { triangle.corner = place; }
-void set_place(Disk<>& disk, Vec3d place) { disk.center = place; }
-void set_place(Box<>& box, Vec3d place) {
-  box.max = without_noise(box.max + (place - box.min));
-  box.min = place;
+
+template <class Shape>
+void set_place(Shape& shape, Vec3d place) {
+  const Vec3d by = place - place_of(shape);
+  if constexpr (requires { shape.center_end; })
+    if (shape.center_end) shape.center_end = without_noise(*shape.center_end + by);
+  if constexpr (requires { shape.max; }) shape.max = without_noise(shape.max + by);
+  place_of(shape) = place;
 }
 
 Vec3d middle(const Sphere<>& sphere) {

@@ -26,20 +26,12 @@ ObjectPaths with_linked_objects(const Scene& scene, const ObjectPaths& paths) {
   return outermost(std::move(all));
 }
 
-void collect_names(const std::vector<Object>& objects, std::set<std::string>& names) {
-  for (const Object& object : objects) {
-    names.insert(object.name);
-    if (const Group* group = std::get_if<Group>(&object.kind)) collect_names(group->objects, names);
-  }
-}
-
 /// Calls f with the index of each material that is used.
 template <class F>
 void each_material(std::vector<Object>& objects, const F& f) {
-  for (Object& object : objects) {
+  each_object(objects, [&](Object& object) {
     if (Solid3d* solid = std::get_if<Solid3d>(&object.kind)) f(solid->material);
-    if (Group* group = std::get_if<Group>(&object.kind)) each_material(group->objects, f);
-  }
+  });
 }
 
 void delete_unused_materials(Scene& scene, const std::vector<Material>& kept) {
@@ -155,7 +147,7 @@ ObjectPaths outermost(ObjectPaths paths) {
 
 std::string free_name(const Scene& scene, const std::string& wish) {
   std::set<std::string> names;
-  collect_names(scene.objects, names);
+  each_object(scene.objects, [&](const Object& object) { names.insert(object.name); });
   if (!names.contains(wish)) return wish;
   std::string stem = wish;
   int number = 1;

@@ -51,10 +51,10 @@ void add_recent_file(const fs::path& list, const fs::path& file) {
 }
 
 Gallery::Gallery(const std::function<void()>& wake)
-    : list_(recent_files_list()), recent_(read_recent_files(list_)), thumbnails_(thumbnails_folder(), wake) {}
+    : thumbnails(thumbnails_folder(), wake), list_(recent_files_list()), recent_(read_recent_files(list_)) {}
 
 bool Gallery::collect() {
-  return thumbnails_.collect([this](const std::string& scene, const Thumbnail& picture) {
+  return thumbnails.collect([this](const std::string& scene, const Thumbnail& picture) {
     const bool any = !picture.rgb.empty();
     pictures_[scene] =
         any ? std::make_unique<const PictureTexture>(picture.width, picture.height, picture.rgb) : nullptr;
@@ -64,7 +64,7 @@ bool Gallery::collect() {
 void Gallery::note_file(const std::filesystem::path& file) {
   add_recent_file(list_, file);
   recent_ = read_recent_files(list_);
-  if (!recent_.empty()) thumbnails_.forget(recent_.front().string());
+  if (!recent_.empty()) thumbnails.forget(recent_.front().string());
 }
 
 }  // namespace tyndall

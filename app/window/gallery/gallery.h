@@ -34,19 +34,17 @@ class Gallery {
   /// The newest first.
   const std::vector<std::filesystem::path>& recent() const { return recent_; }
 
-  /// See Thumbnails::want().
-  void want(std::vector<std::string> scenes) { thumbnails_.want(std::move(scenes)); }
   /// Takes what the background has made. Whether anything is new.
   bool collect();
-  bool idle() const { return thumbnails_.idle(); }
   /// A scene was opened or saved: its file goes to the head of the recent ones, and its picture is made anew.
   void note_file(const std::filesystem::path& file);
+
+  Thumbnails thumbnails;
 
  private:
   std::filesystem::path list_;
   std::vector<std::filesystem::path> recent_;
   SmallPictures pictures_;
-  Thumbnails thumbnails_;
 };
 
 }  // namespace tyndall

@@ -92,10 +92,9 @@ DragResult move(Scene& scene, const PictureFrame& frame, const HandleDrag& drag)
   const Placement outer = outer_placement(scene, drag.selected.front());
   const Placement back{-outer.degrees, {}};
   const Vec3d first = anchor_of(scene, drag.selected.front());
-  const bool moved = drag.typed || drag.to.x != drag.from.x || drag.to.y != drag.from.y;
-  if (moved && !drag.typed)
+  if (drag.moved() && !drag.typed)
     shift = rotate({outer.degrees, {}}, rounded_shift(first, rotate(back, shift), drag_rounding_of(frame, drag)));
-  if (moved)
+  if (drag.moved())
     for (const ObjectPath& path : drag.selected) {
       const Placement around = outer_placement(scene, path);
       set_anchor(scene, path, without_noise(anchor_of(scene, path) + rotate({-around.degrees, {}}, shift)));
@@ -110,18 +109,16 @@ DragResult rotate_all(Scene& scene, const PictureFrame& frame, const HandleDrag&
   const double step = (drag.snap ? 5 : 0.5) * (drag.fine ? 0.2 : 1);
   const double before = angle_of(scene, drag.selected.front());
   if (!drag.typed) by = without_noise(std::round((before + by) / step) * step - before);
-  const bool moved = drag.typed || drag.to.x != drag.from.x || drag.to.y != drag.from.y;
-  if (moved && by != 0)
+  if (drag.moved() && by != 0)
     for (const ObjectPath& path : drag.selected) rotate_object(scene, path, by);
-  return {{}, fmt::format("turned by {}°", with_sign(moved ? by : 0))};
+  return {{}, fmt::format("turned by {}°", with_sign(drag.moved() ? by : 0))};
 }
 
 DragResult size_up(Scene& scene, const PictureFrame& frame, const HandleDrag& drag) {
   const CameraAxes axes = axes_of(scene.camera);
   const SizeGrip grip = size_grips(scene, drag.selected.front(), normalize(axes.right - axes.up))[drag.handle.grip];
   const DragRounding drag_rounding = drag_rounding_of(frame, drag);
-  const bool moved = drag.typed || drag.to.x != drag.from.x || drag.to.y != drag.from.y;
-  if (!moved) return {{}, std::string(grip.name) + " " + format_short(grip.value)};
+  if (!drag.moved()) return {{}, std::string(grip.name) + " " + format_short(grip.value)};
   HandleDrag from_grip = drag;
   from_grip.origin = grip.at;
   const double value =

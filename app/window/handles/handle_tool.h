@@ -19,6 +19,8 @@ struct HandleDrag {
   bool snap = false;            ///< to round numbers: about a fiftieth of the picture's height, or 5 degrees
   bool fine = false;            ///< a tenth of these
   std::optional<double> typed;  ///< in place of the mouse: scene units along the axis, the angle, or the size
+
+  bool moved() const { return typed || to.x != from.x || to.y != from.y; }
 };
 
 /// What was done, for the line that tells the user of it.

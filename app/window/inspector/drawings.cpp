@@ -4,7 +4,6 @@
 #include "app/window/picture/display.h"
 #include "app/window/system/imgui_compat.h"
 #include "app/window/tools/camera_control.h"
-#include "app/window/tools/projection.h"
 #include "core/base/text.h"
 #include "core/image/tonemap.h"
 
@@ -16,11 +15,6 @@ namespace tyndall {
 namespace {
 
 constexpr std::size_t max_told = 18;  // stops of a path
-
-ImVec2 in_window(const Rect& image, ImagePoint p) {
-  const auto limited = [](double v) { return static_cast<float>(std::clamp(v, -20.0, 21.0)); };
-  return {image.x0 + limited(p.x) * image.width(), image.y0 + limited(p.y) * image.height()};
-}
 
 void draw_number(Ui& ui, ImDrawList& draw, ImVec2 at, std::size_t number, bool light) {
   const float s = ui.scale;
@@ -61,6 +55,11 @@ Legend legend_of_stops() {
 }
 
 }  // namespace
+
+ImVec2 in_window(const Rect& image, ImagePoint p) {
+  const auto limited = [](double v) { return static_cast<float>(std::clamp(v, -20.0, 21.0)); };
+  return {image.x0 + limited(p.x) * image.width(), image.y0 + limited(p.y) * image.height()};
+}
 
 std::vector<std::string> path_lines(const NoisyPath& found, const std::vector<PathStop>& stops) {
   std::vector<std::string> lines{fmt::format("path of sample {} of pixel {}, {}", found.sample, found.x, found.y),

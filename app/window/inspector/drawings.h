@@ -3,6 +3,7 @@
 #include "app/window/accuracy/views.h"
 #include "app/window/panels/widgets.h"
 #include "app/window/system/layout.h"
+#include "app/window/tools/projection.h"
 
 #include <array>
 #include <string>
@@ -10,6 +11,10 @@
 
 /// What is drawn over the picture to explain it: a path, lines of text, and what the colours of a view mean.
 namespace tyndall {
+
+/// Where a point of the image is in the window. Those far outside, which would overflow the draw list's arithmetic, are
+/// moved nearer.
+ImVec2 in_window(const Rect& image, ImagePoint p);
 
 /// What is told of a path: a sentence, then a line for each stop; of a long path the first ones and the last.
 std::vector<std::string> path_lines(const NoisyPath& found, const std::vector<PathStop>& stops);

@@ -148,19 +148,20 @@ void Inspector::look(const Scene& scene, const RendererPair& renderers) {
   seen_.depth = pick.depth;
 }
 
-void Inspector::draw(Ui& ui, const View& view, const RendererPair& renderers) {
-  if (path_ && view.sent && path_->checked != renderers.edit(Half::current)) {
+void Inspector::draw(Ui& ui, const Context& context, const Scene& scene, const RendererPair& renderers) {
+  const Scene* sent = context.wanted.scene.get();
+  if (path_ && sent && path_->checked != renderers.edit(Half::current)) {
     path_->checked = renderers.edit(Half::current);
-    if (change_between(*path_->scene, *view.sent).others) drop_path();  // the camera may look from elsewhere
+    if (change_between(*path_->scene, *sent).others) drop_path();  // the camera may look from elsewhere
   }
-  if (path_) tyndall::draw_path(ui, view.scene, view.image, view.visible, path_->eye, path_->stops);
+  if (path_) draw_path(ui, scene, context.layout.image, context.visible, path_->eye, path_->stops);
   PixelReadout model;
-  const bool pixel = on_ && at_ && view.frame;
+  const bool pixel = on_ && at_ && context.frame;
   if (pixel) {
-    look(view.scene, renderers);
+    look(scene, renderers);
     const bool known = report_ && report_->x == at_->x && report_->y == at_->y;
     model =
-        pixel_readout(*view.frame, known ? *report_ : PixelReport{.x = at_->x, .y = at_->y}, seen_, view.scene.display);
+        pixel_readout(*context.frame, known ? *report_ : PixelReport{.x = at_->x, .y = at_->y}, seen_, scene.display);
   }
   std::vector<std::string> lines = model.lines;
   if (path_) {
@@ -172,7 +173,7 @@ void Inspector::draw(Ui& ui, const View& view, const RendererPair& renderers) {
   } else if (on_ && lines.empty()) {
     lines.emplace_back("point at the picture");
   }
-  if (!lines.empty()) draw_lines(ui, view.visible, lines, pixel ? &model.shown : nullptr);
+  if (!lines.empty()) draw_lines(ui, context.visible, lines, pixel ? &model.shown : nullptr);
 }
 
 }  // namespace tyndall

@@ -1,6 +1,7 @@
 #pragma once
 #include "app/report/replay.h"
 #include "app/window/document/job_queue.h"
+#include "app/window/panels/context.h"
 #include "app/window/panels/widgets.h"
 #include "app/window/rendering/renderer_pair.h"
 #include "app/window/tools/pointer.h"
@@ -59,15 +60,8 @@ class Inspector {
   /// Whether something is being found.
   bool busy() const { return !jobs_.idle(); }
 
-  /// What the drawing needs to know.
-  struct View {
-    const Frame* frame = nullptr;  ///< on the screen; null: none
-    const Scene& scene;            ///< as it is edited
-    const Scene* sent = nullptr;   ///< to the renderers, last; null: none
-    Rect image, visible;           ///< the picture, and the part of the window in which it is seen
-  };
-  /// Draws the path over the picture, and a box that tells of the pixel.
-  void draw(Ui& ui, const View& view, const RendererPair& renderers);
+  /// Draws the path over the picture, and a box that tells of the pixel. scene: as it is edited.
+  void draw(Ui& ui, const Context& context, const Scene& scene, const RendererPair& renderers);
 
  private:
   /// A path that was found, as it is drawn.

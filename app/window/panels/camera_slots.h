@@ -1,4 +1,5 @@
 #pragma once
+#include "app/report/contact_sheet.h"
 #include "app/window/panels/widgets.h"
 #include "app/window/picture/display.h"
 #include "core/render/frame.h"
@@ -19,8 +20,8 @@ using CameraSlots = std::vector<CameraSlot>;
 
 inline constexpr std::size_t max_camera_slots = 8;
 
-/// A frame as a small picture of at most 96 x 60 pixels, 3 bytes each; its size is returned in width and height.
-std::vector<std::uint8_t> small_picture(const Frame& frame, const Display& display, int& width, int& height);
+/// A frame as a small picture of at most 96 x 60 pixels; empty where the frame has no picture yet.
+ScreenPicture small_picture(const Frame& frame, const Display& display);
 
 /// Puts a camera into a new slot; where all are taken, the oldest goes. frame: on the screen, may be null.
 void store_camera(CameraSlots& slots, const Camera& camera, const Frame* frame, const Display& display);

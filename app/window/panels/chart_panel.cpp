@@ -182,7 +182,7 @@ void draw_chart(Ui& ui, const PanelState& state, ImVec2 size) {
   const float s = ui.scale;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("chart", {std::max(size.x, 1.0f), std::max(size.y, 1.0f)});  // ImGui ends at nothing
-  const LiveAccuracy& accuracy = *state.model.accuracy;
+  const LiveAccuracy& accuracy = *state.now.accuracy;
   log_item(ui, "chart", accuracy.curves(Half::current).current().method);
   compat::push_font(ui.fonts.small);
   const ImVec2 end{at.x + size.x, at.y + size.y};
@@ -226,14 +226,14 @@ std::vector<AccuracyLine> accuracy_lines(const LiveAccuracy& accuracy) {
   return lines;
 }
 
-void chart_panel(Ui& ui, PanelState& state, float height) {
-  const char* about = state.model.accuracy->is_true() ? "true relMSE over time" : "estimated relMSE over time";
+void chart_panel(Ui& ui, PanelState& state) {
+  const char* about = state.now.accuracy->is_true() ? "true relMSE over time" : "estimated relMSE over time";
   if (!section(ui, "Speed and accuracy", about)) return;
   const float width = ImGui::GetWindowContentRegionMax().x - ImGui::GetCursorPosX();
   if (width < 80 * ui.scale) return;
-  draw_chart(ui, state, {width, height});
+  draw_chart(ui, state, {width, chart_height * ui.scale});
   std::string all;
-  for (const AccuracyLine& line : accuracy_lines(*state.model.accuracy)) {
+  for (const AccuracyLine& line : accuracy_lines(*state.now.accuracy)) {
     line_of_note(ui, line.text, line.warning ? palette::amber : palette::dim);
     all += (all.empty() ? "" : " | ") + line.text;
   }

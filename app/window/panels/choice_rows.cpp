@@ -3,7 +3,6 @@
 #include "core/base/text.h"
 
 #include <algorithm>
-#include <cstring>
 #include <vector>
 
 /// Rows of choices: buttons side by side, and lists that drop down.
@@ -37,24 +36,6 @@ bool choice_button(Ui& ui, const Row& row, const Choice& choice, bool on, ImVec2
   tooltip(ui, choice.missing);
   if (pressed) ui.problem = std::string(choice.name) + ": " + choice.missing;
   return false;
-}
-
-/// The box while the name is typed. Returns whether the name changed.
-bool typed_name(Ui& ui, const std::string& hint, float width, std::string& value) {
-  TextEdit& edit = ui.edit;
-  ImGui::SetNextItemWidth(width);
-  if (edit.waited == 0) ImGui::SetKeyboardFocusHere();
-  ImGui::InputTextWithHint("##typed", hint.c_str(), edit.text, sizeof edit.text, ImGuiInputTextFlags_AutoSelectAll);
-  const bool active = ImGui::IsItemActive();
-  edit.started = edit.started || active;
-  ++edit.waited;
-  // The keyboard reaches it a frame later, and shortcuts lose it a frame after that.
-  if (!active || !ImGui::GetIO().WantTextInput) ui.wake_in = 0;
-  if (active || (!edit.started && edit.waited < 6)) return false;
-  const bool changed = edit.start != edit.text;
-  if (changed) value = edit.text;
-  edit = {};
-  return changed;
 }
 
 }  // namespace
@@ -117,16 +98,16 @@ bool name_row(Ui& ui, const Row& row, const std::string& hint, bool begin, std::
   const float width = value_width(ui);
   bool changed = false;
   if (ui.edit.id == id) {
-    changed = typed_name(ui, hint, width, value);
+    const bool ended = type_text(ui, hint.c_str(), width);
+    changed = ended && ui.edit.start != ui.edit.text;
+    if (changed) value = ui.edit.text;
+    if (ended) ui.edit = {};
     log_item(ui, row.name, "typing");
   } else {
     ImGui::InvisibleButton("name", {std::max(width, 1.0f), ImGui::GetFrameHeight()});
     if (ImGui::IsItemClicked() || begin) {
       if (begin) ImGui::SetScrollHereY();
-      ui.edit = {};
-      ui.edit.id = id;
-      ui.edit.start = value.substr(0, size_of_letters(value, sizeof ui.edit.text - 1));
-      std::strncpy(ui.edit.text, ui.edit.start.c_str(), sizeof ui.edit.text - 1);
+      begin_typing(ui, id, value);
       ui.wake_in = 0;
     }
     const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();

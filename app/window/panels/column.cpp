@@ -1,4 +1,3 @@
-#include "app/window/panels/list_rows.h"
 #include "app/window/panels/panels.h"
 #include "app/window/system/imgui_compat.h"
 
@@ -10,33 +9,20 @@
 namespace tyndall {
 namespace {
 
-constexpr Tab tabs[] = {{"Object", "properties, selected object", ""},
-                        {"Camera", "camera settings", "Camera"},
-                        {"Image", "image settings", "Image"},
-                        {"Render", "render settings", "Render"},
-                        {"Accuracy", "chart, statistics, graph", "Speed and accuracy"},
-                        {"Objects", "outliner, hierarchy, object list, tree", "Objects"},
-                        {"Scenes", "examples, recent files, gallery", "Scenes"}};
+constexpr Section sections[] = {
+    {"Object", "", "properties, selected object", has_tab | of_scene, object_panel},
+    {"Camera", "Camera", "camera settings", has_tab | of_scene, camera_panel},
+    {"Image", "Image", "image settings", has_tab, image_panel},
+    {"Histogram", "Histogram", "levels, clipping", starts_folded, histogram_panel},
+    {"Film", "Film", "", of_scene, film_panel},
+    {"Render", "Render", "render settings", has_tab | of_scene, render_panel},
+    {"Accuracy", "Speed and accuracy", "chart, statistics, graph", has_tab, chart_panel},
+    {"Background", "Background", "", of_scene, background_panel},
+    {"Objects", "Objects", "outliner, hierarchy, object list, tree", has_tab | of_scene, objects_panel},
+    {"Scenes", "Scenes", "examples, recent files, gallery", has_tab, scenes_panel},
+    {"Window", "Window", "", 0, window_panel}};
 
-bool is_shown(const PanelState& state, std::string_view part) {
-  return state.model.has_scene || !is_part_of_scene(part);
-}
-
-constexpr float chart_height = 166;  // in units of the design
-
-constexpr ImGuiWindowFlags part_flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
-constexpr ImGuiWindowFlags stays_behind = ImGuiWindowFlags_NoBringToFrontOnFocus;
-
-/// A window of ImGui's own. padding: around what `draw` puts into it.
-void draw_part(Ui& ui, const char* name, const Rect& where, ImGuiWindowFlags more, ImVec2 padding, auto draw) {
-  ImGui::SetNextWindowPos({where.x0, where.y0});
-  ImGui::SetNextWindowSize({where.width(), where.height()});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
-  if (ImGui::Begin(name, nullptr, part_flags | more | (ui.has_question ? ImGuiWindowFlags_NoInputs : 0))) draw();
-  ImGui::End();
-  ImGui::PopStyleVar();
-}
+bool is_shown(const PanelState& state, const Section& one) { return state.now.has_scene || !one.is(of_scene); }
 
 /// The row of tabs, and a button for all actions.
 void draw_tabs(Ui& ui, PanelState& state) {
@@ -44,20 +30,22 @@ void draw_tabs(Ui& ui, PanelState& state) {
   compat::push_font(ui.fonts.small);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2 * s, 4 * s});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {space, space});
+  const auto has = [&state](const Section& one) { return one.is(has_tab) && is_shown(state, one); };
   float text_width = ImGui::CalcTextSize("...").x;
   float count = 0;
-  for (const Tab& tab : tabs)
-    if (is_shown(state, tab.name)) text_width += ImGui::CalcTextSize(tab.name).x, ++count;
+  for (const Section& one : sections)
+    if (has(one)) text_width += ImGui::CalcTextSize(one.name).x, ++count;
   const float room = ImGui::GetWindowContentRegionMax().x - ImGui::GetCursorPosX() - count * space;
   const float spare = std::max(0.0f, std::floor((room - text_width) / (count + 1)));
-  for (int k = 0; k < static_cast<int>(std::size(tabs)); ++k) {
-    if (!is_shown(state, tabs[k].name)) continue;
-    const bool lit = k == state.tabs.lit;
+  for (const Section& one : sections) {
+    if (!has(one)) continue;
+    const auto number = static_cast<int>(&one - sections);
+    const bool lit = number == state.tabs.lit;
     ImGui::PushStyleColor(ImGuiCol_Button, lit ? palette::chosen : palette::panel);
     ImGui::PushStyleColor(ImGuiCol_Text, lit ? palette::text : palette::dim);
-    if (ImGui::Button(tabs[k].name, {ImGui::CalcTextSize(tabs[k].name).x + spare, 0})) state.tabs.jump = k;
+    if (ImGui::Button(one.name, {ImGui::CalcTextSize(one.name).x + spare, 0})) state.tabs.jump = number;
     ImGui::PopStyleColor(2);
-    log_item(ui, std::string("tab.") + tabs[k].name, lit ? "on" : "off");
+    log_item(ui, std::string("tab.") + one.name, lit ? "on" : "off");
     ImGui::SameLine();
   }
   ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
@@ -77,41 +65,33 @@ void begin_jump(Ui& ui, PanelState& state) {
   to.lit = to.jump;
   to.jump = -1;
   to.sent = -1;
-  const std::string_view section = tabs[to.lit].section;
-  if (!section.empty())
-    ui.folded.erase(std::string(section));
+  const std::string heading = sections[to.lit].heading;
+  if (!heading.empty())
+    ui.folded.erase(heading);
   else if (!state.selected.empty())
     ui.folded.erase(title_of(*state.scene, state.selected));
   ui.wake_in = 0;
 }
 
-/// A part of the column.
-struct Part {
-  std::string_view name;  ///< of its tab, if one leads there
-  void (*draw)(Ui&, PanelState&);
-};
-
-void histogram_part(Ui& ui, PanelState& state) {
-  histogram_section(ui, state.histogram, state.model.frame.get(), state.scene->display);
-}
-
-/// Draws the parts; scrolls to the one that the column is sent to, and finds out which one is at its head.
-void draw_parts(Ui& ui, PanelState& state, std::span<const Part> parts) {
+/// Draws the sections; scrolls to the one that the column is sent to, and finds out which one with a tab is at its
+/// head.
+void draw_sections(Ui& ui, PanelState& state, bool with_chart) {
   ColumnTabs& to = state.tabs;
   const float scroll = ImGui::GetScrollY(), pad = 14 * ui.scale;
   const bool seeks = ui.sought.drawing >= 0;
   to.sent = seeks ? -1 : !to.moves && to.sent < 0 ? scroll : to.sent;
   const bool scrolled = !to.moves && !seeks && std::abs(scroll - to.sent) > 1;
-  for (const Part& part : parts) {
+  for (const Section& one : sections) {
+    if (!is_shown(state, one) || (one.draw == chart_panel && !with_chart)) continue;
     const float y = ImGui::GetCursorPosY();
-    for (int k = 0; k < static_cast<int>(std::size(tabs)); ++k) {
-      if (part.name != tabs[k].name) continue;
-      if (seeks && ui.sought.place.part == part.name) to.lit = k;
-      if (to.moves && k == to.lit) ImGui::SetScrollY(std::max(0.0f, y - pad));
-      if (scrolled && (k == 0 || y <= scroll + 3 * pad)) to.lit = k;
+    const auto number = static_cast<int>(&one - sections);
+    if (one.is(has_tab)) {
+      if (seeks && ui.sought.place.part == one.name) to.lit = number;
+      if (to.moves && number == to.lit) ImGui::SetScrollY(std::max(0.0f, y - pad));
+      if (scrolled && (number == 0 || y <= scroll + 3 * pad)) to.lit = number;
     }
-    ui.drawn = {std::string(part.name), ""};
-    part.draw(ui, state);
+    ui.drawn = {one.name, ""};
+    one.draw(ui, state);
   }
   ui.drawn = {};
 }
@@ -125,10 +105,10 @@ void draw_edge(Ui& ui, PanelState& state, const Rect& column) {
     if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0, 1)) {
       const double wanted = static_cast<double>((column.x1 - ImGui::GetIO().MousePos.x) / ui.scale);
-      state.look.column =
+      state.look->column =
           std::clamp(std::round(wanted), static_cast<double>(narrowest_column), static_cast<double>(widest_column));
     }
-    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) state.look.column = column_width;
+    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) state.look->column = column_width;
   };
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
   draw_part(ui, "##edge", {column.x0 - reach, column.y0, column.x0 + reach, column.y1},
@@ -141,8 +121,8 @@ void draw_shown_column(Ui& ui, PanelState& state, const Rect& column) {
   if (column.width() <= 0 || column.height() <= 0) return;
   const float s = ui.scale, chart = chart_height * s, head = 34 * s;
   const bool has_tabs = column.height() > 8 * head;
-  const auto lines = static_cast<float>(accuracy_lines(*state.model.accuracy).size());
-  const bool folded = ui.folded.contains(tabs[4].section);
+  const auto lines = static_cast<float>(accuracy_lines(*state.now.accuracy).size());
+  const bool folded = ui.folded.contains("Speed and accuracy");
   const float foot = folded ? 40 * s : chart + 80 * s + lines * line_of_note_height(ui);
   const bool fixed_chart = column.height() > 2.2f * (chart + 80 * s + lines * line_of_note_height(ui));
   Rect body = column;
@@ -156,43 +136,44 @@ void draw_shown_column(Ui& ui, PanelState& state, const Rect& column) {
   if (other) state.tabs.jump = 0;  // selected in the picture: its values are shown
   begin_jump(ui, state);
   const auto draw_body = [&] {
-    std::vector<Part> parts{{"Object", object_panel},      {"Camera", camera_panel}, {"Image", image_panel},
-                            {"Histogram", histogram_part}, {"Film", film_panel},     {"Render", render_panel}};
-    if (!fixed_chart)
-      parts.push_back({"Accuracy", [](Ui& u, PanelState& p) { chart_panel(u, p, chart_height * u.scale); }});
-    for (const Part& part : {Part{"Background", background_panel}, Part{"Objects", objects_panel},
-                             Part{"Scenes", scenes_panel}, Part{"Window", window_panel}})
-      parts.push_back(part);
-    std::erase_if(parts, [&state](const Part& part) { return !is_shown(state, part.name); });
-    draw_parts(ui, state, parts);
+    draw_sections(ui, state, !fixed_chart);
     scroll_column(ui);
   };
   draw_part(ui, "##column", body, stays_behind | ImGuiWindowFlags_NoScrollWithMouse, ImGui::GetStyle().WindowPadding,
             draw_body);
   if (fixed_chart)
     draw_part(ui, "##chart", {column.x0, body.y1, column.x1, column.y1}, stays_behind | ImGuiWindowFlags_NoScrollbar,
-              {16 * s, 2 * s}, [&] { chart_panel(ui, state, chart); });
+              {16 * s, 2 * s}, [&] { chart_panel(ui, state); });
   draw_edge(ui, state, column);
 }
 
 }  // namespace
 
-bool is_part_of_scene(std::string_view part) {
-  return part == "Object" || part == "Camera" || part == "Film" || part == "Render" || part == "Background" ||
-         part == "Objects";
+std::span<const Section> column_sections() { return sections; }
+
+int section_named(std::string_view name) {
+  const auto found =
+      std::find_if(std::begin(sections), std::end(sections), [&](const Section& one) { return one.name == name; });
+  return static_cast<int>(found - std::begin(sections));
 }
 
-std::span<const Tab> column_tabs() { return tabs; }
-
-int tab_named(std::string_view name) {
-  const auto found = std::find_if(std::begin(tabs), std::end(tabs), [&](const Tab& tab) { return tab.name == name; });
-  return static_cast<int>(found - std::begin(tabs));
-}
-
-std::span<const char* const> lasting_sections() {
-  static constexpr const char* sections[] = {"Camera",     "Image",   "Film",   "Render", "Speed and accuracy",
-                                             "Background", "Objects", "Scenes", "Window"};
-  return sections;
+std::vector<RowEntry> rows_of_column(const Ui& ui, const PanelState& state) {
+  std::vector<RowEntry> rows;
+  Ui beside = ui;  // neither the column nor the log knows of what is drawn here
+  PanelState shown = state;
+  beside.log = nullptr;
+  beside.rows = &rows;
+  beside.folded.clear();
+  beside.sought = {};
+  beside.edit = {};
+  constexpr ImGuiWindowFlags unseen = stays_behind | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing;
+  draw_part(beside, "##rows", {-9400, -9400, -9000, -9000}, unseen, {0, 0}, [&] {
+    for (const Section& one : sections) {
+      beside.drawn = {one.name, ""};
+      one.draw(beside, shown);
+    }
+  });
+  return rows;
 }
 
 void draw_column(Ui& ui, PanelState& state, const Rect& column) {

@@ -1,5 +1,4 @@
 #pragma once
-#include "app/window/panels/widgets.h"
 #include "core/render/frame.h"
 #include "core/scene/settings.h"
 
@@ -33,8 +32,5 @@ class LiveHistogram {
   Display display_;
   Histogram histogram_;
 };
-
-/// The section with the histogram. frame: on the screen; null: none.
-void histogram_section(Ui& ui, LiveHistogram& live, const Frame* frame, const Display& display);
 
 }  // namespace tyndall

@@ -1,13 +1,69 @@
-#include "app/window/panels/list_rows.h"
 #include "app/window/panels/panels.h"
 #include "app/window/system/imgui_compat.h"
 #include "core/base/text.h"
 
 #include <algorithm>
-#include <cstdint>
 
 namespace tyndall {
 namespace {
+
+constexpr double pause = 0.5;  // seconds without the wheel after which it is a new movement
+
+/// Whether a movement of the wheel that another window has is still going on.
+bool belongs_to_other(const Ui& ui, ImGuiID id) {
+  return ui.wheel.owner != id && ui.wheel.owner != 0 && ImGui::GetTime() < ui.wheel.last + pause;
+}
+
+void scroll(Ui& ui, ImGuiID id, float notches) {
+  ui.wheel = {id, ImGui::GetTime(), true};
+  const float step = std::min(5 * ImGui::GetFontSize(), 0.67f * ImGui::GetWindowHeight());
+  ImGui::SetScrollY(std::clamp(ImGui::GetScrollY() - notches * step, 0.0f, ImGui::GetScrollMaxY()));
+}
+
+void scroll_list(Ui& ui) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const ImGuiID id = ImGui::GetID("wheel");
+  if (io.MouseWheel == 0 || io.KeyCtrl || !ImGui::IsWindowHovered() || belongs_to_other(ui, id)) return;
+  const bool at_end = io.MouseWheel > 0 ? ImGui::GetScrollY() <= 0 : ImGui::GetScrollY() >= ImGui::GetScrollMaxY();
+  if (!at_end) scroll(ui, id, io.MouseWheel);
+}
+
+/// A line of a list, with a grey word on the right. Returns whether it was clicked.
+bool list_line(Ui& ui, const std::string& name, const std::string& label, const std::string& note, bool on) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  const bool pressed = ImGui::Selectable(("##" + name).c_str(), on, 0, {0, ImGui::GetTextLineHeight()});
+  log_item(ui, name, on ? "on" : "off");
+  compat::push_font(ui.fonts.small);
+  const float width = std::min(ImGui::CalcTextSize(note.c_str()).x, 0.45f * (right - at.x));
+  clipped_text_at(note, {right - width - 2 * ui.scale, at.y + 2 * ui.scale}, width + 1, palette::dim);
+  ImGui::PopFont();
+  clipped_text_at(label, {at.x, at.y}, right - width - 10 * ui.scale - at.x, palette::text);
+  return pressed;
+}
+
+/// A list of so many lines, `shown` of them seen at a time: when the mouse is over it, the wheel scrolls it, unless the
+/// column was being scrolled a moment ago, or the list is at its end. line: the height of one, in window units; draw:
+/// draws a line by its number, and is called for those that are seen; before: called within the list's window first.
+void list(Ui& ui, const char* name, float line, std::size_t lines, std::size_t shown,
+          const std::function<void(std::size_t)>& draw, const std::function<void()>& before = {}) {
+  const float height = line * static_cast<float>(std::max<std::size_t>(shown, 1)) + 8 * ui.scale;
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, palette::ink);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {6 * ui.scale, 6 * ui.scale});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8 * ui.scale, 4 * ui.scale});
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollWithMouse;
+  if (ImGui::BeginChild(name, {0, height}, false, flags)) {
+    if (before) before();
+    scroll_list(ui);
+    ImGuiListClipper clipper;  // lines that are not seen cost nothing
+    clipper.Begin(static_cast<int>(lines), line);
+    while (clipper.Step())
+      for (int k = clipper.DisplayStart; k < clipper.DisplayEnd; ++k) draw(static_cast<std::size_t>(k));
+  }
+  ImGui::EndChild();
+  ImGui::PopStyleVar(2);
+  ImGui::PopStyleColor();
+}
 
 constexpr std::size_t searched = 9;       // lists of at least so many objects can be searched
 constexpr std::size_t max_unfolded = 20;  // larger groups are folded at first
@@ -135,23 +191,17 @@ void draw_picture(const Ui& ui, const PanelState& state, const std::string& what
   const ImVec2 place{picture_width * ui.scale, picture_height * ui.scale};
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddRectFilled(at, {at.x + place.x, at.y + place.y}, shade(palette::field), 3 * ui.scale);
-  if (!state.model.pictures) return;
-  const auto found = state.model.pictures->find(what);
-  if (found == state.model.pictures->end() || !found->second) return;
-  const PictureTexture& picture = *found->second;
-  const float fit = std::min(place.x / picture.width(), place.y / picture.height());
-  const ImVec2 size{fit * picture.width(), fit * picture.height()};
-  const ImVec2 from{at.x + (place.x - size.x) / 2, at.y + (place.y - size.y) / 2};
-  const auto texture = (ImTextureID) static_cast<std::intptr_t>(picture.number());  // NOLINT: a pointer before 1.92
-  draw->AddImageRounded(texture, from, {from.x + size.x, from.y + size.y}, {0, 0}, {1, 1}, IM_COL32_WHITE,
-                        3 * ui.scale);
+  if (!state.now.pictures) return;
+  const auto found = state.now.pictures->find(what);
+  if (found == state.now.pictures->end() || !found->second) return;
+  draw_fitted(*found->second, {at.x, at.y, at.x + place.x, at.y + place.y}, 3 * ui.scale);
 }
 
 /// Picture, name and a grey line. Returns whether it was clicked.
 bool scene_row(Ui& ui, PanelState& state, const SceneRow& row) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float s = ui.scale, right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
-  const bool on = row.what == state.model.what;
+  const bool on = row.what == state.now.what;
   const ImVec2 size{0, row_height * s - ImGui::GetStyle().ItemSpacing.y};
   const bool pressed = ImGui::Selectable(("##" + row.name).c_str(), on, 0, size);
   log_item(ui, row.name, on ? "on" : "off");
@@ -192,6 +242,15 @@ void scene_list(Ui& ui, PanelState& state, const char* name, const std::vector<S
 
 }  // namespace
 
+void scroll_column(Ui& ui) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool used = ui.wheel.used;
+  ui.wheel.used = false;
+  if (used || io.MouseWheel == 0 || io.KeyCtrl || !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows)) return;
+  scroll(ui, ImGui::GetID("wheel"), io.MouseWheel);
+  ui.wheel.used = false;
+}
+
 void objects_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Objects", "click in the picture, or here")) return;
   const Scope scope(ui, "objects");
@@ -210,30 +269,12 @@ void objects_panel(Ui& ui, PanelState& state) {
 void scenes_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Scenes", "or drop a file")) return;
   const Scope scope(ui, "scenes");
-  scene_list(ui, state, "scenes", rows_of(state.model.scenes), 6);
-  const std::vector<SceneRow> recent = rows_of(state.model.recent);
+  scene_list(ui, state, "scenes", rows_of(state.now.scenes), 6);
+  const std::vector<SceneRow> recent = rows_of(state.now.recent);
   if (!recent.empty()) {
     note(ui, "Opened before", false);
     scene_list(ui, state, "recent", recent, 3);
   }
-}
-
-void window_panel(Ui& ui, PanelState& state) {
-  if (!section(ui, "Window", "remembered")) return;
-  const Scope scope(ui, "window");
-  static constexpr Choice themes[] = {{"dark"}, {"light"}};
-  int theme = static_cast<int>(state.look.theme);
-  if (choice_row(ui, {"theme", "Theme", {}, {}, "", "of panels and lines; the picture stays as it is", ""}, themes,
-                 theme))
-    state.look.theme = static_cast<Theme>(theme);
-  std::vector<std::string> names;
-  std::vector<Choice> sizes;
-  for (const double size : text_sizes) names.push_back(format_short(100 * size));
-  for (const std::string& name : names) sizes.push_back({name.c_str()});
-  int chosen =
-      static_cast<int>(std::find(text_sizes.begin(), text_sizes.end(), state.look.text_size) - text_sizes.begin());
-  if (choice_row(ui, {"text", "Text size, %", {}, {}, "", "of all controls: Ctrl + and Ctrl -", ""}, sizes, chosen))
-    state.look.text_size = text_sizes[static_cast<std::size_t>(chosen)];
 }
 
 }  // namespace tyndall

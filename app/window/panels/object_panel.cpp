@@ -9,6 +9,25 @@
 #include <cmath>
 
 namespace tyndall {
+
+const Row lamp_colour{"color",     "Colour",
+                      at_least(0), {0, 1},
+                      "",          "the proportions of red, green and blue",
+                      "",          "light color, light colour, lamp color, lamp colour"};
+const Row lamp_power{"power",     "Power",
+                     at_least(0), {0.01, 1000, true},
+                     "",          "radiance of the strongest of red, green and blue",
+                     "",          "emission, emissive, intensity, strength, luminance, lamp power, light power"};
+const Row lamp_stops{"stops", "Stops", {}, {}, "", "doubles or halves the light with each stop", "", "light stops"};
+const Row type_of_material{"type", "Type",
+                           {},     {},
+                           "",     "what kind of material it is; the colour stays",
+                           "",     "material type, shader, bsdf, surface, metallic, metalness, transmission, glass"};
+const Row material_of_object{
+    "material", "Material", {}, {}, "", "which of the scene's materials it has", "", "assign material, materials"};
+const Row name_of_object{"name", "Name", {}, {}, "", "of this object: key F2", "", "object title"};
+const Row texture_file{"file", "Picture", {}, {}, "", "", "", "image texture, texture file, bitmap"};
+
 namespace {
 
 std::string stops_text(double power) {
@@ -23,7 +42,7 @@ void stops_row(Ui& ui, double& power) {
     const char* name;
     double stops;
   } buttons[] = {{"- 1", -1}, {"- 1/3", -1 / 3.0}, {"+ 1/3", 1 / 3.0}, {"+ 1", 1}};
-  begin_row(ui, {"stops", "Stops", {}, {}, "", "doubles or halves the light with each stop", ""});
+  begin_row(ui, lamp_stops);
   const float space = 2 * ui.scale, width = (value_width(ui) - 3 * space) / 4;
   for (const auto& button : buttons) {
     if (&button != buttons) ImGui::SameLine(0, space);
@@ -40,15 +59,9 @@ void light_rows(Ui& ui, PanelState& state, const Slot& radiance) {
   const LightColour before = light_colour(std::get<Vec3d>(radiance.value));
   const LightColour was = light_colour(saved ? std::get<Vec3d>(*saved) : Vec3d{1, 1, 1});
   LightColour light = before;
-  Row colour{"color", "Colour", at_least(0), {0, 1}, "", "the proportions of red, green and blue", ""};
+  Row colour = lamp_colour, power = lamp_power;
   colour.original = was.colour;
-  Row power{"power",
-            "Power",
-            at_least(0),
-            {0.01, 1000, true},
-            "",
-            "radiance of the strongest of red, green and blue",
-            stops_text(light.power)};
+  power.meaning = stops_text(light.power);
   power.original = Vec3d{was.power, 0, 0};
   colour_row(ui, colour, light.colour);
   slider_row(ui, power, light.power);
@@ -65,8 +78,8 @@ void type_row(Ui& ui, PanelState& state, ObjectPath& path) {
   for (std::size_t k = 0; k < types.size(); ++k)
     choices.push_back({types[k], missing[k].empty() ? nullptr : missing[k].c_str()});
   int type = surface_type(*state.scene, path);
-  Row row{"type", "Type", {}, {}, "", "what kind of material it is; the colour stays", ""};
-  if (combo_row(ui, row, choices, type)) path = set_surface_type(state.scene.change(), path, type, state.materials);
+  if (combo_row(ui, type_of_material, choices, type))
+    path = set_surface_type(state.scene.change(), path, type, state.materials);
 }
 
 /// Which texture a colour comes from, and the values of that; nothing for a colour of its own. colour_in: finds it in a
@@ -77,12 +90,12 @@ void texture_rows(Ui& ui, PanelState& state, const char* name, const auto& colou
   int index = texture->index;
   std::vector<std::string> names;
   for (const Texture& one : state.scene->textures) names.push_back(printable(one.name));
-  if (combo_row(ui, {name, label_of(name, ""), {}, {}, "", colour_meaning(name).help, ""}, names, index))
+  const Slot colour = colour_slot("", name, {});
+  if (combo_row(ui, {name, colour.label, {}, {}, "", colour.help, "", colour.synonyms}, names, index))
     colour_in(state.scene.change()) = TextureIndex{index};
   const Texture& now = state.scene->textures[static_cast<std::size_t>(index)];
   const Scope scope(ui, now.name);
-  if (const Image* image = std::get_if<Image>(&now.kind))
-    text_row(ui, {"file", "Picture", {}, {}, "", image->file, ""}, image->file);
+  if (const Image* image = std::get_if<Image>(&now.kind)) file_row(ui, texture_file, image->file);
   part_rows(ui, state, texture_part(now));
 }
 
@@ -112,7 +125,7 @@ void surface_rows(Ui& ui, PanelState& state, ObjectPath& path) {
   std::vector<std::string> names;
   for (const Material& one : state.scene->materials) names.push_back(printable(one.name));
   const int users = users_of(*state.scene, material);
-  Row row{"material", "Material", {}, {}, "", "which of the scene's materials it has", ""};
+  Row row = material_of_object;
   if (users > 1) row.meaning = "shared by " + std::to_string(users) + " objects: all of them change";
   if (combo_row(ui, row, names, material))
     std::get<Solid3d>(find_object(state.scene.change(), path)->kind).material = material;
@@ -171,9 +184,8 @@ void full_section(Ui& ui, PanelState& state) {
   const Scope scope(ui, title);
   if (solid) surface_rows(ui, state, path);  // another type may move it in its list
   kind_rows(ui, state, path);
-  const Row name{"name", "Name", {}, {}, "", "of this object: key F2", ""};
   std::string typed = find_object(*state.scene, path)->name;
-  if (name_row(ui, name, title, state.rename, typed)) find_object(state.scene.change(), path)->name = typed;
+  if (name_row(ui, name_of_object, title, state.rename, typed)) find_object(state.scene.change(), path)->name = typed;
   state.rename = false;
 }
 

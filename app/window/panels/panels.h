@@ -1,15 +1,12 @@
 #pragma once
-#include "app/window/accuracy/live_accuracy.h"
 #include "app/window/document/edited_scene.h"
 #include "app/window/edit/material_edits.h"
-#include "app/window/gallery/gallery.h"
 #include "app/window/panels/camera_slots.h"
+#include "app/window/panels/context.h"
 #include "app/window/panels/histogram.h"
 #include "app/window/panels/widgets.h"
 #include "app/window/system/preferences.h"
 #include "app/window/tools/selection.h"
-#include "core/render/renderer.h"
-#include "core/scene/load.h"
 
 #include <map>
 #include <optional>
@@ -21,26 +18,6 @@
 /// The column of panels. Panels change the scene that they are given and leave requests; they start nothing.
 namespace tyndall {
 
-/// What panels show of the window, besides the scene.
-struct PanelModel {
-  std::shared_ptr<const Frame> frame;  ///< on the screen; null before the first
-  const LiveAccuracy* accuracy = nullptr;
-  std::string kept_method;       ///< of the left half of a split view; "": there is no split view
-  bool can_show_errors = false;  ///< there is something to measure the picture against
-  const Scene* saved = nullptr;  ///< what the scene's file holds
-  std::vector<BuiltIn> scenes;
-  std::vector<std::filesystem::path> recent;  ///< files that were opened before, the newest first
-  const SmallPictures* pictures = nullptr;    ///< of scenes; null: there are none
-  std::string what;                           ///< the open scene, by what load_scene takes
-  std::string title;                          ///< of the open scene
-  bool has_scene = true;                      ///< false: a picture without one is shown
-  bool renders = true;                        ///< false: what is shown has no samples that could still be taken
-  int clean = 0;                              ///< 0 off, 1 on, 2 beside the raw picture
-  int threads = 1;
-  bool at_window = false;  ///< the picture has as many pixels as the window shows; else as the file says
-  int view = 0;            ///< see view_entry()
-};
-
 /// How the list of objects is shown.
 struct ObjectsView {
   std::string search;            ///< only objects with this text are listed; "": all
@@ -48,20 +25,29 @@ struct ObjectsView {
   ObjectPath shown;              ///< the selected object that the list has scrolled to
 };
 
-/// The parts of the column that its tabs lead to.
-struct Tab {
-  const char* name;
-  const char* words;    ///< by which the palette finds it, too
-  const char* section;  ///< its heading; "": that of the selected object
+struct PanelState;
+
+enum SectionFlag : unsigned {
+  has_tab = 1,   ///< a tab leads there
+  of_scene = 2,  ///< a picture without a scene does not have it
+  starts_folded =
+      4  ///< because it takes time with each picture; the others stay as they were from one start to the next
 };
-std::span<const Tab> column_tabs();
-/// The number of the tab of that name, which is there.
-int tab_named(std::string_view name);
-/// Whether a part of the column is about the scene, so that a picture without one does not have it.
-bool is_part_of_scene(std::string_view part);
-/// The sections that stay folded from one start to the next: all but those of objects, and the histogram, which begins
-/// folded because it takes time with each picture.
-std::span<const char* const> lasting_sections();
+
+/// A section of the column, or those of objects: all that is known of it.
+struct Section {
+  const char* name;
+  const char* heading;  ///< "": the titles of objects
+  const char* words;    ///< by which the palette finds it, too
+  unsigned flags;       ///< of SectionFlag
+  void (*draw)(Ui& ui, PanelState& state);
+
+  bool is(SectionFlag flag) const { return (flags & flag) != 0; }
+};
+/// All of them, from top to bottom.
+std::span<const Section> column_sections();
+/// The number of the one of that name, which is there.
+int section_named(std::string_view name);
 
 /// Which tab is lit, and which one the column is to go to.
 struct ColumnTabs {
@@ -73,7 +59,8 @@ struct ColumnTabs {
 
 /// What goes into the panels and comes out of them in each drawing.
 struct PanelState {
-  PanelModel model;
+  Context now;             ///< of this drawing
+  bool at_window = false;  ///< the picture is to have as many pixels as the window shows
   // Panels change these in place.
   EditedScene scene;
   ObjectPath selected;           ///< whose values the panels show; empty: nothing is selected
@@ -87,8 +74,8 @@ struct PanelState {
   LiveHistogram histogram;
   std::map<std::string, CameraSlots> cameras;  ///< by the scene's title
   ObjectsView objects;
-  ObjectPath shown;  ///< the selected object that the column has jumped to
-  Preferences look;  ///< theme, size of texts, width of the column; `clean` and `folded` are the window's
+  ObjectPath shown;             ///< the selected object that the column has jumped to
+  Preferences* look = nullptr;  ///< theme, size of texts and width of the column are changed here
   ColumnTabs tabs;
   std::optional<RowPlace> seek;              ///< the column goes to that row in the next drawings, see SoughtRow
   bool row_has_keys = false;                 ///< the arrow keys go through the choices of a row
@@ -104,16 +91,21 @@ void forget_scene(PanelState& state);
 
 /// Tabs, all sections in the column, and the chart at its foot. The column's edge can be dragged.
 void draw_column(Ui& ui, PanelState& state, const Rect& column);
+/// All rows that it has now, also those in folded sections. Within a frame of Dear ImGui.
+std::vector<RowEntry> rows_of_column(const Ui& ui, const PanelState& state);
 
 void object_panel(Ui& ui, PanelState& state);
 void camera_panel(Ui& ui, PanelState& state);
 void background_panel(Ui& ui, PanelState& state);
 void image_panel(Ui& ui, PanelState& state);
+void histogram_panel(Ui& ui, PanelState& state);
 /// Only of a scene with an animation.
 void film_panel(Ui& ui, PanelState& state);
 void render_panel(Ui& ui, PanelState& state);
 void objects_panel(Ui& ui, PanelState& state);
 void scenes_panel(Ui& ui, PanelState& state);
+/// At the end of the column's window: the wheel scrolls it unless it has scrolled a list.
+void scroll_column(Ui& ui);
 void window_panel(Ui& ui, PanelState& state);
 /// The measured errors in words: a line for each that is known.
 struct AccuracyLine {
@@ -122,7 +114,7 @@ struct AccuracyLine {
 };
 std::vector<AccuracyLine> accuracy_lines(const LiveAccuracy& accuracy);
 
-/// height: of the chart itself.
-void chart_panel(Ui& ui, PanelState& state, float height);
+inline constexpr float chart_height = 166;  ///< of the chart itself, units of the design
+void chart_panel(Ui& ui, PanelState& state);
 
 }  // namespace tyndall

@@ -44,9 +44,9 @@ bool is_same_object(const Scene& now, const Scene& saved, const std::string& poi
 }
 
 std::vector<Slot> saved_slots(const PanelState& state, const std::string& part) {
-  if (!is_same_object(*state.scene, *state.model.saved, part + "/")) return {};
-  std::vector<Slot> slots = slots_of(*state.model.saved, part);
-  for (Slot& slot : slots) fill_in(state.model.saved->camera, slot);
+  if (!is_same_object(*state.scene, state.now.origin->saved, part + "/")) return {};
+  std::vector<Slot> slots = slots_of(state.now.origin->saved, part);
+  for (Slot& slot : slots) fill_in(state.now.origin->saved.camera, slot);
   return slots;
 }
 
@@ -76,7 +76,7 @@ bool choose(Ui& ui, const Slot& slot, Row row, double& value) {
 }  // namespace
 
 Row row_of(const Slot& slot, std::string meaning) {
-  Row row{name_of(slot), slot.label, slot.valid, slot.slider, slot.unit, slot.help, std::move(meaning)};
+  Row row{name_of(slot), slot.label, slot.valid, slot.slider, slot.unit, slot.help, std::move(meaning), slot.synonyms};
   row.whole = slot.form == ValueForm::whole;
   row.pointer = slot.pointer;
   return row;

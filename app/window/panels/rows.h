@@ -12,6 +12,10 @@ namespace tyndall {
 /// The row of a value. meaning: the grey line beneath.
 Row row_of(const Slot& slot, std::string meaning);
 
+// Rows that are no single value of the scene, and that some objects or skies have.
+extern const Row lamp_colour, lamp_power, lamp_stops, type_of_material, material_of_object, name_of_object,
+    texture_file, sky_file;
+
 /// Draws a row, and sets the value in the panels' scene when it was changed.
 void slot_row(Ui& ui, PanelState& state, const Slot& slot, const Row& row);
 

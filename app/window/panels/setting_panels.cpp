@@ -15,6 +15,9 @@
 #include <cmath>
 
 namespace tyndall {
+
+const Row sky_file{"file", "Picture", {}, {}, "", "", "", "sky picture, hdr, environment map, environment texture"};
+
 namespace {
 
 std::string focus_meaning(const Scene& scene) {
@@ -44,8 +47,8 @@ std::string fraction_cut_off(const Frame* frame) {
 }
 
 const char* view_meaning(const PanelState& state) {
-  if (shows_errors(state.model.view) && !state.model.accuracy->map()) return "is being computed";
-  return view_entry(state.model.view).meaning;
+  if (shows_errors(state.now.view) && !state.now.accuracy->map()) return "is being computed";
+  return view_entry(state.now.view).meaning;
 }
 
 std::string sharing_meaning(const RenderSettings& render, const Frame* frame) {
@@ -65,19 +68,26 @@ std::string caustics_meaning(const RenderSettings& render, const Frame* frame) {
 std::string setting_meaning(const PanelState& state, std::string_view name) {
   const RenderSettings& render = state.scene->render;
   if (name == "integrator") return label(render.integrator).help;
-  if (name == "caustics") return caustics_meaning(render, state.model.frame.get());
-  if (name == "sharing") return sharing_meaning(render, state.model.frame.get());
+  if (name == "caustics") return caustics_meaning(render, state.now.frame.get());
+  if (name == "sharing") return sharing_meaning(render, state.now.frame.get());
   if (name == "adaptive")
     return render.adaptive ? "more samples where the error is larger; spp is the mean" : "the same number everywhere";
-  if (name == "max_depth") return fraction_cut_off(state.model.frame.get());
+  if (name == "max_depth") return fraction_cut_off(state.now.frame.get());
   if (name == "spp") return render.spp ? "samples a pixel at which it stops" : "0: goes on for ever";
   return "";
 }
 
 void threads_row(Ui& ui, PanelState& state) {
-  double threads = state.model.threads;
+  double threads = state.now.wanted.threads;
   static const double cores = std::max(2, thread_count().count);  // asking takes longer than drawing the row
-  Row row{"threads", "Threads", between(1, max_threads), {1, cores}, "", "never changes the picture", ""};
+  Row row{"threads",
+          "Threads",
+          between(1, max_threads),
+          {1, cores},
+          "",
+          "never changes the picture",
+          "",
+          "cpu, cores, processors"};
   row.whole = true;
   if (slider_row(ui, row, threads)) ui.requests.push_back({"threads", std::to_string(static_cast<int>(threads))});
 }
@@ -85,21 +95,28 @@ void threads_row(Ui& ui, PanelState& state) {
 /// Width and height of the picture. Sizes that do not fit into memory are refused.
 void pixels_row(Ui& ui, PanelState& state) {
   const Scene& scene = *state.scene;
-  Row row{"size", "Image size", between(1, 65536), {0, 4000}, "", "width and height in pixels, also of snapshots", ""};
+  Row row{"size",
+          "Image size",
+          between(1, 65536),
+          {0, 4000},
+          "",
+          "width and height in pixels, also of snapshots",
+          "",
+          "resolution, width, height, dimensions, film size"};
   row.whole = true;
   double width = scene.width, height = scene.height;
   begin_row(ui, row);
   const float space = 4 * ui.scale, box = (value_width(ui) - space) / 2;
-  row.original = Vec3d{static_cast<double>(state.model.saved->width), 0, 0};
+  row.original = Vec3d{static_cast<double>(state.now.origin->saved.width), 0, 0};
   bool changed = value_box(ui, "width", row, width, box, false);
   ImGui::SameLine(0, space);
-  row.original = Vec3d{static_cast<double>(state.model.saved->height), 0, 0};
+  row.original = Vec3d{static_cast<double>(state.now.origin->saved.height), 0, 0};
   changed = value_box(ui, "height", row, height, box, false) || changed;
   end_row(ui, row);
   if (!changed) return;
   try {
     const int wide = static_cast<int>(width), high = static_cast<int>(height);
-    check_memory(WindowPlan{wide, high, has_lights(scene), state.model.clean > 0}, free_memory(),
+    check_memory(WindowPlan{wide, high, has_lights(scene), state.now.clean > 0}, free_memory(),
                  "switch the clean view off");
     Scene& next = state.scene.change();
     next.width = wide, next.height = high;
@@ -116,25 +133,25 @@ void request_row(Ui& ui, const Row& row, std::span<const Choice> choices, int ch
 
 void size_row(Ui& ui, PanelState& state) {
   static constexpr Choice choices[] = {{"file"}, {"window"}};
-  const Frame* frame = state.model.frame.get();
+  const Frame* frame = state.now.frame.get();
   const std::string meaning = frame ? fmt::format("{} x {} pixels", frame->width, frame->height) : "";
   const char* help = "the picture has the size that the scene's file says, or as many pixels as the window shows";
-  const Row row{"at", "Render at", {}, {}, "", help, meaning};
-  request_row(ui, row, choices, state.model.at_window ? 1 : 0, "render at");
+  const Row row{"at", "Render at", {}, {}, "", help, meaning, "window size, preview size"};
+  request_row(ui, row, choices, state.at_window ? 1 : 0, "render at");
 }
 
 void split_row(Ui& ui, PanelState& state) {
   static constexpr Choice choices[] = {{"off"}, {"on"}};
-  const std::string& kept = state.model.kept_method;
   const char* help = "A keeps these settings, B takes what you change; both get the same processor time";
-  const Row row{"split", "Split", {}, {}, "", help, kept.empty() ? "" : "A keeps " + kept + "; above: B"};
-  int chosen = kept.empty() ? 0 : 1;
-  if (choice_row(ui, row, choices, chosen)) ui.requests.push_back({"split view"});
+  const std::string meaning = state.now.split ? "A keeps " + state.now.kept_method + "; above: B" : "";
+  int chosen = state.now.split ? 1 : 0;
+  if (choice_row(ui, {"split", "Split", {}, {}, "", help, meaning, "split settings"}, choices, chosen))
+    ui.requests.push_back({"split view"});
 }
 
 std::string clean_meaning(const PanelState& state) {
-  if (state.model.clean == 0) return "as it is in files";
-  const CleanFrame* clean = state.model.frame ? state.model.frame->clean.get() : nullptr;
+  if (state.now.clean == 0) return "as it is in files";
+  const CleanFrame* clean = state.now.frame ? state.now.frame->clean.get() : nullptr;
   if (!clean) return "from 2 samples a pixel on";
   if (clean->spp == 0) return "coarse at first, then filtered from 2 spp on";
   return fmt::format("filtered at {} spp; files are not", format_count(clean->spp));
@@ -143,8 +160,8 @@ std::string clean_meaning(const PanelState& state) {
 void clean_row(Ui& ui, PanelState& state) {
   static constexpr Choice choices[] = {{"off"}, {"on"}, {"beside raw"}};
   const char* help = "filters noise away where the samples show that it is noise: key N";
-  const Row row{"clean", "Clean", {}, {}, "", help, clean_meaning(state)};
-  request_row(ui, row, choices, state.model.clean, "clean");
+  const Row row{"clean", "Clean", {}, {}, "", help, clean_meaning(state), "clean view, filtered"};
+  request_row(ui, row, choices, state.now.clean, "clean");
 }
 
 /// "7 spheres, 1 quad, 1 medium, 1 light".
@@ -163,10 +180,10 @@ std::string contents_text(const Scene& scene) {
 }
 
 /// Why a view cannot be shown; null: it can.
-const char* missing_for_view(const PanelModel& model, int number) {
-  const bool missing = !model.renders && view_entry(number).view != View::beauty;
-  if (missing || (!model.has_scene && is_view_of_scene(number))) return "a picture without a scene has none";
-  return shows_errors(number) && !model.can_show_errors ? "needs a reference: see Speed and accuracy" : nullptr;
+const char* missing_for_view(const Context& now, int number) {
+  const bool missing = !now.renders && view_entry(number).view != View::beauty;
+  if (missing || (!now.has_scene && is_view_of_scene(number))) return "a picture without a scene has none";
+  return shows_errors(number) && !now.can_show_errors ? "needs a reference: see Speed and accuracy" : nullptr;
 }
 
 std::string kernel_note(const Frame* frame) { return frame ? frame->isa + " × " + std::to_string(frame->lanes) : ""; }
@@ -184,13 +201,13 @@ void camera_panel(Ui& ui, PanelState& state) {
   part_rows(
       ui, state, "/camera", [](const Slot& slot) { return slot.form == ValueForm::number; }, said);
   part_rows(ui, state, "/camera", [&](const Slot& slot) {
-    const bool hidden = plain_up && slot.name == std::string_view("vup") && !is_sought(ui, slot.label);
+    const bool hidden = plain_up && slot.name == std::string_view("vup") && !ui.rows && !is_sought(ui, slot.label);
     return slot.form == ValueForm::place && !hidden;
   });
-  CameraSlots& slots = state.cameras[state.model.title];
+  CameraSlots& slots = state.cameras[state.now.origin->title];
   const SlotWish wish = camera_slots_row(ui, slots, camera);
   if (wish.recall) state.scene.change().camera = slots[*wish.recall].camera;
-  if (wish.store) store_camera(slots, camera, state.model.frame.get(), state.scene->display);
+  if (wish.store) store_camera(slots, camera, state.now.frame.get(), state.scene->display);
 }
 
 void background_panel(Ui& ui, PanelState& state) {
@@ -200,23 +217,23 @@ void background_panel(Ui& ui, PanelState& state) {
   int kind = static_cast<int>(background.index());
   const std::vector<Choice> kinds = sky_choices(background, state.backgrounds);
   const int columns = kinds.size() > 3 ? 2 : 0;  // the names of four do not fit side by side
-  if (choice_row(ui, {"kind", "Kind", {}, {}, "", "", ""}, kinds, kind, columns))
+  const Row row{"kind", "Kind", {}, {}, "", "", "", "background, sky, environment, environment light, world, hdri"};
+  if (choice_row(ui, row, kinds, kind, columns))
     set_background_kind(state.scene.change().background, kind, state.backgrounds);
   const Background& now = state.scene->background;
-  if (const SkyPicture* sky = std::get_if<SkyPicture>(&now))
-    text_row(ui, {"file", "Picture", {}, {}, "", sky->file, ""}, sky->file);
+  if (const SkyPicture* sky = std::get_if<SkyPicture>(&now)) file_row(ui, sky_file, sky->file);
   part_rows(ui, state, std::holds_alternative<Vec3d>(now) ? "" : "/background");
 }
 
 void image_panel(Ui& ui, PanelState& state) {
-  if (!section(ui, "Image", state.model.renders ? "rendering goes on" : "")) return;
+  if (!section(ui, "Image", state.now.renders ? "rendering goes on" : "")) return;
   const Scope scope(ui, "image");
   part_rows(ui, state, "/display");
-  if (state.model.has_scene) clean_row(ui, state);
+  if (state.now.has_scene) clean_row(ui, state);
   Choice choices[view_count];
-  for (int k = 0; k < view_count; ++k) choices[k] = {view_entry(k).name, missing_for_view(state.model, k)};
-  const Row row{"view", "View", {}, {}, "", "keys 1 to 9", view_meaning(state)};
-  int view = state.model.view;
+  for (int k = 0; k < view_count; ++k) choices[k] = {view_entry(k).name, missing_for_view(state.now, k)};
+  const Row row{"view", "View", {}, {}, "", "keys 1 to 9", view_meaning(state), "aov, render pass, passes, channel"};
+  int view = state.now.view;
   if (choice_row(ui, row, choices, view, 3)) ui.requests.push_back({std::string("view: ") + view_entry(view).name});
 }
 
@@ -228,7 +245,7 @@ void film_panel(Ui& ui, PanelState& state) {
 }
 
 void render_panel(Ui& ui, PanelState& state) {
-  if (!section(ui, "Render", kernel_note(state.model.frame.get()))) return;
+  if (!section(ui, "Render", kernel_note(state.now.frame.get()))) return;
   const Scope scope(ui, "render");
   const auto said = [&](const Slot& slot, const std::string&) { return setting_meaning(state, slot.name); };
   part_rows(
@@ -240,6 +257,34 @@ void render_panel(Ui& ui, PanelState& state) {
   size_row(ui, state);
   threads_row(ui, state);
   note(ui, contents_text(*state.scene), false);
+}
+
+void window_panel(Ui& ui, PanelState& state) {
+  if (!section(ui, "Window", "remembered")) return;
+  const Scope scope(ui, "window");
+  static constexpr Choice themes[] = {{"dark"}, {"light"}};
+  int theme = static_cast<int>(state.look->theme);
+  if (choice_row(ui,
+                 {"theme",
+                  "Theme",
+                  {},
+                  {},
+                  "",
+                  "of panels and lines; the picture stays as it is",
+                  "",
+                  "colour scheme, color scheme"},
+                 themes, theme))
+    state.look->theme = static_cast<Theme>(theme);
+  std::vector<std::string> names;
+  std::vector<Choice> sizes;
+  for (const double size : text_sizes) names.push_back(format_short(100 * size));
+  for (const std::string& name : names) sizes.push_back({name.c_str()});
+  int chosen =
+      static_cast<int>(std::find(text_sizes.begin(), text_sizes.end(), state.look->text_size) - text_sizes.begin());
+  if (choice_row(ui,
+                 {"text", "Text size, %", {}, {}, "", "of all controls: Ctrl + and Ctrl -", "", "text size, ui scale"},
+                 sizes, chosen))
+    state.look->text_size = text_sizes[static_cast<std::size_t>(chosen)];
 }
 
 }  // namespace tyndall

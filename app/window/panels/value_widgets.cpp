@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 namespace tyndall {
@@ -38,13 +37,6 @@ std::string shown_text(const Row& row, double value, bool fixed_digits) {
   return (fixed_digits ? format_value(row.slider, value) : format_short(value)) + unit;
 }
 
-void begin_edit(Ui& ui, ImGuiID id, const std::string& text) {
-  ui.edit = {};
-  ui.edit.id = id;
-  ui.edit.start = text;
-  std::strncpy(ui.edit.text, text.c_str(), sizeof ui.edit.text - 1);
-}
-
 /// Takes what was typed. Text that was not changed leaves the value as it is: the text may show fewer digits than the
 /// value has.
 bool finish_edit(Ui& ui, const Row& row, double& value) {
@@ -65,12 +57,11 @@ bool finish_edit(Ui& ui, const Row& row, double& value) {
 }
 
 bool edit_box(Ui& ui, const Row& row, double& value, float width) {
-  ImGui::SetNextItemWidth(width);
+  const bool fresh = ui.edit.waited == 0;
   compat::push_font(ui.fonts.mono);
   ImGui::PushStyleColor(ImGuiCol_FrameBg, palette::field_active);
-  if (ui.edit.waited == 0) ImGui::SetKeyboardFocusHere();
   ImGui::PushID(static_cast<int>(ui.edit.id));  // the boxes of a row are different ones for Dear ImGui
-  ImGui::InputText("##typed", ui.edit.text, sizeof ui.edit.text, ImGuiInputTextFlags_AutoSelectAll);
+  const bool ended = type_text(ui, "", width);
   ImGui::PopID();
   ImGui::PopStyleColor();
   ImGui::PopFont();
@@ -79,16 +70,10 @@ bool edit_box(Ui& ui, const Row& row, double& value, float width) {
     ui.edit = {};  // the first click began to type, the second one sets the value back
     return accept(row, row.original->x, value);
   }
-  const bool active = ImGui::IsItemActive();
-  const bool tab = active && ui.edit.waited > 0 && compat::key_pressed(ImGuiKey_Tab);  // not the Tab that has led here
   ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), shade(palette::blue, 0.8f),
                                       4 * ui.scale);
-  ui.edit.started = ui.edit.started || active;
-  ++ui.edit.waited;
-  // The keyboard reaches it a frame later, and shortcuts lose it a frame after that.
-  if (!active || !ImGui::GetIO().WantTextInput) ui.wake_in = 0;
-  if (active && !tab) return false;
-  if (!ui.edit.started && ui.edit.waited < 6) return false;
+  const bool tab = ImGui::IsItemActive() && !fresh && compat::key_pressed(ImGuiKey_Tab);  // not the one that led here
+  if (!ended && !tab) return false;
   const bool changed = finish_edit(ui, row, value);
   ui.edit.next = tab;
   return changed;
@@ -205,7 +190,7 @@ bool value_box(Ui& ui, const char* id, const Row& row, double& value, float widt
   const ImGuiID item = ImGui::GetID(id);
   const std::string text = shown_text(row, value, fixed_digits);
   const bool sought = std::exchange(ui.sought.types, false);
-  if (sought || (ui.edit.next && ui.edit.id == 0)) begin_edit(ui, item, text);
+  if (sought || (ui.edit.next && ui.edit.id == 0)) begin_typing(ui, item, text);
   if (ui.edit.id == item) {
     const bool typed = edit_box(ui, row, value, width);
     log_item(ui, row.name + "." + id, "typing");
@@ -221,7 +206,7 @@ bool value_box(Ui& ui, const char* id, const Row& row, double& value, float widt
     const double wanted = dragged(row.slider, ui.drag.start, steps, finer_by_keys());
     changed = accept(row, snapped_by_keys(row.slider, wanted), value);
   }
-  if (ImGui::IsItemDeactivated() && !ui.drag.moved && !ui.drag.reset) begin_edit(ui, item, text);
+  if (ImGui::IsItemDeactivated() && !ui.drag.moved && !ui.drag.reset) begin_typing(ui, item, text);
   draw_frame(ui);
   compat::push_font(ui.fonts.mono);
   const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax(), size = ImGui::CalcTextSize(text.c_str());

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <utility>
 
 namespace tyndall {
@@ -171,7 +173,7 @@ bool section(Ui& ui, const std::string& name, const std::string& note_text) {
 void begin_row(Ui& ui, const Row& row) {
   ui.sought.here = is_sought(ui, row.label) && !ui.sought.met;
   if (ui.sought.here) meet_sought(ui, 0.3f);
-  if (ui.rows) ui.rows->push_back({ui.drawn.part, row.label});
+  if (ui.rows) ui.rows->push_back({ui.drawn.part, row.label, row.words, ui.drawn.label});
   ImGui::PushID(row.name.c_str());
   ImGui::AlignTextToFramePadding();
   clipped_text(row.label, label_column * ui.scale - ImGui::GetCursorPosX() - 4 * ui.scale);
@@ -215,12 +217,54 @@ bool slider_row(Ui& ui, const Row& row, double& value) {
   return changed;
 }
 
-void text_row(Ui& ui, const Row& row, const std::string& text) {
+void file_row(Ui& ui, Row row, const std::string& file) {
+  row.help = file;
   begin_row(ui, row);
   ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
-  clipped_text(text, value_width(ui));
+  clipped_text(file, value_width(ui));
   ImGui::PopStyleColor();
   end_row(ui, row);
+}
+
+void draw_fitted(const PictureTexture& picture, const Rect& place, float rounding) {
+  const float fit = std::min(place.width() / picture.width(), place.height() / picture.height());
+  const float half_x = fit * picture.width() / 2, half_y = fit * picture.height() / 2;
+  const float x = (place.x0 + place.x1) / 2, y = (place.y0 + place.y1) / 2;
+  const auto texture = (ImTextureID) static_cast<std::intptr_t>(picture.number());  // NOLINT: a pointer before 1.92
+  ImGui::GetWindowDrawList()->AddImageRounded(texture, {x - half_x, y - half_y}, {x + half_x, y + half_y}, {0, 0},
+                                              {1, 1}, IM_COL32_WHITE, rounding);
+}
+
+void draw_part(Ui& ui, const char* name, const Rect& where, ImGuiWindowFlags more, ImVec2 padding,
+               const std::function<void()>& draw) {
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                     ImGuiWindowFlags_NoSavedSettings;
+  ImGui::SetNextWindowPos({where.x0, where.y0});
+  ImGui::SetNextWindowSize({where.width(), where.height()});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
+  if (ImGui::Begin(name, nullptr, flags | more | (ui.has_question ? ImGuiWindowFlags_NoInputs : 0))) draw();
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
+void begin_typing(Ui& ui, ImGuiID id, const std::string& text) {
+  ui.edit = {};
+  ui.edit.id = id;
+  ui.edit.start = text.substr(0, size_of_letters(text, sizeof ui.edit.text - 1));
+  std::strncpy(ui.edit.text, ui.edit.start.c_str(), sizeof ui.edit.text - 1);
+}
+
+bool type_text(Ui& ui, const char* hint, float width) {
+  TextEdit& edit = ui.edit;
+  ImGui::SetNextItemWidth(width);
+  if (edit.waited == 0) ImGui::SetKeyboardFocusHere();
+  ImGui::InputTextWithHint("##typed", hint, edit.text, sizeof edit.text, ImGuiInputTextFlags_AutoSelectAll);
+  const bool active = ImGui::IsItemActive();
+  edit.started = edit.started || active;
+  ++edit.waited;
+  // The keyboard reaches it a frame later, and shortcuts lose it a frame after that.
+  if (!active || !ImGui::GetIO().WantTextInput) ui.wake_in = 0;
+  return !active && (edit.started || edit.waited >= 6);
 }
 
 bool popup_is_open() { return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup); }

@@ -1,11 +1,13 @@
 #pragma once
 #include "app/text/numbers.h"
+#include "app/window/picture/display.h"
 #include "app/window/system/style.h"
 #include "app/window/system/ui_log.h"
 #include "core/base/vec.h"
 
 #include <imgui.h>
 
+#include <functional>
 #include <optional>
 #include <set>
 #include <span>
@@ -42,6 +44,13 @@ struct NumberDrag {
 /// A row of the column by the part and the label under which it is seen; without a label the part's heading.
 struct RowPlace {
   std::string part, label;
+};
+
+/// A row of the column as the palette knows it.
+struct RowEntry {
+  std::string part, label;
+  std::string words;  ///< other words for it, separated by ", "
+  std::string owner;  ///< whose it is: the title of an object, else its section
 };
 
 /// The row that the column was sent to. In the first drawing its section is opened, in the second it is scrolled to, in
@@ -84,6 +93,7 @@ struct Row {
   const char* unit = "";
   std::string help;      ///< tooltip
   std::string meaning;   ///< grey line beneath; "": none
+  std::string words{};   ///< by which the palette finds it, too, separated by ", "
   bool whole = false;    ///< whole numbers only
   bool warning = false;  ///< the line beneath is one
   std::optional<Vec3d> original =
@@ -108,7 +118,7 @@ struct Ui {
   double wake_in = 1e300;                 ///< seconds until something appears by itself
   bool has_question = false;              ///< a dialog waits for an answer: the column takes no input
   bool close_popup = false;               ///< a list or a picker that is open closes in this drawing
-  std::vector<RowPlace>* rows = nullptr;  ///< gets the place of each row that is drawn; null: nobody asks
+  std::vector<RowEntry>* rows = nullptr;  ///< gets each row that is drawn; null: nobody asks
   std::vector<Request> requests;          ///< of controls, until they are carried out
   std::string problem;                    ///< why a typed value was refused: one line; "": it was not
   std::set<std::string> folded;           ///< sections that are closed
@@ -164,8 +174,8 @@ bool combo_row(Ui& ui, const Row& row, std::span<const std::string> names, int& 
 bool combo_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& chosen);
 /// Label and a text to type. hint: shown grey where it is empty. begin: typing begins now.
 bool name_row(Ui& ui, const Row& row, const std::string& hint, bool begin, std::string& value);
-/// Label and text.
-void text_row(Ui& ui, const Row& row, const std::string& text);
+/// Label and the name of a file.
+void file_row(Ui& ui, Row row, const std::string& file);
 /// A small button in the label's column or anywhere; logged as `name`.
 bool small_button(Ui& ui, const std::string& name, const std::string& label, float width = 0);
 /// Grey small text, wrapped. indent: start in the column of the values.
@@ -179,8 +189,24 @@ std::string clipped(const std::string& text, float width);
 void clipped_text(const std::string& text, float width);
 void clipped_text_at(const std::string& text, ImVec2 at, float width, Tone colour);
 
+/// A picture in the middle of a place of the window, as large as that allows.
+void draw_fitted(const PictureTexture& picture, const Rect& place, float rounding);
+
+/// A part of the window with controls, in a window of Dear ImGui's own. padding: around what `draw` puts into it.
+void draw_part(Ui& ui, const char* name, const Rect& where, ImGuiWindowFlags more, ImVec2 padding,
+               const std::function<void()>& draw);
+inline constexpr ImGuiWindowFlags stays_behind = ImGuiWindowFlags_NoBringToFrontOnFocus;
+/// Of a bar beneath the picture.
+inline constexpr ImGuiWindowFlags bar_flags =
+    stays_behind | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoNav;
+
 /// Whether a list or a colour picker is open.
 bool popup_is_open();
+
+/// Begins to type into the box of that number.
+void begin_typing(Ui& ui, ImGuiID id, const std::string& text);
+/// The box that is typed into; it is the last item then. Returns whether typing has ended: ui.edit has the text.
+bool type_text(Ui& ui, const char* hint, float width);
 
 /// Parts that rows are made of.
 bool slider(Ui& ui, const Row& row, double& value, float width);

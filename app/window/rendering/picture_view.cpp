@@ -1,5 +1,6 @@
 #include "app/window/rendering/picture_view.h"
 
+#include "app/window/accuracy/views.h"
 #include "app/window/system/imgui_compat.h"
 #include "core/base/error.h"
 
@@ -88,13 +89,13 @@ void PictureView::note_shown() {
   if (left_.frame) renderers_.note_shown(Half::kept, left_.frame->pass);
 }
 
-bool PictureView::shows_halves(const ShownState& state) const {
-  return (state.split && !accuracy_.map()) || shows_raw_beside(state);
+bool PictureView::shows_halves(const Context& context) const {
+  return (context.split && !accuracy_.map()) || shows_raw_beside(context);
 }
 
 /// The left side is then the right one's picture as it is.
-bool PictureView::shows_raw_beside(const ShownState& state) const {
-  return state.clean_beside_raw && !accuracy_.map() && clean_of(right_.frame);
+bool PictureView::shows_raw_beside(const Context& context) const {
+  return context.clean == 2 && !accuracy_.map() && clean_of(right_.frame);
 }
 
 /// The clean view that a frame shows; null: it shows something else.
@@ -115,8 +116,9 @@ std::string PictureView::text_of(Half half, std::string method) const {
   return text + fmt::format("   {} error {:.2g} %", kind, 100 * std::sqrt(curve.points.back().rel_mse));
 }
 
-SplitLabels PictureView::labels(const ShownState& state) const {
-  if (!shows_raw_beside(state)) return {text_of(Half::kept, state.kept_method), text_of(Half::current, state.method)};
+SplitLabels PictureView::labels(const Context& context) const {
+  if (!shows_raw_beside(context))
+    return {text_of(Half::kept, context.kept_method), text_of(Half::current, context.method)};
   const Frame& frame = *right_.frame;
   const auto text = [](const char* name, std::uint32_t spp, double error) {
     if (spp == 0) return std::string(name) + "   coarse at first";
@@ -125,22 +127,22 @@ SplitLabels PictureView::labels(const ShownState& state) const {
   return {text("raw", frame.spp, frame.relative_error), text("clean", frame.clean->spp, frame.clean->relative_error)};
 }
 
-void PictureView::draw_halves(Ui& ui, const Rect& image, const ShownState& state) const {
+void PictureView::draw_halves(Ui& ui, const Context& context) const {
   if (ui.log && right_.frame) {
     const Frame& frame = *right_.frame;
     ui.log->changed("pictures", fmt::format("{} of {} x {}{}", left_.frame || left_.display ? 2 : 1, frame.width,
                                             frame.height, frame.clean ? " clean" : ""));
   }
-  if (!shows_halves(state)) return;
+  if (!shows_halves(context)) return;
   if (ui.log && left_.frame && right_.frame)
     ui.log->changed("halves", fmt::format("A {:.2f} B {:.2f}", left_.frame->seconds, right_.frame->seconds));
-  draw_split(ui, image, divider_, labels(state));
+  draw_split(ui, context.visible, divider_, labels(context));
 }
 
-bool PictureView::drag_divider(Ui& ui, const Rect& image, const Mouse& mouse, bool free, const ShownState& state) {
+bool PictureView::drag_divider(Ui& ui, const Mouse& mouse, bool free, const Context& context) {
   bool has_it = false;
-  if (shows_halves(state))
-    has_it = divider_.follow(mouse, image, free, 6 * ui.scale);
+  if (shows_halves(context))
+    has_it = divider_.follow(mouse, context.visible, free, 6 * ui.scale);
   else
     divider_.hovered = divider_.dragged = false;
   const bool shown = has_it || divider_.hovered;
@@ -161,48 +163,47 @@ void PictureView::upload(Side& side, const std::shared_ptr<const void>& what, co
 
 /// Puts what a frame shows on a side's display. clean: its clean view, if it has one. Views that are not the picture
 /// are shown as they are.
-void PictureView::upload_frame(Side& side, const std::shared_ptr<const Frame>& frame, bool clean,
-                               const ShownState& state) {
-  const Display& display = state.display;
-  const Look of_picture{display.exposure, display.tone_map, display.dither, state.stops};
-  const Look look = frame->view == View::beauty ? of_picture : Look{};
+void PictureView::upload_frame(Side& side, const std::shared_ptr<const Frame>& frame, bool clean, const Look& look) {
+  const Look own = frame->view == View::beauty ? look : Look{};
   if (const auto filtered = clean ? clean_of(frame) : nullptr)
-    upload(side, filtered, {filtered->rgba, filtered->grid, frame->width, frame->height}, look);
+    upload(side, filtered, {filtered->rgba, filtered->grid, frame->width, frame->height}, own);
   else
-    upload(side, frame, {frame->rgba, frame->grid, frame->width, frame->height}, look);
+    upload(side, frame, {frame->rgba, frame->grid, frame->width, frame->height}, own);
 }
 
-void PictureView::upload_all(const ShownState& state) {
-  if (!state.split && !shows_raw_beside(state)) left_ = {};
+void PictureView::upload_all(const Context& context, const Display& display) {
+  const Look look{display.exposure, display.tone_map, display.dither, view_entry(context.view).stops};
+  if (!context.split && !shows_raw_beside(context)) left_ = {};
   if (const auto map = accuracy_.map())
     upload(right_, map, {map->rgba, {map->width, map->height}, map->width, map->height}, {});
   else if (right_.frame)
-    upload_frame(right_, right_.frame, true, state);
-  if (!shows_halves(state)) return;
-  const bool beside = shows_raw_beside(state);
+    upload_frame(right_, right_.frame, true, look);
+  if (!shows_halves(context)) return;
+  const bool beside = shows_raw_beside(context);
   const auto& left = beside ? right_.frame : left_.frame;
-  if (left) upload_frame(left_, left, !beside, state);
+  if (left) upload_frame(left_, left, !beside, look);
 }
 
-std::string PictureView::show(Platform& platform, const Layout& layout, const ShownState& state) {
+std::string PictureView::show(Platform& platform, const Context& context, const Display& display) {
   std::string problem;
   try {
-    upload_all(state);
+    upload_all(context, display);
   } catch (const IoError& error) {
     problem = error.what();
   }
   const WindowSize window = platform.size();
-  const float dots = static_cast<float>(window.framebuffer_width) / static_cast<float>(std::max(1, window.width));
-  const auto in_dots = [dots](const Rect& r) { return Rect{r.x0 * dots, r.y0 * dots, r.x1 * dots, r.y1 * dots}; };
-  const Rect whole = in_dots(layout.image), visible = overlap(layout.image, layout.area), clip = in_dots(visible);
-  const auto draw = [&](const FrameDisplay& display, const Rect& within) {
-    display.draw(whole, window.framebuffer_width, window.framebuffer_height, within, state.squares);
+  const auto in_dots = [dots = context.dots](const Rect& r) {
+    return Rect{r.x0 * dots, r.y0 * dots, r.x1 * dots, r.y1 * dots};
+  };
+  const Rect whole = in_dots(context.layout.image), clip = in_dots(context.visible);
+  const auto draw = [&](const FrameDisplay& shown, const Rect& within) {
+    shown.draw(whole, window.framebuffer_width, window.framebuffer_height, within, context.squares);
   };
   platform.clear();
   draw(*right_.display, clip);
-  if (shows_halves(state) && left_.display) {
+  if (shows_halves(context) && left_.display) {
     Rect left = clip;
-    left.x1 = std::round(divider_.x(visible)) * dots;
+    left.x1 = std::round(divider_.x(context.visible)) * context.dots;
     draw(*left_.display, left);
   }
   platform.end_frame();

@@ -1,5 +1,5 @@
 #pragma once
-#include "app/window/accuracy/live_accuracy.h"
+#include "app/window/panels/context.h"
 #include "app/window/panels/widgets.h"
 #include "app/window/picture/display.h"
 #include "app/window/rendering/renderer_pair.h"
@@ -36,16 +36,6 @@ struct SplitLabels {
 /// Divider, and in each half's upper corner what it is.
 void draw_split(Ui& ui, const Rect& image, const Divider& divider, const SplitLabels& labels);
 
-/// What is shown in a drawing, besides the frames.
-struct ShownState {
-  Display display;
-  bool stops = false;    ///< as Look says
-  bool squares = false;  ///< enlarged pixels are squares
-  bool split = false;
-  bool clean_beside_raw = false;        ///< the picture as it is on the left, the clean view on the right
-  std::string method{}, kept_method{};  ///< how the halves of a split view are rendered
-};
-
 /// The picture in the window: which frames are on the screen, how they are shown, and the divider of a split view.
 class PictureView {
  public:
@@ -63,12 +53,12 @@ class PictureView {
   const std::shared_ptr<const Frame>& shown() const { return right_.frame; }
 
   /// The divider of a split view and what is said of its halves.
-  void draw_halves(Ui& ui, const Rect& image, const ShownState& state) const;
+  void draw_halves(Ui& ui, const Context& context) const;
   /// Moves the divider with the mouse. free: nothing else has the mouse. Returns whether the divider has it.
-  bool drag_divider(Ui& ui, const Rect& image, const Mouse& mouse, bool free, const ShownState& state);
-  /// Draws the picture, or both halves, beneath the interface and shows the whole drawing. Returns what the display
-  /// could not take, a sentence; "": it took all.
-  std::string show(Platform& platform, const Layout& layout, const ShownState& state);
+  bool drag_divider(Ui& ui, const Mouse& mouse, bool free, const Context& context);
+  /// Draws the picture, or both halves, beneath the interface and shows the whole drawing. Returns what the screen
+  /// could not take, a sentence; "": it took all. display: as it is now.
+  std::string show(Platform& platform, const Context& context, const Display& display);
 
  private:
   /// A half, and what its display holds: its frame or a map of errors, and how that looks.
@@ -78,14 +68,14 @@ class PictureView {
     Look look;
     std::unique_ptr<FrameDisplay> display;
   };
-  bool shows_halves(const ShownState& state) const;
-  bool shows_raw_beside(const ShownState& state) const;
-  SplitLabels labels(const ShownState& state) const;
+  bool shows_halves(const Context& context) const;
+  bool shows_raw_beside(const Context& context) const;
+  SplitLabels labels(const Context& context) const;
   static std::shared_ptr<const CleanFrame> clean_of(const std::shared_ptr<const Frame>& frame);
   static void upload(Side& side, const std::shared_ptr<const void>& what, const ShownPicture& picture,
                      const Look& look);
-  static void upload_frame(Side& side, const std::shared_ptr<const Frame>& frame, bool clean, const ShownState& state);
-  void upload_all(const ShownState& state);
+  static void upload_frame(Side& side, const std::shared_ptr<const Frame>& frame, bool clean, const Look& look);
+  void upload_all(const Context& context, const Display& display);
   std::string text_of(Half half, std::string method) const;
 
   RendererPair& renderers_;

@@ -114,13 +114,7 @@ TimelineWish Timeline::draw(Ui& ui, const Rect& rect, const Scene& scene, double
     wish.frame = static_cast<int>(played % animation.frames);
     ui.wake_in = std::min(ui.wake_in, 1 / frames_per_second);
   }
-  ImGui::SetNextWindowPos({rect.x0, rect.y0});
-  ImGui::SetNextWindowSize({rect.width(), rect.height()});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * s, 5 * s});
-  const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                 ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                                 ImGuiWindowFlags_NoNav | (ui.has_question ? ImGuiWindowFlags_NoInputs : 0);
-  if (ImGui::Begin("##film", nullptr, flags)) {
+  draw_part(ui, "##film", rect, bar_flags, {8 * s, 5 * s}, [&] {
     if (ImGui::Button(playing_ ? "Stop" : "Play", {button_width * s, 0})) play_or_stop(now);
     log_item(ui, "film.play", playing_ ? "plays" : "rests");
     ImGui::SameLine();
@@ -138,9 +132,7 @@ TimelineWish Timeline::draw(Ui& ui, const Rect& rect, const Scene& scene, double
       log_item(ui, "film.no_key", "button");
       tooltip(ui, "takes the keys of this frame away");
     }
-  }
-  ImGui::End();
-  ImGui::PopStyleVar();
+  });
   if (wish.frame == frame_ && !playing_) wish.frame.reset();
   if (wish.frame) frame_ = *wish.frame;
   return wish;

@@ -86,10 +86,10 @@ const Material* material_of(const Scene& scene, const Object& object) {
 
 int users_of(const Scene& scene, int material) {
   int users = 0;
-  for (const ObjectPath& path : leaves(scene)) {
-    const Solid3d* solid = std::get_if<Solid3d>(&find_object(scene, path)->kind);
+  each_object(scene.objects, [&](const Object& object) {
+    const Solid3d* solid = std::get_if<Solid3d>(&object.kind);
     users += solid && solid->material == material;
-  }
+  });
   return users;
 }
 

@@ -1,6 +1,5 @@
 #include "app/window/variations/small_renders.h"
 
-#include "app/window/document/job_queue.h"
 #include "core/base/seconds.h"
 #include "core/render/render.h"
 #include "core/system/process.h"
@@ -15,20 +14,9 @@ namespace {
 constexpr std::uint32_t first_samples = 8;
 constexpr std::uint32_t further_samples[] = {32, 128, 512};
 
-/// Renders a picture on, up to so many samples a pixel.
-SmallPicture render_on(const PreparedScene& scene, Film& film, const RenderOptions& options,
-                       const ProgressCallback& go_on, bool& whole) {
-  RenderResult result = render(scene, options, go_on, std::move(film));
-  whole = !result.interrupted;
-  const Region& region = result.film.region;
-  SmallPicture picture{region.width(), region.height(), result.clean ? result.clean->rgb : resolve(result.film),
-                       *options.spp};
-  film = std::move(result.film);
-  return picture;
-}
-
 }  // namespace
 
+/// A request, which its jobs share. They run one after another, and each picture belongs to one of them at a time.
 struct SmallRenders::Work {
   struct Item {
     std::shared_ptr<const PreparedScene> scene;  ///< null: there is none
@@ -37,114 +25,63 @@ struct SmallRenders::Work {
   SmallRequest request;
   std::uint64_t number = 0;
   std::vector<Item> items{};
+  std::shared_ptr<const PreparedScene> before{};  ///< the scene that was prepared last
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+
+  void prepare_item(std::size_t index) {
+    auto scene = request.scene(index);
+    if (scene) before = items[index].scene = prepare(std::make_shared<const Scene>(std::move(*scene)), before.get());
+  }
+  /// Renders a picture on, up to so many samples a pixel. Null: there is none.
+  std::shared_ptr<const SmallPicture> render_on(Item& item, std::uint32_t samples,
+                                                const ProgressCallback& go_on) const {
+    if (!item.scene) return nullptr;
+    RenderOptions options;
+    options.threads = samples == first_samples ? request.threads : 1;
+    options.spp = samples;
+    options.clean = request.clean;
+    RenderResult result = render(*item.scene, options, go_on, std::move(item.film));
+    const Region& region = result.film.region;
+    auto picture = std::make_shared<const SmallPicture>(SmallPicture{
+        region.width(), region.height(), result.clean ? result.clean->rgb : resolve(result.film), samples});
+    item.film = std::move(result.film);
+    return result.interrupted ? nullptr : picture;
+  }
 };
 
-SmallRenders::SmallRenders(std::function<void()> wake)
-    : wake_(std::move(wake)), manager_([this](const StopToken& stop) { manage(stop); }) {}
-
-SmallRenders::~SmallRenders() { closing_ = true; }
-
 void SmallRenders::request(SmallRequest request) {
-  const std::lock_guard lock(mutex_);
   pictures_.assign(request.count, nullptr);
-  finished_ = request.count == 0;
   stood_after_ = 0;
-  request_ = std::move(request);
-  ++number_;
-  changed_.notify_all();
+  const auto work = std::make_shared<Work>(Work{std::move(request), ++number_});
+  work->items.resize(pictures_.size());
+  for (std::size_t k = 0; k < pictures_.size(); ++k) first_.run(job(work, k, first_samples));
 }
 
-std::vector<std::shared_ptr<const SmallPicture>> SmallRenders::pictures() const {
-  const std::lock_guard lock(mutex_);
-  return pictures_;
-}
-
-bool SmallRenders::is_newest(const Work& work) const { return !closing_ && number_ == work.number; }
-
-void SmallRenders::manage(const StopToken& stop) {
-  std::uint64_t done = 0;
-  while (!stop.stop_requested()) {
-    Work work;
-    {
-      std::unique_lock lock(mutex_);
-      if (!changed_.wait(lock, stop, [&] { return number_ != done; })) return;
-      work.request = request_;
-      work.number = done = number_;
-    }
-    work.items.resize(work.request.count);
-    render_first(work);
-    // A thread cannot take its old priority back, so another one sharpens the pictures.
-    const StoppableThread refiner([&](const StopToken&) {
-      lower_priority(19);
-      refine(work);
-    });
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, stop, [&] { return number_ != done; });
-  }
-}
-
-void SmallRenders::render_first(Work& work) {
-  const auto start = std::chrono::steady_clock::now();
-  std::shared_ptr<const PreparedScene> before;
-  for (std::size_t k = 0; k < work.items.size() && is_newest(work); ++k) {
+JobQueue::Job SmallRenders::job(const std::shared_ptr<Work>& work, std::size_t index, std::uint32_t samples) {
+  return [this, work, index, samples]() -> JobQueue::Result {
+    const auto is_newest = [this, number = work->number] { return number_ == number; };
+    if (!is_newest()) return {};
+    std::shared_ptr<const SmallPicture> picture;
     try {
-      auto scene = work.request.scene(k);
-      if (!scene) continue;
-      before = work.items[k].scene = prepare(std::make_shared<const Scene>(std::move(*scene)), before.get());
-      RenderOptions options;
-      options.threads = work.request.threads;
-      options.spp = first_samples;
-      options.clean = work.request.clean;
-      bool whole = false;
-      SmallPicture picture = render_on(
-          *before, work.items[k].film, options, [&](const RenderProgress&) { return is_newest(work); }, whole);
-      if (whole) publish(work, k, std::move(picture));
+      samples == first_samples ? work->prepare_item(index) : lower_priority(19);
+      picture = work->render_on(work->items[index], samples, [&](const RenderProgress&) { return is_newest(); });
     } catch (const std::exception&) {
-      work.items[k].scene = nullptr;  // such a scene has no picture
+      work->items[index].scene = nullptr;  // such a scene has no picture
     }
-  }
-  if (!is_newest(work)) return;
-  stood_after_ = seconds_since(start);
-  tell();
+    return [this, work, index, samples, picture, is_newest, seconds = seconds_since(work->start)] {
+      if (!is_newest()) return;
+      if (picture) pictures_[index] = picture;
+      if (samples != first_samples || index + 1 < pictures_.size()) return;
+      stood_after_ = seconds;
+      for (const std::uint32_t more : further_samples)
+        for (std::size_t k = 0; k < pictures_.size(); ++k) further_.run(job(work, k, more));
+    };
+  };
 }
 
-void SmallRenders::refine(Work& work) {
-  for (const std::uint32_t samples : further_samples)
-    for (std::size_t k = 0; k < work.items.size(); ++k) {
-      if (!is_newest(work)) return;
-      if (!work.items[k].scene) continue;
-      try {
-        RenderOptions options;
-        options.threads = 1;
-        options.spp = samples;
-        options.clean = work.request.clean;
-        bool whole = false;
-        SmallPicture picture = render_on(
-            *work.items[k].scene, work.items[k].film, options, [&](const RenderProgress&) { return is_newest(work); },
-            whole);
-        if (!whole) return;
-        publish(work, k, std::move(picture));
-      } catch (const std::exception&) {
-        work.items[k].scene = nullptr;
-      }
-    }
-  if (!is_newest(work)) return;
-  finished_ = true;
-  tell();
-}
-
-void SmallRenders::tell() {
-  news_ = true;
-  wake_();
-}
-
-void SmallRenders::publish(const Work& work, std::size_t index, SmallPicture picture) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (number_ != work.number) return;
-    pictures_[index] = std::make_shared<const SmallPicture>(std::move(picture));
-  }
-  tell();
+bool SmallRenders::collect() {
+  const bool came = first_.collect();
+  return further_.collect() || came;
 }
 
 }  // namespace tyndall

@@ -1,19 +1,18 @@
 #pragma once
-#include "core/base/stoppable.h"
+#include "app/window/document/job_queue.h"
 #include "core/scene/scene.h"
 
 #include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <vector>
 
 /// This room shows what a value does: small pictures of the scene with the values of a row in steps.
 namespace tyndall {
 
-/// A small picture while it sharpens. Never changes once it is shared.
+/// A small picture while it sharpens.
 struct SmallPicture {
   int width = 0, height = 0;
   std::vector<float> rgb;  ///< linear, top row first
@@ -31,46 +30,35 @@ struct SmallRequest {
 
 /// Renders several small pictures in the background: first all of them with few samples, as quickly as it can, so that
 /// they stand after a moment; then they sharpen in turn, on one thread of the lowest priority, so that the main picture
-/// does not wait for them. For the main thread unless it says otherwise.
+/// does not wait for them. For the main thread.
 class SmallRenders {
  public:
-  /// wake: a picture has come; called from any thread.
-  explicit SmallRenders(std::function<void()> wake);
-  ~SmallRenders();
+  /// wake: collect() has something to do; called from any thread.
+  explicit SmallRenders(const std::function<void()>& wake) : first_(wake), further_(wake) {}
+  ~SmallRenders() { ++number_; }
 
   /// Takes the place of what was asked for before, and forgets its pictures.
   void request(SmallRequest request);
   /// Renders nothing any more.
   void stop() { request({}); }
 
+  /// Takes what has come. Whether there was anything.
+  bool collect();
   /// The newest picture of each; null: none yet, or there is none.
-  std::vector<std::shared_ptr<const SmallPicture>> pictures() const;
-  /// Whether anything has come since the last call.
-  bool take_news() { return news_.exchange(false); }
+  const std::vector<std::shared_ptr<const SmallPicture>>& pictures() const { return pictures_; }
   /// Whether all pictures have all their samples.
-  bool finished() const { return finished_; }
+  bool finished() const { return first_.idle() && further_.idle(); }
   /// Seconds from the request until all pictures stood; 0: they do not stand yet.
   double seconds_to_stand() const { return stood_after_; }
 
  private:
   struct Work;
-  void manage(const StopToken& stop);
-  void render_first(Work& work);
-  void refine(Work& work);
-  void tell();
-  void publish(const Work& work, std::size_t index, SmallPicture picture);
-  bool is_newest(const Work& work) const;
+  JobQueue::Job job(const std::shared_ptr<Work>& work, std::size_t index, std::uint32_t samples);
 
-  std::function<void()> wake_;
-  mutable std::mutex mutex_;  ///< guards the next three
-  SmallRequest request_;
   std::vector<std::shared_ptr<const SmallPicture>> pictures_;
-  StoppableCondition changed_;
-  std::atomic<std::uint64_t> number_ = 0;  ///< counts the requests
-  std::atomic<bool> finished_ = true, news_ = false;
-  std::atomic<double> stood_after_ = 0;
-  std::atomic<bool> closing_ = false;
-  StoppableThread manager_;  // declared last, because it uses the others
+  double stood_after_ = 0;
+  std::atomic<std::uint64_t> number_ = 0;  ///< counts the requests; jobs of earlier ones give up
+  JobQueue first_, further_;               // last: their jobs use the others
 };
 
 }  // namespace tyndall

@@ -111,15 +111,15 @@ void VariationStrip::look_at(const Scene& scene) {
   }
 }
 
-void VariationStrip::ask(const Now& now, const Rect& rect, float scale) {
+void VariationStrip::ask(const Context& context, const Rect& rect, float scale) {
   const Rect cell = cell_at(rect, 0, scale);
-  width_ = std::max(8, static_cast<int>(std::lround(cell.width() * now.dots)));
-  height_ = std::max(8, static_cast<int>(std::lround(cell.height() * now.dots)));
-  clean_ = now.clean;
+  width_ = std::max(8, static_cast<int>(std::lround(cell.width() * context.dots)));
+  height_ = std::max(8, static_cast<int>(std::lround(cell.height() * context.dots)));
+  clean_ = context.clean > 0;
   stale_ = false;
   cells_.clear();
   cells_.resize(count());
-  SmallRequest request{count(), {}, now.clean, now.threads};
+  SmallRequest request{count(), {}, clean_, context.wanted.threads};
   request.scene = [base = *base_, axes = axes_, width = width_, height = height_](std::size_t index) {
     std::optional<Scene> scene = varied_scene(base, axes, index);
     if (scene) scene->width = width, scene->height = height;
@@ -128,32 +128,33 @@ void VariationStrip::ask(const Now& now, const Rect& rect, float scale) {
   renders_.request(std::move(request));
 }
 
-double VariationStrip::update(const Now& now, const Rect& rect, float scale) {
+/// Asks for other pictures where that is due. Returns in how many seconds it is to be called again.
+double VariationStrip::update(const Context& context, const Rect& rect, const Scene& scene, float scale) {
   constexpr double never = 1e300, patience = 0.25;  // seconds after an edit; another one may follow
   if (!is_open()) return never;
   const bool begins = !base_;
-  if (seen_changes_ != now.changes || begins) {
-    seen_changes_ = now.changes;
-    look_at(now.scene);
+  if (seen_changes_ != context.changes || begins) {
+    seen_changes_ = context.changes;
+    look_at(scene);
     if (!is_open()) return never;
     // Which step the scene has now makes no difference to the pictures.
-    std::optional<Scene> base = varied_scene(now.scene, axes_, 0);
+    std::optional<Scene> base = varied_scene(scene, axes_, 0);
     if (!base) return close(), never;
     base->render.spp.reset();
-    if (begins || !same_picture(*base, *base_)) stale_ = true, changed_at_ = begins ? 0 : now.seconds;
+    if (begins || !same_picture(*base, *base_)) stale_ = true, changed_at_ = begins ? 0 : context.seconds;
     base_ = std::move(base);
   }
   const Rect cell = cell_at(rect, 0, scale);
-  const bool resized = std::abs(cell.width() * now.dots - static_cast<float>(width_)) > 1;
-  const bool wanted = (stale_ || resized || clean_ != now.clean) && rect.width() > 0;
-  const double wait = changed_at_ + patience - now.seconds;
-  if (wanted && now.calm && wait <= 0) ask(now, rect, scale);
-  show_pictures(now.scene.display);
-  return wanted && now.calm && wait > 0 ? wait : never;
+  const bool resized = std::abs(cell.width() * context.dots - static_cast<float>(width_)) > 1;
+  const bool wanted = (stale_ || resized || clean_ != (context.clean > 0)) && rect.width() > 0;
+  const double wait = changed_at_ + patience - context.seconds;
+  if (wanted && context.calm && wait <= 0) ask(context, rect, scale);
+  show_pictures(scene.display);
+  return wanted && context.calm && wait > 0 ? wait : never;
 }
 
 void VariationStrip::show_pictures(const Display& display) {
-  const auto pictures = renders_.pictures();
+  const auto& pictures = renders_.pictures();
   const bool other = !(display == display_);
   display_ = display;
   for (std::size_t k = 0; k < std::min(pictures.size(), cells_.size()); ++k) {
@@ -174,14 +175,22 @@ std::string VariationStrip::label_of_cell(std::size_t index) const {
   return text;
 }
 
-void VariationStrip::draw_cell(Ui& ui, const Rect& cell, std::size_t index) const {
+/// Returns whether it was clicked.
+bool VariationStrip::draw_cell(Ui& ui, const Rect& cell, std::size_t index) const {
+  const std::string label = label_of_cell(index);
+  if (label.empty() || cell.width() < 1 || cell.height() < 1) return false;
   const float s = ui.scale;
+  ImGui::SetCursorScreenPos({cell.x0, cell.y0});
+  ImGui::PushID(static_cast<int>(index));
+  const bool pressed = ImGui::InvisibleButton("cell", {cell.width(), cell.height() + label_height * s});
+  ImGui::PopID();
+  const Cell* known = index < cells_.size() ? &cells_[index] : nullptr;
+  log_item(ui, fmt::format("strip.{}", index),
+           fmt::format("{} spp {}", label, known && known->shown ? known->shown->spp : 0));
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const ImVec2 low{cell.x0, cell.y0}, high{cell.x1, cell.y1};
   draw->AddRectFilled(low, high, shade(palette::field));
-  if (index < cells_.size() && cells_[index].texture)
-    draw->AddImage((ImTextureID) static_cast<std::intptr_t>(cells_[index].texture->number()), low,  // NOLINT: a pointer
-                   high);
+  if (known && known->texture) draw_fitted(*known->texture, cell, 0);
   const int steps[] = {static_cast<int>(index) % strip_columns, static_cast<int>(index) / strip_columns};
   bool marked = true;
   for (std::size_t k = 0; k < axes_.size(); ++k) marked = marked && marked_[k] == steps[k];
@@ -190,24 +199,20 @@ void VariationStrip::draw_cell(Ui& ui, const Rect& cell, std::size_t index) cons
   else if (ImGui::IsItemHovered())
     draw->AddRect(low, high, shade(palette::blue), 2 * s, 0, 1.5f * s);
   compat::push_font(ui.fonts.small);
-  clipped_text_at(label_of_cell(index), {cell.x0 + 2 * s, cell.y1 + 2 * s}, cell.width(),
+  clipped_text_at(label, {cell.x0 + 2 * s, cell.y1 + 2 * s}, cell.width(),
                   marked ? Tone(palette::amber) : Tone(palette::text));
   ImGui::PopFont();
+  return pressed;
 }
 
-std::optional<Scene> VariationStrip::draw(Ui& ui, const Rect& rect, const Scene& scene) {
+std::optional<Scene> VariationStrip::draw(Ui& ui, const Context& context, const Rect& rect, const Scene& scene) {
   std::optional<Scene> taken;
+  ui.wake_in = std::min(ui.wake_in, update(context, rect, scene, ui.scale));
   if (!is_open() || rect.height() <= 0) return taken;
   const float s = ui.scale;
   std::size_t wanted = count();
-  ImGui::SetNextWindowPos({rect.x0, rect.y0});
-  ImGui::SetNextWindowSize({rect.width(), rect.height()});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {gap * s, 3 * s});
-  const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                 ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                                 ImGuiWindowFlags_NoNav | (ui.has_question ? ImGuiWindowFlags_NoInputs : 0);
   bool open = true;
-  if (ImGui::Begin("##strip", nullptr, flags)) {
+  draw_part(ui, "##strip", rect, bar_flags, {gap * s, 3 * s}, [&] {
     std::string title;
     for (const VariedValue& axis : axes_) title += (title.empty() ? "" : " and ") + axis.slot.label;
     compat::push_font(ui.fonts.small);
@@ -218,20 +223,9 @@ std::optional<Scene> VariationStrip::draw(Ui& ui, const Rect& rect, const Scene&
     if (ImGui::SmallButton("close")) open = false;
     log_item(ui, "strip.close", "button");
     ImGui::PopFont();
-    for (std::size_t k = 0; k < count(); ++k) {
-      const Rect cell = cell_at(rect, k, s);
-      if (label_of_cell(k).empty() || cell.width() < 1 || cell.height() < 1) continue;
-      ImGui::PushID(static_cast<int>(k));
-      ImGui::SetCursorScreenPos({cell.x0, cell.y0});
-      if (ImGui::InvisibleButton("cell", {cell.width(), cell.height() + label_height * s})) wanted = k;
-      const auto* shown = k < cells_.size() ? cells_[k].shown.get() : nullptr;
-      log_item(ui, fmt::format("strip.{}", k), fmt::format("{} spp {}", label_of_cell(k), shown ? shown->spp : 0));
-      draw_cell(ui, cell, k);
-      ImGui::PopID();
-    }
-  }
-  ImGui::End();
-  ImGui::PopStyleVar();
+    for (std::size_t k = 0; k < count(); ++k)
+      if (draw_cell(ui, cell_at(rect, k, s), k)) wanted = k;
+  });
   if (ui.log) ui.log->changed("strip", fmt::format("{:.3f}", renders_.seconds_to_stand()));
   const int dx = std::exchange(move_x_, 0), dy = std::exchange(move_y_, 0);
   if (wanted == count() && (dx != 0 || dy != 0)) {

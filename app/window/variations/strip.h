@@ -1,4 +1,5 @@
 #pragma once
+#include "app/window/panels/context.h"
 #include "app/window/panels/widgets.h"
 #include "app/window/picture/display.h"
 #include "app/window/variations/small_renders.h"
@@ -28,7 +29,7 @@ std::vector<double> varied_values(const Slot& slot, double present, int steps);
 class VariationStrip {
  public:
   /// wake: a picture has come; called from any thread.
-  explicit VariationStrip(std::function<void()> wake) : renders_(std::move(wake)) {}
+  explicit VariationStrip(const std::function<void()>& wake) : renders_(wake) {}
 
   bool is_open() const { return !axes_.empty(); }
   /// Opens the strip for a value of the scene; once it is open, another value becomes the second one, and one that is
@@ -38,24 +39,13 @@ class VariationStrip {
 
   /// Height in window units of a strip of that width, for a picture of that shape.
   float height(float width, int image_width, int image_height, float scale) const;
-  /// In each drawing: what the scene is now. changes: counts its edits; calm: nothing is being dragged; dots: pixels of
-  /// the screen in a window unit.
-  struct Now {
-    const Scene& scene;
-    std::uint64_t changes = 0;
-    bool calm = true, clean = false;
-    int threads = 1;
-    float dots = 1;
-    double seconds = 0;  ///< of the window's clock
-  };
-  /// Returns in how many seconds it is to be called again.
-  double update(const Now& now, const Rect& rect, float scale);
-  /// Draws it. Returns the scene whose picture was clicked, or to which the arrow keys went.
-  std::optional<Scene> draw(Ui& ui, const Rect& rect, const Scene& scene);
+  /// In each drawing: asks for the pictures of the scene, and draws them. Returns the scene whose picture was clicked,
+  /// or to which the arrow keys went.
+  std::optional<Scene> draw(Ui& ui, const Context& context, const Rect& rect, const Scene& scene);
   /// Arrow keys go through the pictures; key: GLFW's number. Returns whether it was meant for the strip.
   bool take_key(int key);
   /// Whether there is something new to draw.
-  bool collect() { return renders_.take_news(); }
+  bool collect() { return renders_.collect(); }
   /// All pictures have all their samples.
   bool at_rest() const { return renders_.finished(); }
 
@@ -68,16 +58,17 @@ class VariationStrip {
   std::size_t count() const { return static_cast<std::size_t>(strip_columns * rows()); }
   Rect cell_at(const Rect& rect, std::size_t index, float scale) const;
   void look_at(const Scene& scene);
-  void ask(const Now& now, const Rect& rect, float scale);
+  double update(const Context& context, const Rect& rect, const Scene& scene, float scale);
+  void ask(const Context& context, const Rect& rect, float scale);
   void show_pictures(const Display& display);
-  void draw_cell(Ui& ui, const Rect& cell, std::size_t index) const;
+  bool draw_cell(Ui& ui, const Rect& cell, std::size_t index) const;
   std::string label_of_cell(std::size_t index) const;
 
   std::vector<VariedValue> axes_;  ///< one or two; none: the strip is closed
   std::vector<int> marked_;        ///< the step of each axis that the scene has now; -1: none
   std::vector<Cell> cells_;
   std::optional<Scene> base_;          ///< of the pictures, with the first step of each value
-  std::uint64_t seen_changes_ = 0;     ///< Now::changes of the scene that was looked at last
+  std::uint64_t seen_changes_ = 0;     ///< Context::changes of the scene that was looked at last
   double changed_at_ = 0;              ///< when the scene became another one, seconds
   bool stale_ = true, clean_ = false;  ///< the pictures are of another scene
   int width_ = 0, height_ = 0;         ///< of the pictures, pixels

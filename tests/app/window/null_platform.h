@@ -1,6 +1,6 @@
 #pragma once
-#include "app/window/system/imgui_compat.h"
 #include "app/window/system/platform.h"
+#include "tests/app/window/imgui_without_window.h"
 
 #include <glad/gl.h>
 

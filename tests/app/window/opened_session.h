@@ -59,26 +59,26 @@ class OpenedSession {
                         << fuzz << R"( } },
       "objects": [{ "type": "sphere", "center": [0, 0, -2], "radius": 1, "material": "gold" }] })";
   }
-  double fuzz() const { return std::get<Metal<>>(session->editor().scene().materials[0].kind).fuzz; }
+  double fuzz() const { return std::get<Metal<>>(session->editor.scene().materials[0].kind).fuzz; }
   void set_fuzz(double fuzz, std::uint64_t gesture = 0) {
-    Scene scene = session->editor().scene();
+    Scene scene = session->editor.scene();
     std::get<Metal<>>(scene.materials[0].kind).fuzz = fuzz;
-    session->editor().edit(scene, gesture);
+    session->editor.edit(scene, gesture);
   }
   template <class Condition>
   bool comes_true(const Condition& condition) {
     return news.wait_until([&] {
       session->collect();
-      session->collect_errors();
+      session->accuracy.collect();
       session->send(1e9);  // out of patience
       return condition();
     });
   }
   bool finishes() {
     return comes_true([&] {
-      const auto frame = session->renderers().latest(Half::current);
-      return frame && frame->finished && frame->edit == session->renderers().edit(Half::current) &&
-             session->send_time() > 1e100;
+      const auto frame = session->renderers.latest(Half::current);
+      return frame && frame->finished && frame->edit == session->renderers.edit(Half::current) &&
+             session->timer.latest() > 1e100;
     });
   }
 

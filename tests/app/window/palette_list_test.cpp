@@ -1,6 +1,5 @@
 #include "app/window/palette_list.h"
 
-#include "app/window/menus/row_list.h"
 #include "tests/app/window/panels/column.h"
 #include "tests/support/skies.h"
 
@@ -41,27 +40,24 @@ Scene varied_scene() {
   return scene;
 }
 
-/// What is marked after the text was typed, that is what Return carries out; "": nothing.
-std::string chosen_by(const std::string& text, const ObjectPath& selected = {}) {
-  const std::vector<PaletteItem> items = palette_items(varied_scene(), selected, {"cover", "showroom"});
-  const std::vector<int> found = matching_items(items, text);
-  return found.empty() ? "" : items[static_cast<std::size_t>(found[0])].label;
-}
-
-RowEntry row_named(const std::string& label, const std::string& part = "Object", const ObjectPath& selected = {}) {
-  const auto rows = row_entries(varied_scene(), selected);
-  const auto found = std::find_if(rows.begin(), rows.end(),
-                                  [&](const RowEntry& row) { return row.label == label && row.part == part; });
-  REQUIRE_MESSAGE(found != rows.end(), label);
-  return *found;
-}
-
 /// The column over the varied scene.
 struct VariedColumn : Column {
   VariedColumn() {
     saved = varied_scene();
     scene() = saved;
     for (int k = 0; k < 3; ++k) draw();
+  }
+  /// What the palette lists while this is selected.
+  std::vector<ListedRow> rows(const ObjectPath& selected) {
+    state.selected = selected;
+    return listed_rows(all_rows());
+  }
+  ListedRow row_named(const std::string& label, const std::string& part = "Object", const ObjectPath& selected = {}) {
+    const auto all = rows(selected);
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const auto& one) { return one.row.label == label && one.row.part == part; });
+    REQUIRE_MESSAGE(found != all.end(), label);
+    return *found;
   }
   void go(const RowEntry& row) {
     problem.clear();
@@ -119,14 +115,21 @@ TEST_CASE("the words of other programs lead to the action or row that is meant t
       {"render", "go to: Render"},
       {"cover", "open: cover"},
   };
-  for (const auto& one : meant) CHECK_MESSAGE(chosen_by(one.first) == one.second, one.first);
+  VariedColumn column;
+  const std::vector<PaletteItem> items = palette_items(column.rows({}), {"cover", "showroom"});
+  for (const auto& [text, label] : meant) {
+    const std::vector<int> found = matching_items(items, text);
+    REQUIRE_MESSAGE(!found.empty(), text);
+    CHECK_MESSAGE(items[static_cast<std::size_t>(found[0])].label == label, text);  // Return carries it out
+  }
 }
 
 TEST_CASE(
     "no two lines of the palette have the same name, each row has other words, and each other word leads to its own "
     "line") {
+  VariedColumn column;
   for (const ObjectPath& selected : {ObjectPath{}, ObjectPath{0}, ObjectPath{10}}) {
-    const std::vector<PaletteItem> items = palette_items(varied_scene(), selected, {});
+    const std::vector<PaletteItem> items = palette_items(column.rows(selected), {});
     for (std::size_t k = 0; k < items.size(); ++k) {
       const bool is_row = items[k].label.starts_with("go to:");
       CHECK_MESSAGE((!is_row || !items[k].also.empty()), items[k].label);
@@ -149,9 +152,9 @@ TEST_CASE("each row is brought up and takes the keyboard, or it is said what to 
   for (std::size_t k = 0; k <= count; ++k) {
     column.state.selected = k < count ? ObjectPath{static_cast<int>(k)} : ObjectPath{};
     for (int drawing = 0; drawing < 3; ++drawing) column.draw();
-    for (const RowEntry& row : row_entries(column.scene(), column.state.selected)) {
+    for (const auto& [row, missing] : column.rows(column.state.selected)) {
       column.go(row);
-      const bool shown = row.missing.empty();
+      const bool shown = missing.empty();
       CHECK_MESSAGE(shown == column.problem.empty(), k, ": ", row.part, ": ", row.label);
       if (shown && !row.label.empty()) {
         const bool has_keyboard = column.ui.edit.id != 0 || column.ui.sought.has_keys;
@@ -171,16 +174,17 @@ TEST_CASE("the palette has every row that the column draws, whatever is selected
   for (int k = -1; k < count; ++k) {
     column.state.selected = k < 0 ? ObjectPath{} : ObjectPath{k};
     column.draw();
-    std::vector<RowPlace> drawn;
+    std::vector<RowEntry> drawn;
     column.ui.rows = &drawn;
     column.draw();
     column.ui.rows = nullptr;
     CHECK(drawn.size() > 30);
-    const auto rows = row_entries(column.scene(), column.state.selected);
-    for (const RowPlace& place : drawn)
+    const auto rows = column.rows(column.state.selected);
+    for (const RowEntry& place : drawn)
       CHECK_MESSAGE(std::any_of(rows.begin(), rows.end(),
-                                [&](const RowEntry& row) {
-                                  return row.part == place.part && row.label == place.label && row.missing.empty();
+                                [&](const ListedRow& one) {
+                                  return one.row.part == place.part && one.row.label == place.label &&
+                                         one.missing.empty();
                                 }),
                     k, ": ", place.part, ": ", place.label);
   }
@@ -194,7 +198,7 @@ TEST_CASE("the rows of each kind of background are reached") {
                                           {Hemispheres{}, "Below"},
                                           {uniform_sky(1, 1, 1), "Turn"}}) {
     column.scene().background = background;
-    column.go({"Background", label, "", "", ""});
+    column.go({"Background", label, "", ""});
     CHECK(column.problem.empty());
     CHECK(column.ui.edit.id != 0);
   }
@@ -207,7 +211,7 @@ TEST_CASE("a row in a folded section, far down, is opened and scrolled to, and w
   for (const char* section : {"Gold", "Camera", "Render"}) column.ui.folded.insert(section);
   for (int k = 0; k < 3; ++k) column.draw();
   const auto type = [&](const char* label, const char* part, const char* text) {
-    column.go({part, label, "", "", ""});
+    column.go({part, label, "", ""});
     for (const char* c = text; *c; ++c) ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(*c));
     column.draw();
     column.press(ImGuiKey_Enter);
@@ -215,7 +219,7 @@ TEST_CASE("a row in a folded section, far down, is opened and scrolled to, and w
   type("Seed", "Render", "77");
   CHECK(column.scene().render.seed == 77);
   CHECK(column.has("render.seed"));
-  CHECK(column_tabs()[static_cast<std::size_t>(column.state.tabs.lit)].name == std::string("Render"));
+  CHECK(column_sections()[static_cast<std::size_t>(column.state.tabs.lit)].name == std::string("Render"));
   CHECK_FALSE(column.ui.folded.contains("Render"));
   CHECK(column.ui.folded.contains("Camera"));
   type("Fuzz", "Object", "0.75");
@@ -231,19 +235,19 @@ TEST_CASE("a row in a folded section, far down, is opened and scrolled to, and w
 TEST_CASE("while nothing is selected the row is that of the first object that is shown; the others stay folded") {
   VariedColumn column;
   for (const char* title : {"Gold", "Glass", "Fog"}) column.ui.folded.insert(title);
-  column.go(row_named("Refractive index"));
+  column.go(column.row_named("Refractive index").row);
   CHECK_FALSE(column.ui.folded.contains("Glass"));
   CHECK(column.ui.folded.contains("Gold"));
   CHECK(column.ui.folded.contains("Fog"));
-  CHECK(row_named("Density").owner == "Fog");
-  CHECK(row_named("Density", "Object", {0}).missing == "select fog first");
-  CHECK(row_named("Fuzz", "Object", {2}).missing == "select an object of metal first");
-  CHECK(row_named("Edge u", "Object", {2}).missing == "select a quad or a triangle or a disk first");
+  CHECK(column.row_named("Density").row.owner == "Fog");
+  CHECK(column.row_named("Density", "Object", {0}).missing == "select fog first");
+  CHECK(column.row_named("Fuzz", "Object", {2}).missing == "select an object of metal first");
+  CHECK(column.row_named("Edge u", "Object", {2}).missing == "select a quad or a triangle or a disk first");
 }
 
 TEST_CASE("the arrow keys go through the choices of a row that was gone to, until Enter") {
   VariedColumn column;
-  column.go(row_named("Tone map", "Image"));
+  column.go(column.row_named("Tone map", "Image").row);
   REQUIRE(column.state.row_has_keys);
   column.press(ImGuiKey_RightArrow);
   CHECK(column.scene().display.tone_map == ToneMap::aces);
@@ -256,7 +260,7 @@ TEST_CASE("the arrow keys go through the choices of a row that was gone to, unti
   CHECK(column.scene().display.tone_map == ToneMap::srgb);
   column.state.selected = {0};
   column.draw();
-  column.go(row_named("Material"));
+  column.go(column.row_named("Material", "Object", {0}).row);
   column.press(ImGuiKey_DownArrow);
   CHECK(std::get<Solid3d>(column.scene().objects[0].kind).material == 1);
 }

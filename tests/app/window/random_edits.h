@@ -26,17 +26,17 @@ class RandomEdits {
   /// One edit, or an undo, a redo, a pause; and the session's work of one drawing.
   void step() {
     const int what = below(12);
-    Editor& editor = session_.editor();
+    Editor& editor = session_.editor;
     if (what == 0)
       editor.undo();
     else if (what == 1)
       editor.redo();
     else if (what == 2)
-      session_.wanted().paused = !session_.wanted().paused;
+      session_.wanted.paused = !session_.wanted.paused;
     else
       editor.edit(edited(editor.scene()), static_cast<std::uint64_t>(++edits_ / 3 + 1));  // three are one gesture
     session_.collect();
-    session_.collect_errors();
+    session_.accuracy.collect();
     session_.send(1e9);
   }
 
@@ -115,20 +115,20 @@ void check_random_edits(const std::string& name, int edits, unsigned seed, After
     random.step();
     after(k);
     if (k % 97 == 0) {  // now and then the picture is waited for
-      opened.session->wanted().paused = false;
+      opened.session->wanted.paused = false;
       REQUIRE(opened.finishes());
     }
   }
-  opened.session->wanted().paused = false;
+  opened.session->wanted.paused = false;
   REQUIRE(opened.finishes());
-  opened.session->editor().save("saved.json");
+  opened.session->editor.save("saved.json");
   const Scene saved = load_scene("saved.json").scene;
   // By their texts: glass remembers a colour that no file holds, for when its type is changed back.
-  CHECK(write_scene(saved) == write_scene(opened.session->editor().scene()));
+  CHECK(write_scene(saved) == write_scene(opened.session->editor.scene()));
   RenderOptions options;
   options.threads = 1;
   options.spp = static_cast<std::uint32_t>(saved.render.spp.value_or(1));
-  CHECK(opened.session->renderers().film() == render(compile(saved), options).film);
+  CHECK(opened.session->renderers.film() == render(compile(saved), options).film);
 }
 
 }  // namespace tyndall::test

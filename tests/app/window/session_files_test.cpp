@@ -18,14 +18,14 @@ TEST_CASE("opening another scene can be undone, with where it came from") {
   OpenedSession opened("open");
   opened.set_fuzz(0.5);
   OpenedSession::write(0.125, "other.json");
-  opened.session->editor().open(fs::absolute("other.json").string());
+  opened.session->editor.open(fs::absolute("other.json").string());
   REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.125; }));
-  CHECK(opened.session->editor().document().origin->title == "other.json");
-  opened.session->editor().undo();
+  CHECK(opened.session->editor.document().origin->title == "other.json");
+  opened.session->editor.undo();
   CHECK(opened.fuzz() == 0.5);
-  CHECK(opened.session->editor().document().origin->title == "scene.json");
-  opened.session->editor().open("no such file");
-  REQUIRE(opened.comes_true([&] { return opened.session->messages().current().error; }));
+  CHECK(opened.session->editor.document().origin->title == "scene.json");
+  opened.session->editor.open("no such file");
+  REQUIRE(opened.comes_true([&] { return opened.session->messages.current().error; }));
   CHECK(opened.fuzz() == 0.5);
 }
 
@@ -34,7 +34,7 @@ TEST_CASE("the file is read again when it changes; with edits the user is asked 
   OpenedSession::write(0.625);
   REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.625; }));
   opened.set_fuzz(0.5);
-  Editor& editor = opened.session->editor();
+  Editor& editor = opened.session->editor;
   OpenedSession::write(0.75);
   REQUIRE(opened.comes_true([&] { return editor.offers_reload(); }));
   CHECK(opened.fuzz() == 0.5);
@@ -49,7 +49,7 @@ TEST_CASE("the file is read again when it changes; with edits the user is asked 
   editor.undo();
   CHECK(opened.fuzz() == 0.5);
   std::ofstream("scene.json") << "{";
-  REQUIRE(opened.comes_true([&] { return opened.session->messages().current().error; }));
+  REQUIRE(opened.comes_true([&] { return opened.session->messages.current().error; }));
   CHECK(opened.fuzz() == 0.5);
 }
 
@@ -58,8 +58,8 @@ TEST_CASE("edits that are not saved come back in the next session, and one undo 
   opened.set_fuzz(0.5);
   opened.reopen();
   CHECK(opened.fuzz() == 0.5);
-  CHECK(opened.session->messages().current().text.find("restored the edits of scene.json") == 0);
-  opened.session->editor().undo();
+  CHECK(opened.session->messages.current().text.find("restored the edits of scene.json") == 0);
+  opened.session->editor.undo();
   CHECK(opened.fuzz() == 0.25);
   opened.reopen();  // undone edits are none
   CHECK(opened.fuzz() == 0.25);
@@ -78,7 +78,7 @@ TEST_CASE("restored edits of a file that another program has changed since wait 
   opened.session.reset();
   OpenedSession::write(0.75);
   opened.open();
-  Editor& editor = opened.session->editor();
+  Editor& editor = opened.session->editor;
   CHECK(opened.fuzz() == 0.5);
   REQUIRE(editor.offers_reload());
   editor.answer_about_file(true);
@@ -90,18 +90,18 @@ TEST_CASE("restored edits of a file that another program has changed since wait 
 
 TEST_CASE("a file that another program has left broken is told of until it is mended, and differs from what was read") {
   OpenedSession opened("broken");
-  Editor& editor = opened.session->editor();
+  Editor& editor = opened.session->editor;
   CHECK_FALSE(file_differs(*editor.document().origin));
   std::ofstream("scene.json") << "{";
-  REQUIRE(opened.comes_true([&] { return opened.session->messages().current().error; }));
-  const std::string told = opened.session->messages().current().text;
+  REQUIRE(opened.comes_true([&] { return opened.session->messages.current().error; }));
+  const std::string told = opened.session->messages.current().text;
   opened.set_fuzz(0.5);
-  CHECK(opened.session->messages().current().text == told);
+  CHECK(opened.session->messages.current().text == told);
   CHECK(file_differs(*editor.document().origin));
   editor.save(editor.document().origin->file);  // as the user wished, after being asked
   CHECK_FALSE(file_differs(*editor.document().origin));
   opened.set_fuzz(0.625);
-  CHECK_FALSE(opened.session->messages().current().error);
+  CHECK_FALSE(opened.session->messages.current().error);
 }
 
 namespace {
@@ -114,7 +114,7 @@ struct TexturedSession : OpenedSession {
     editor().open(fs::absolute("textured.json").string());
     REQUIRE(comes_true([&] { return editor().document().origin->title == "textured.json"; }));
   }
-  Editor& editor() const { return session->editor(); }
+  Editor& editor() const { return session->editor; }
   static void paint(const std::string& file, float red) { write_png(file, {1, 1, {red, 0, 0}}, 0, ToneMap::srgb, {}); }
   static void write_textured(const std::string& map) {
     write_text("textured.json", R"({ "tyndall": 1, "image": { "width": 8, "height": 8 }, "background": [1, 1, 1],
@@ -130,10 +130,10 @@ struct TexturedSession : OpenedSession {
     return static_cast<int>(std::lround(255 * srgb_encode(light)));
   }
   bool complains() {
-    return comes_true([&] { return session->messages().current().error; });
+    return comes_true([&] { return session->messages.current().error; });
   }
   bool shows(int red_byte) {
-    return comes_true([&] { return red() == red_byte && !session->messages().current().error; }) && finishes();
+    return comes_true([&] { return red() == red_byte && !session->messages.current().error; }) && finishes();
   }
 };
 
@@ -142,17 +142,17 @@ struct TexturedSession : OpenedSession {
 TEST_CASE("textures are read again when they are written, renamed over, or come back") {
   TexturedSession opened("watched_textures");
   REQUIRE(opened.shows(137));
-  const std::uint64_t edit = opened.session->renderers().edit(Half::current);
+  const std::uint64_t edit = opened.session->renderers.edit(Half::current);
   opened.paint("other.png", 0.5f);
   write_text("map.png", read_text("other.png"));  // in place
   REQUIRE(opened.shows(188));
-  CHECK(opened.session->renderers().edit(Half::current) > edit);
+  CHECK(opened.session->renderers.edit(Half::current) > edit);
   opened.paint("other.png", 1);
   fs::rename("other.png", "map.png");
   REQUIRE(opened.shows(255));
   fs::rename("map.png", "away.png");
   REQUIRE(opened.complains());
-  CHECK(opened.session->messages().current().text.find("map.png") != std::string::npos);
+  CHECK(opened.session->messages.current().text.find("map.png") != std::string::npos);
   CHECK(opened.red() == 255);
   fs::rename("away.png", "map.png");
   REQUIRE(opened.shows(255));
@@ -202,7 +202,7 @@ TEST_CASE(
   OpenedSession::write(0.125, "in/a.json");
   OpenedSession::write(0.875, "in/b.json");
   fs::create_symlink("in/a.json", "link.json");
-  opened.session->editor().open(fs::absolute("link.json").string());
+  opened.session->editor.open(fs::absolute("link.json").string());
   REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.125; }));
   OpenedSession::write(0.375, "in/a.json");
   REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.375; }));
@@ -213,7 +213,7 @@ TEST_CASE(
   fs::rename("next.json", "link.json");
   REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.875; }));
   opened.set_fuzz(0.5);
-  CHECK(opened.session->editor().save(opened.session->editor().document().origin->file));
+  CHECK(opened.session->editor.save(opened.session->editor.document().origin->file));
   CHECK(fs::is_symlink("link.json"));
   CHECK(std::get<Metal<>>(load_scene("in/b.json").scene.materials[0].kind).fuzz == 0.5);
 }
@@ -226,7 +226,7 @@ TEST_CASE("a scene with textures can be saved to other folders again and again")
     "textures": { "map": { "type": "image", "file": "./map.png" } },
     "materials": { "land": { "type": "lambertian", "albedo": "map" } },
     "objects": [{ "type": "sphere", "center": [0, 0, -2], "radius": 1, "material": "land" }] })";
-  Editor& editor = opened.session->editor();
+  Editor& editor = opened.session->editor;
   editor.open("in/scene.json");
   REQUIRE(opened.comes_true(
       [&] { return editor.document().origin->title == "scene.json" && editor.scene().textures.size() == 1; }));
@@ -256,7 +256,7 @@ TEST_CASE("a scene with textures can be saved to other folders again and again")
 
 TEST_CASE("the selection stays on its objects through undo, redo and a file that is read again") {
   OpenedSession opened("selection");
-  Editor& editor = opened.session->editor();
+  Editor& editor = opened.session->editor;
   const auto with = [&](const std::vector<std::string>& names) {
     Scene scene = editor.scene();
     const Object ball = scene.objects[0];
@@ -281,21 +281,21 @@ TEST_CASE("the selection stays on its objects through undo, redo and a file that
 
 TEST_CASE("saving is no edit, and is not read again as one") {
   OpenedSession opened("save");
-  CHECK_FALSE(opened.session->editor().edited());
+  CHECK_FALSE(opened.session->editor.edited());
   opened.set_fuzz(0.5);
-  CHECK(opened.session->editor().edited());
+  CHECK(opened.session->editor.edited());
   REQUIRE(opened.finishes());
-  const std::uint64_t edits = opened.session->renderers().edit(Half::current);
-  opened.session->editor().save(opened.session->editor().document().origin->file);
-  CHECK_FALSE(opened.session->editor().edited());
-  const auto saved = opened.session->editor().document().origin;
+  const std::uint64_t edits = opened.session->renderers.edit(Half::current);
+  opened.session->editor.save(opened.session->editor.document().origin->file);
+  CHECK_FALSE(opened.session->editor.edited());
+  const auto saved = opened.session->editor.document().origin;
   // The file was read again.
-  REQUIRE(opened.comes_true([&] { return opened.session->editor().document().origin != saved; }));
+  REQUIRE(opened.comes_true([&] { return opened.session->editor.document().origin != saved; }));
   REQUIRE(opened.finishes());
-  CHECK(opened.session->renderers().edit(Half::current) == edits);
+  CHECK(opened.session->renderers.edit(Half::current) == edits);
   CHECK(std::get<Metal<>>(load_scene("scene.json").scene.materials[0].kind).fuzz == 0.5);
-  opened.session->editor().save("no/such/folder/a.json");
-  CHECK(opened.session->messages().current().error);
+  opened.session->editor.save("no/such/folder/a.json");
+  CHECK(opened.session->messages.current().error);
 }
 
 TEST_CASE("a snapshot holds the newest edit, also when it was not sent yet, and is finished when the window closes") {
@@ -315,23 +315,23 @@ TEST_CASE("a picture of the window's size: rendered and in snapshots, while the 
   REQUIRE(opened.finishes());
   opened.session->set_picture_size(PictureSize{12, 10});
   REQUIRE(opened.finishes());
-  CHECK(opened.session->renderers().latest(Half::current)->width == 12);
-  CHECK(opened.session->editor().scene().width == 8);
-  CHECK_FALSE(edited(opened.session->editor().document()));
+  CHECK(opened.session->renderers.latest(Half::current)->width == 12);
+  CHECK(opened.session->editor.scene().width == 8);
+  CHECK_FALSE(edited(opened.session->editor.document()));
   opened.session->snapshot();
   REQUIRE(opened.comes_true([&] { return fs::exists("scene-001.png"); }));
   CHECK(load_scene("scene-001.png").scene.height == 10);
   opened.session->set_picture_size({});
   REQUIRE(opened.finishes());
-  CHECK(opened.session->renderers().latest(Half::current)->width == 8);
+  CHECK(opened.session->renderers.latest(Half::current)->width == 8);
 }
 
 TEST_CASE("the chart is exported, numbered; a folder that is gone is said") {
   OpenedSession opened("export");
   opened.session->export_chart();
-  CHECK(opened.session->messages().current().text == "there is no curve yet");
+  CHECK(opened.session->messages.current().text == "there is no curve yet");
   REQUIRE(opened.finishes());
-  opened.session->shown(Half::current, opened.session->renderers().latest(Half::current));
+  opened.session->shown(Half::current, opened.session->renderers.latest(Half::current));
   opened.session->export_chart();
   opened.session->export_chart();
   REQUIRE(opened.comes_true([&] { return fs::exists("scene-chart-002.svg"); }));
@@ -339,11 +339,11 @@ TEST_CASE("the chart is exported, numbered; a folder that is gone is said") {
   const fs::path folder = fs::current_path();
   fs::remove_all(folder);
   opened.session->export_chart();
-  REQUIRE(opened.comes_true([&] { return opened.session->messages().current().error; }));
-  CHECK(opened.session->messages().current().text.find("scene-chart-003.csv: cannot write") != std::string::npos);
-  opened.session->messages().dismiss();
+  REQUIRE(opened.comes_true([&] { return opened.session->messages.current().error; }));
+  CHECK(opened.session->messages.current().text.find("scene-chart-003.csv: cannot write") != std::string::npos);
+  opened.session->messages.dismiss();
   opened.session->snapshot();
-  REQUIRE(opened.comes_true([&] { return opened.session->messages().current().error; }));
+  REQUIRE(opened.comes_true([&] { return opened.session->messages.current().error; }));
   fs::create_directories(folder);
 }
 
@@ -357,13 +357,13 @@ TEST_CASE("a damaged file of preferences that cannot be moved is not said to be 
   setenv("XDG_CONFIG_HOME", config.c_str(), 1);
   {
     OpenedSession stays("damaged_stays");
-    CHECK(stays.session->messages().current().text ==
+    CHECK(stays.session->messages.current().text ==
           file.string() +
               " is damaged; the window begins with its defaults, and the file cannot be moved out of the way");
     CHECK(fs::exists(file));
     fs::remove_all(config / "tyndall" / "window.txt.damaged");
     OpenedSession goes("damaged_goes");
-    CHECK(goes.session->messages().current().text ==
+    CHECK(goes.session->messages.current().text ==
           file.string() + " is damaged; the window begins with its defaults, the file is now window.txt.damaged");
   }
   if (before)

@@ -48,7 +48,7 @@ struct PictureSession : OpenedSession {
   /// Whether the frame of the newest request has these values of red.
   bool shows(const std::array<float, 4>& red) {
     return comes_true([&] {
-      const auto frame = session->renderers().latest(Half::current);
+      const auto frame = session->renderers.latest(Half::current);
       if (!frame || !frame->finished || frame->rgba.size() != 16) return false;
       for (std::size_t i = 0; i < 4; ++i)
         if (frame->rgba[4 * i] != red[i]) return false;
@@ -71,7 +71,7 @@ TEST_CASE("a picture that is being written is shown row by row, and stays where 
   opened.close_writer();
   REQUIRE(opened.comes_true([&] { return opened.session->at_rest(); }));
   CHECK(opened.session->arrived() == "ended at row 1 of 2");
-  CHECK(opened.session->messages().current().text == "ended at row 1 of 2");
+  CHECK(opened.session->messages.current().text == "ended at row 1 of 2");
   CHECK(opened.shows({1, 1, 0, 0}));
 }
 
@@ -80,14 +80,14 @@ TEST_CASE("how a picture is displayed is no edit that could be lost; a snapshot 
   opened.write_rows("255 0 0 0 0 0 255 0 0 0 0 0\n");
   REQUIRE(opened.shows({1, 0, 1, 0}));
   CHECK(opened.says("all 2 rows"));
-  Scene scene = opened.session->editor().scene();
+  Scene scene = opened.session->editor.scene();
   scene.display.exposure = 1;
-  opened.session->editor().edit(scene, 0);
+  opened.session->editor.edit(scene, 0);
   CHECK(opened.session->unsaved() == nullptr);
   scene.display.exposure = 0;
-  opened.session->editor().edit(scene, 0);
+  opened.session->editor.edit(scene, 0);
   opened.session->snapshot();
-  REQUIRE(opened.comes_true([&] { return !opened.session->writes_files(); }));
+  REQUIRE(opened.comes_true([&] { return opened.session->saving.idle(); }));
   CHECK(std::filesystem::exists("image-001.png"));
   CHECK(read_image("image-001.png").rgb == std::vector<float>{1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0});
   CHECK_FALSE(read_embedded_scene("image-001.png"));
@@ -98,11 +98,11 @@ TEST_CASE("another scene takes a picture's place, and undo brings it back") {
   opened.write_rows("255 0 0 0 0 0 255 0 0 0 0 0\n");
   REQUIRE(opened.shows({1, 0, 1, 0}));
   OpenedSession::write(0.125, "other.json");
-  opened.session->editor().open(std::filesystem::absolute("other.json").string());
+  opened.session->editor.open(std::filesystem::absolute("other.json").string());
   REQUIRE(opened.comes_true([&] { return !opened.session->shows_picture(); }));
   CHECK(opened.finishes());
-  CHECK(opened.session->renderers().latest(Half::current)->width == 8);
-  opened.session->editor().undo();
+  CHECK(opened.session->renderers.latest(Half::current)->width == 8);
+  opened.session->editor.undo();
   CHECK(opened.session->shows_picture());
   CHECK(opened.shows({1, 0, 1, 0}));
 }

@@ -76,13 +76,13 @@ TEST_CASE("a program is compiled again when it is saved; an error leaves the las
   write_program("0.5");
   REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.5; }));
   write_program("nonsense");
-  REQUIRE(opened.comes_true([&] { return opened.session->messages().current().error; }));
-  CHECK(opened.session->messages().current().text.find("main.cc:4:") == 0);
-  CHECK(opened.session->messages().current().text.find("'nonsense'") != std::string::npos);
+  REQUIRE(opened.comes_true([&] { return opened.session->messages.current().error; }));
+  CHECK(opened.session->messages.current().text.find("main.cc:4:") == 0);
+  CHECK(opened.session->messages.current().text.find("'nonsense'") != std::string::npos);
   CHECK(opened.fuzz() == 0.5);
   write_program("0.75");
   REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.75; }));
-  CHECK_FALSE(opened.session->messages().current().error);
+  CHECK_FALSE(opened.session->messages.current().error);
 }
 
 TEST_CASE("a window that closes does not wait for a program that has no end") {
@@ -97,13 +97,13 @@ TEST_CASE("a window that closes does not wait for a program that has no end") {
 
 TEST_CASE("saving never replaces a program: it asks for the name of a scene file, which is watched from then on") {
   OpenedProgram opened("program_saved");
-  const Document before = opened.session->editor().document();
+  const Document before = opened.session->editor.document();
   CHECK(before.origin->file.empty());
   CHECK(watched_files(before) == std::vector<fs::path>{"main.cc"});
   opened.set_fuzz(0.5);
-  REQUIRE(opened.session->editor().save("main.json"));
-  CHECK(watched_files(opened.session->editor().document()) == std::vector<fs::path>{"main.json"});
-  CHECK(load_scene("main.json").scene == opened.session->editor().scene());
+  REQUIRE(opened.session->editor.save("main.json"));
+  CHECK(watched_files(opened.session->editor.document()) == std::vector<fs::path>{"main.json"});
+  CHECK(load_scene("main.json").scene == opened.session->editor.scene());
   write_program("0.75");
   opened.session->collect();
   CHECK(opened.fuzz() == 0.5);
@@ -112,13 +112,13 @@ TEST_CASE("saving never replaces a program: it asks for the name of a scene file
 TEST_CASE("edits of a program's scene are kept as a scene, and come back without compiling") {
   OpenedProgram opened("program_kept");
   opened.set_fuzz(0.5);
-  const Document edited = opened.session->editor().document();
+  const Document edited = opened.session->editor.document();
   std::ofstream("kept.json") << kept_text(edited.scene, *edited.origin, ".");
   CHECK(load_scene("kept.json").scene == edited.scene);
   opened.session->keep_edits();
   opened.open_program();  // as "tyndall main.cc" does
   CHECK(opened.fuzz() == 0.5);
-  opened.session->editor().undo();
+  opened.session->editor.undo();
   CHECK(opened.fuzz() == 0.25);
   const MarkedCompiler compiler;
   const Kept kept = read_kept("kept.json", [](const std::string& what) { return load_scene(what); });
@@ -132,18 +132,18 @@ TEST_CASE("no other program is compiled: dropped, from the list of recent files,
   const MarkedCompiler compiler;
   write_program("0.5", "other.cc");
   const std::string other = fs::absolute("other.cc").string();
-  opened.session->references().open_dropped(other);
-  REQUIRE(opened.comes_true([&] { return opened.session->messages().current().error; }));
+  opened.session->references.open_dropped(other);
+  REQUIRE(opened.comes_true([&] { return opened.session->messages.current().error; }));
   CHECK(
-      opened.session->messages().current().text ==
+      opened.session->messages.current().text ==
       "other.cc is a program, which is compiled and run only where it is named on the command line: tyndall other.cc");
   add_recent_file("recent.txt", other);
-  for (const fs::path& file : read_recent_files("recent.txt")) opened.session->editor().open(file.string());
+  for (const fs::path& file : read_recent_files("recent.txt")) opened.session->editor.open(file.string());
   CHECK_THROWS_AS(load_scene(other), SceneError);  // what small pictures and references are made by
   CHECK_FALSE(MarkedCompiler::was_called());
   CHECK(opened.fuzz() == 0.25);
 
-  opened.session->editor().open(fs::absolute("main.cc").string());  // the one that was named
+  opened.session->editor.open(fs::absolute("main.cc").string());  // the one that was named
   REQUIRE(opened.comes_true([&] { return MarkedCompiler::was_called(); }));
 }
 

@@ -47,7 +47,7 @@ struct Watched {
   double now = 0;  ///< seconds; they do not pass by themselves
   LiveAccuracy accuracy{[this] { news.tell(); }, [this] { return now; }};
 
-  Watched() { accuracy.set_scene(Half::current, scene_with(40)); }
+  Watched() { accuracy.set_scene(Half::current, std::make_shared<const Scene>(scene_with(40))); }
   void show(const std::shared_ptr<Frame>& frame, Half half = Half::current, bool resting = true) {
     accuracy.set_resting(resting);
     accuracy.shown(half, frame, "mis", true);
@@ -99,16 +99,16 @@ TEST_CASE("with a reference the curve shows the true error, and without it the e
 TEST_CASE("a reference of another scene stays but is not compared with; of the same scene by another method it is") {
   Watched w;
   w.accuracy.set_reference(reference(1, scene_with(40, 9)));
-  w.accuracy.set_scene(Half::current, scene_with(50));
+  w.accuracy.set_scene(Half::current, std::make_shared<const Scene>(scene_with(50)));
   CHECK_FALSE(w.accuracy.is_true());
   CHECK(w.lines() == "! reference of another scene: light.exr\n");
   w.show(picture(1.1f, 2, 1));
   CHECK(w.points()[0].rel_mse == doctest::Approx(0.04));
   Scene other = scene_with(40);
   other.render.fresnel = FresnelKind::schlick;
-  w.accuracy.set_scene(Half::current, other);
+  w.accuracy.set_scene(Half::current, std::make_shared<const Scene>(other));
   CHECK(w.accuracy.is_true());
-  w.accuracy.set_scene(Half::current, scene_with(40, 9));
+  w.accuracy.set_scene(Half::current, std::make_shared<const Scene>(scene_with(40, 9)));
   CHECK(w.lines() == "! same random numbers, noise looks too small: light.exr\n");
 }
 
@@ -158,7 +158,7 @@ TEST_CASE("maps come for the view that is on, and follow the pictures") {
 TEST_CASE("halves are measured against each other, and each against the reference") {
   Watched w;
   w.accuracy.set_split(true);
-  w.accuracy.set_scene(Half::kept, scene_with(40));
+  w.accuracy.set_scene(Half::kept, std::make_shared<const Scene>(scene_with(40)));
   w.show(picture(1, 1, 1), Half::kept);
   w.show(picture(1.2f, 1, 1));
   REQUIRE(w.comes_true([&] { return w.accuracy.pair().rel_mse && w.accuracy.pair().flip; }));

@@ -39,17 +39,17 @@ TEST_CASE("the small picture of a camera: means of what is shown, in the picture
       const float grey = x < 200 ? static_cast<float>((x + y) % 2) : 0.0f;  // its mean is 0.5
       frame.rgba.insert(frame.rgba.end(), {grey, grey, grey, 1});
     }
-  int width = 0, height = 0;
-  std::vector<std::uint8_t> rgb = small_picture(frame, {}, width, height);
-  CHECK(width == 96);
-  CHECK(height == 48);
+  const ScreenPicture small = small_picture(frame, {});
+  CHECK(small.width == 96);
+  CHECK(small.height == 48);
+  const auto& rgb = small.rgb;
   REQUIRE(rgb.size() == 96 * 48 * 3);
   CHECK(rgb[3 * (10 * 96 + 10)] == doctest::Approx(188).epsilon(0.05).scale(0));
   CHECK(rgb[3 * (10 * 96 + 80)] == 0);
   frame.view = View::noise;
-  CHECK(small_picture(frame, {}, width, height).empty());  // the picture itself is not there yet
+  CHECK(small_picture(frame, {}).rgb.empty());  // the picture itself is not there yet
   frame.beauty = frame.rgba;
-  CHECK(small_picture(frame, {}, width, height) == rgb);
+  CHECK(small_picture(frame, {}).rgb == rgb);
 }
 
 }  // namespace tyndall::test::camera_slots_test

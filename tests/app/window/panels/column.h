@@ -27,11 +27,12 @@ class Column {
                        {"fog", Volume{Box<>{}, {}, Medium<>{1.1, 0}, Vec3d{1, 1, 1}}, {}}};
     scene().camera.look_from = {0, 1, 6};
     saved = scene();
-    state.model.saved = &saved;
-    state.model.accuracy = &accuracy_;
-    state.model.scenes = {{"showroom", "Showroom", "", "showroom.json"},
-                          {"cover", "Cover", "Stress: many balls. Fails: slow trees. Right: a cover.", "cover.json"}};
-    state.model.title = "showroom";
+    state.now.origin = origin;
+    state.now.accuracy = &accuracy_;
+    state.look = &look;
+    state.now.scenes = {{"showroom", "Showroom", "", "showroom.json"},
+                        {"cover", "Cover", "Stress: many balls. Fails: slow trees. Right: a cover.", "cover.json"}};
+    origin->title = "showroom";
     draw();
     draw();
   }
@@ -46,10 +47,19 @@ class Column {
       changed = state.scene.is_changed();
       if (!ui.problem.empty()) problem = ui.problem;
       for (const Request& request : std::exchange(ui.requests, {})) {
-        if (request.command.starts_with("view: ")) state.model.view = view_named(request.command.substr(6));
+        if (request.command.starts_with("view: ")) state.now.view = view_named(request.command.substr(6));
         requested.push_back(request);
       }
     });
+  }
+  /// All rows of the column, also those that are folded.
+  std::vector<RowEntry> all_rows() {
+    std::vector<RowEntry> rows;
+    imgui_.frame([&] {
+      draw_column(ui, state, {0, 0, 372, height});
+      rows = rows_of_column(ui, state);
+    });
+    return rows;
   }
   bool has_query_for(const Request& request) const {
     return std::find(requested.begin(), requested.end(), request) != requested.end();
@@ -102,9 +112,11 @@ class Column {
   Dielectric<>& glass() { return std::get<Dielectric<>>(scene().materials[1].kind); }
 
   Ui ui;
+  Preferences look;
   PanelState state;
   bool changed = false;  ///< the last drawing has edited the scene
-  Scene saved;           ///< what the file holds
+  std::shared_ptr<Origin> origin = std::make_shared<Origin>();
+  Scene& saved = origin->saved;  ///< what the file holds
   float height = 2400;
   std::string problem;
   std::vector<Request> requested;  ///< all that it has asked for

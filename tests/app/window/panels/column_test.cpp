@@ -23,13 +23,13 @@ TEST_CASE("a tab brings its part to the head of the column, opens it, and is lit
     CHECK_FALSE(column.ui.folded.contains(name));
     REQUIRE(column.has(std::string("section.") + name));
     CHECK(heading(column, name).y0 < 90);
-    CHECK(column_tabs()[static_cast<std::size_t>(column.state.tabs.lit)].name == std::string(name));
+    CHECK(column_sections()[static_cast<std::size_t>(column.state.tabs.lit)].name == std::string(name));
   }
   column.click("tab.Scenes");  // the last part cannot reach the head
   column.draw();
   column.draw();
   CHECK(column.has("scenes.showroom"));
-  CHECK(column_tabs()[static_cast<std::size_t>(column.state.tabs.lit)].name == std::string("Scenes"));
+  CHECK(column_sections()[static_cast<std::size_t>(column.state.tabs.lit)].name == std::string("Scenes"));
 }
 
 TEST_CASE("selecting an object in the picture brings its values to the head of the column") {
@@ -61,18 +61,18 @@ TEST_CASE("dragging its edge makes the column wider, within limits, and a double
   column.button(true);
   compat::mouse_pos(ImGui::GetIO(), -60, 100);
   column.draw();
-  CHECK(column.state.look.column == 432);
+  CHECK(column.look.column == 432);
   compat::mouse_pos(ImGui::GetIO(), 300, 100);
   column.draw();
-  CHECK(column.state.look.column == narrowest_column);
+  CHECK(column.look.column == narrowest_column);
   column.button(false);
   column.click_twice("column.edge");
-  CHECK(column.state.look.column == column_width);
+  CHECK(column.look.column == column_width);
 }
 
 TEST_CASE("the list of scenes shows which method fails, wants the pictures that are seen, and opens recent files") {
   Column column;
-  column.state.model.recent = {"/scenes/my own.json"};
+  column.state.now.recent = {"/scenes/my own.json"};
   column.draw();
   column.draw();
   CHECK(column.state.wanted_pictures == std::vector<std::string>{"showroom", "cover", "/scenes/my own.json"});
@@ -85,9 +85,9 @@ TEST_CASE("the list of scenes shows which method fails, wants the pictures that 
 TEST_CASE("theme and text size are chosen in the column") {
   Column column;
   column.click("window.theme.light");
-  CHECK(column.state.look.theme == Theme::light);
+  CHECK(column.look.theme == Theme::light);
   column.click("window.text.125");
-  CHECK(column.state.look.text_size == 1.25);
+  CHECK(column.look.text_size == 1.25);
 }
 
 }  // namespace tyndall::test::column_test

@@ -1,5 +1,5 @@
 #pragma once
-#include "app/window/system/imgui_compat.h"
+#include "tests/app/window/imgui_without_window.h"
 
 #include <utility>
 

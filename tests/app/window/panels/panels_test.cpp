@@ -116,11 +116,11 @@ TEST_CASE("choices change what they say, and only that") {
   column.click("image.tone_map.aces");
   CHECK(column.scene().display.tone_map == ToneMap::aces);
   column.click("image.view.normal");
-  CHECK(column.state.model.view == 2);
+  CHECK(column.state.now.view == 2);
   column.click("image.view.cost");
-  CHECK(column.state.model.view == view_named("cost"));
+  CHECK(column.state.now.view == view_named("cost"));
   column.click("image.view.FLIP");
-  CHECK(column.state.model.view == view_named("cost"));
+  CHECK(column.state.now.view == view_named("cost"));
   CHECK(column.problem == "FLIP: needs a reference: see Speed and accuracy");
   column.click("scenes.cover");
   CHECK(column.has_query_for({"scene", "cover"}));
@@ -156,7 +156,7 @@ TEST_CASE("the controls of the section Accuracy ask for what they say") {
   column.requested.clear();
   column.click("render.split.on");
   CHECK(column.requested == std::vector<Request>{{"split view"}});
-  column.state.model.kept_method = "path";
+  column.state.now.split = true, column.state.now.kept_method = "path";
   column.click("render.split.on");  // it is on
   CHECK(column.requested.size() == 1);
   column.click("render.split.off");
@@ -170,13 +170,13 @@ TEST_CASE("the controls of the section Accuracy ask for what they say") {
 TEST_CASE("errors are seen only where there is something to measure against") {
   Column column;
   column.click("image.view.error");
-  CHECK(column.state.model.view == 0);
+  CHECK(column.state.now.view == 0);
   CHECK(column.problem == "error: needs a reference: see Speed and accuracy");
-  column.state.model.can_show_errors = true;
+  column.state.now.can_show_errors = true;
   column.click("image.view.FLIP");
-  CHECK(column.state.model.view == view_named("FLIP"));
+  CHECK(column.state.now.view == view_named("FLIP"));
   column.click("image.view.error");
-  CHECK(column.state.model.view == view_named("error"));
+  CHECK(column.state.now.view == view_named("error"));
 }
 
 TEST_CASE("a click in the list of objects selects one and shows its values, a second click on it selects nothing") {
