@@ -92,7 +92,6 @@ void object_panel(Ui& ui, PanelState& state);
 void camera_panel(Ui& ui, PanelState& state);
 void background_panel(Ui& ui, PanelState& state);
 void image_panel(Ui& ui, PanelState& state);
-void histogram_panel(Ui& ui, PanelState& state);
 /// Only of a scene with an animation.
 void film_panel(Ui& ui, PanelState& state);
 void render_panel(Ui& ui, PanelState& state);
