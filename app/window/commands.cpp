@@ -15,7 +15,7 @@ bool Commands::take_key(const KeyPress& press) {
   if (press.typing || has_question()) return false;
   if (press.character == '\0' && menu_.take_key(press.key)) return true;
   if (objects_.active()) return objects_.take_press(press);
-  return !panels_.row_has_keys && strip_.take_key(press.key);
+  return !ui_.sought.has_keys && strip_.take_key(press.key);
 }
 
 void Commands::take(const InputEvents& events) {
@@ -23,12 +23,12 @@ void Commands::take(const InputEvents& events) {
     const Command* command = command_of_key(press.key, press.modifiers);
     const bool answers = command && command->name == "deselect";
     if (palette_.take_key(press.key) || take_key(press)) {
-      pacing_.on_event();
+      session_.pacing.on_event();
       continue;
     }
     if (!command || (objects_.active() && !answers)) continue;
     if ((press.typing && !has_question()) || (has_question() && !answers)) continue;
-    panels_.leave_row = !answers;
+    if (!answers) ui_.sought.has_keys = false;
     act({command->name});
   }
   for (const std::filesystem::path& file : events.dropped)
@@ -42,11 +42,11 @@ std::string Commands::why_not(const Command& command, const std::string& argumen
 void Commands::act(const Request& request) {
   const Command& command = command_named(request.command);
   const std::string& argument = request.argument.empty() ? command.argument : request.argument;
-  if (log_ && !command.is(unlisted)) log_->line("did " + command.name);
-  pacing_.on_event();
+  if (session_.log && !command.is(unlisted)) session_.log->line("did " + command.name);
+  session_.pacing.on_event();
   if (const std::string why = why_not(command, argument); !why.empty()) return session_.messages.say(why);
   command.run(*this, argument);
-  if (command.is(begins_picture)) pacing_.on_new_start(clock_seconds());
+  if (command.is(begins_picture)) session_.pacing.on_new_start(clock_seconds());
 }
 
 void Commands::open_menu(const std::string& title, CommandFlag which) {
@@ -72,7 +72,7 @@ void Commands::open_palette() {
 
 void Commands::go_to_row(const std::string& place) {
   const std::size_t slash = place.find('/');
-  panels_.seek = RowPlace{place.substr(0, slash), place.substr(slash + 1)};
+  seek_row(ui_, {place.substr(0, slash), place.substr(slash + 1)});
   shows_panels_ = true;
 }
 
@@ -81,7 +81,7 @@ void Commands::add_key(const std::string& pointer) {
   const auto slot = find_slot(session_.editor.scene(), pointer);
   if (!slot) return;
   session_.messages.say("key of " + slot->label + " at frame " + std::to_string(timeline_.frame()));
-  session_.editor.change(gestures_.begin(), [&](Scene& scene) { tyndall::add_key(scene, *slot, timeline_.frame()); });
+  session_.editor.change([&](Scene& scene) { tyndall::add_key(scene, *slot, timeline_.frame()); });
 }
 
 void Commands::vary(const std::string& pointer) {
@@ -104,18 +104,18 @@ void Commands::play() {
 void Commands::key_cameras() {
   const CameraSlots& slots = panels_.cameras[panels_.now.origin->title];
   if (slots.size() < 2) return session_.messages.say("store two cameras or more first: see Camera");
-  session_.editor.change(gestures_.begin(), [&](Scene& scene) { tyndall::key_cameras(scene, slots); });
+  session_.editor.change([&](Scene& scene) { tyndall::key_cameras(scene, slots); });
 }
 
 void Commands::reset_camera() {
   const Camera saved = session_.editor.document().origin->saved.camera;
-  session_.editor.change(gestures_.begin(), [&](Scene& scene) { scene.camera = saved; });
+  session_.editor.change([&](Scene& scene) { scene.camera = saved; });
 }
 
 void Commands::frame_selection() {
   const auto sphere = bounding_sphere(session_.editor.scene(), panels_.selected);
   if (!sphere) return;  // an empty group
-  session_.editor.change(gestures_.begin(), [&](Scene& scene) {
+  session_.editor.change([&](Scene& scene) {
     const double aspect = static_cast<double>(scene.width) / scene.height;
     scene.camera = frame_sphere(scene.camera, sphere->center, sphere->radius, aspect);
   });
@@ -161,23 +161,23 @@ void Commands::end_split() {
 
 void Commands::ask_to_close() {
   closing_.begin(dialog_);
-  pacing_.on_event();
+  session_.pacing.on_event();
 }
 
 void Commands::escape() {
-  if (panels_.drags) {
-    panels_.cancel_drag = true;
+  if (ui_.drag.active) {
+    ui_.drag.cancel = true;
     return;
   }
   if (dialog_.kind == Dialog::Kind::changed_file) session_.editor.answer_about_file(false);
   if (closing_.cancel()) return;
   if (popup_is_open()) {
-    panels_.close_popup = true;
+    ui_.close_popup = true;
     return;
   }
   if (palette_.is_open()) return palette_.close();
-  if (panels_.row_has_keys) {
-    panels_.leave_row = true;
+  if (ui_.sought.has_keys) {
+    ui_.sought.has_keys = false;
     return;
   }
   if (menu_.is_open()) return menu_.close();
@@ -195,25 +195,25 @@ void Commands::escape() {
     objects_.select_all({});
 }
 
-void Commands::draw(Ui& ui, const Rect& area) {
+void Commands::draw(const Rect& area) {
   shows_menu_ = menu_.is_open();
-  if (auto chosen = menu_.draw(ui, area)) ui.requests.push_back(std::move(*chosen));
+  if (auto chosen = menu_.draw(ui_, area)) ui_.requests.push_back(std::move(*chosen));
   if (std::exchange(opens_palette_, false))
-    palette_.open(palette_items(listed_rows(rows_of_column(ui, panels_)), listed_scenes()));
-  if (auto chosen = palette_.draw(ui, area)) ui.requests.push_back(std::move(*chosen));
-  if (shows_help_) draw_help(ui, shows_help_);
+    palette_.open(palette_items(listed_rows(rows_of_column(ui_, panels_)), listed_scenes()));
+  if (auto chosen = palette_.draw(ui_, area)) ui_.requests.push_back(std::move(*chosen));
+  if (shows_help_) draw_help(ui_, shows_help_);
   if (session_.editor.offers_reload() && !has_question())
     dialog_ = changed_file_dialog(*session_.editor.document().origin);
   if (!has_question())
     if (const std::filesystem::path picture = session_.references.take_doubtful(); !picture.empty())
       dialog_ = picture_dialog(picture);
   if (dialog_.kind == Dialog::Kind::halves && !session_.split()) dialog_.kind = Dialog::Kind::none;
-  closing_.draw(ui, area, dialog_);
-  if (auto answer = draw_dialog(ui, area, dialog_)) ui.requests.push_back(std::move(*answer));
+  closing_.draw(ui_, area, dialog_);
+  if (auto answer = draw_dialog(ui_, area, dialog_)) ui_.requests.push_back(std::move(*answer));
 }
 
-void Commands::carry_out(Ui& ui) {
-  for (const Request& request : std::exchange(ui.requests, {})) act(request);
+void Commands::carry_out() {
+  for (const Request& request : std::exchange(ui_.requests, {})) act(request);
 }
 
 }  // namespace tyndall

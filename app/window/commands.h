@@ -7,7 +7,6 @@
 #include "app/window/panels/panels.h"
 #include "app/window/picture_tools.h"
 #include "app/window/session.h"
-#include "app/window/system/pacing.h"
 #include "app/window/system/platform.h"
 #include "app/window/timeline/timeline.h"
 #include "app/window/tools/pointer.h"
@@ -23,19 +22,17 @@ namespace tyndall {
 class Commands {
  public:
   /// The arguments belong to the window and must outlive this.
-  Commands(Session& session, Platform& platform, PanelState& panels, Pacing& pacing, Gestures& gestures,
-           ObjectTools& objects, PictureTools& picture, VariationStrip& strip, Timeline& timeline, UiLog* log)
+  Commands(Session& session, Platform& platform, Ui& ui, PanelState& panels, ObjectTools& objects,
+           PictureTools& picture, VariationStrip& strip, Timeline& timeline)
       : session_(session),
         platform_(platform),
+        ui_(ui),
         panels_(panels),
-        pacing_(pacing),
-        gestures_(gestures),
         objects_(objects),
         picture_(picture),
         strip_(strip),
         timeline_(timeline),
-        closing_(session),
-        log_(log) {}
+        closing_(session) {}
 
   /// See commands(), which is made of it once.
   static std::vector<Command> table();
@@ -49,11 +46,11 @@ class Commands {
   /// The window may go.
   bool closed() const { return closing_.done(); }
   /// Draws menu, palette, help table and the question that waits for an answer.
-  void draw(Ui& ui, const Rect& area);
+  void draw(const Rect& area);
 
   /// To be called at the end of each drawing, when the panels' scene was handed to the editor: carries out what was
   /// asked for in it.
-  void carry_out(Ui& ui);
+  void carry_out();
 
   /// Whether a dialog waits for an answer: until then nothing else takes clicks.
   bool has_dialog() const { return dialog_.kind != Dialog::Kind::none; }
@@ -102,9 +99,8 @@ class Commands {
 
   Session& session_;
   Platform& platform_;
+  Ui& ui_;
   PanelState& panels_;
-  Pacing& pacing_;
-  Gestures& gestures_;
   ObjectTools& objects_;
   PictureTools& picture_;
   VariationStrip& strip_;
@@ -113,7 +109,6 @@ class Commands {
   Menu menu_;
   Palette palette_;
   Closing closing_;
-  UiLog* log_;  ///< may be null
   bool shows_help_ = false, shows_panels_ = true, shows_menu_ = false, opens_palette_ = false;
 };
 

@@ -40,10 +40,9 @@ MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Refer
           options, wake_, [this] { alarm_.on_frame(*platform_); }, log_.get()),
       picture_(session_.renderers, session_.accuracy),
       appearance_(*platform_, session_, ui_),
-      objects_(session_, panels_, tools_.gestures, pacing_),
-      picture_tools_(session_, panels_, tools_.gestures, pacing_, wake_),
-      commands_(session_, *platform_, panels_, pacing_, tools_.gestures, objects_, picture_tools_, strip_, timeline_,
-                log_.get()) {
+      objects_(session_, panels_),
+      picture_tools_(session_, panels_, wake_),
+      commands_(session_, *platform_, ui_, panels_, objects_, picture_tools_, strip_, timeline_) {
   ui_.log = log_.get();
   panels_.now.scenes = built_in_scenes();
   panels_.look = &session_.preferences;
@@ -61,7 +60,7 @@ bool MainWindow::send(double now, bool scene_too) {
   session_.send(now, scene_too);
   const std::uint64_t edit = session_.renderers.edit(Half::current);
   if (edit == paced_edit_) return false;
-  pacing_.on_edit(paced_edit_ = edit, now);
+  session_.pacing.on_edit(paced_edit_ = edit, now);
   return true;
 }
 
@@ -70,8 +69,8 @@ bool MainWindow::awaits_picture(double now) const { return now < awaits_until_; 
 
 bool MainWindow::picture_due(double now) const {
   const auto frame = picture_.unseen();
-  if (!frame || now < pacing_.next_drawing()) return false;
-  return now >= pacing_.picture_due() || frame->finished;
+  if (!frame || now < session_.pacing.next_drawing()) return false;
+  return now >= session_.pacing.picture_due() || frame->finished;
 }
 
 bool MainWindow::hidden() const {
@@ -88,12 +87,12 @@ double MainWindow::waiting_time(double now) {
   }
   // The order matters: a frame that comes from here on, after its time, wakes the window. One that came before is seen
   // below. One that comes in between is seen when its time has come.
-  const double due = std::max(pacing_.picture_due(), pacing_.next_drawing());
+  const double due = std::max(session_.pacing.picture_due(), session_.pacing.next_drawing());
   alarm_.due = due;
   const auto frame = picture_.unseen();
-  double wait = std::max(pacing_.wait(now), awaits_until_ - now);
+  double wait = std::max(session_.pacing.wait(now), awaits_until_ - now);
   if (frame)
-    wait = std::min(wait, std::max(0.0, (frame->finished ? pacing_.next_drawing() : due) - now));
+    wait = std::min(wait, std::max(0.0, (frame->finished ? session_.pacing.next_drawing() : due) - now));
   else if (due > now)
     wait = std::min(wait, due - now);
   return std::min(wait, sends);
@@ -118,11 +117,11 @@ void MainWindow::note_files() {
 
 void MainWindow::draw(double now) {
   const double cpu_before = thread_cpu_seconds();
-  pacing_.on_drawing();
+  session_.pacing.on_drawing();
   if (hidden()) {
     platform_->skip_frame();
     send(now);
-    return pacing_.on_drawn(now);
+    return session_.pacing.on_drawn(now);
   }
   note_files();
   appearance_.update(session_.preferences, gallery_.recent());
@@ -130,7 +129,6 @@ void MainWindow::draw(double now) {
   ui_.wake_in = 1e300;
   ui_.has_question = commands_.has_dialog();
   ui_.problem.clear();
-  ui_.close_popup = std::exchange(panels_.close_popup, false);
   const bool fresh = picture_due(now);
   for (const Half half : {Half::current, Half::kept})
     if (const auto frame = fresh ? picture_.take(half) : nullptr) session_.shown(half, frame);
@@ -236,7 +234,7 @@ void MainWindow::draw_interface() {
   const float film = Timeline::height(session_.editor.scene(), ui_.scale);
   draw_timeline({strip.x0, strip.y0, strip.x1, strip.y0 + film});
   draw_strip({strip.x0, strip.y0 + film, strip.x1, strip.y1});
-  commands_.draw(ui_, context.layout.area);
+  commands_.draw(context.layout.area);
   if (!ui_.log) return;
   ui_.log->widget("picture", context.layout.image, title_of(*panels_.scene, panels_.selected));
   ui_.log->end_of_widgets();
@@ -252,7 +250,7 @@ void MainWindow::draw_timeline(const Rect& rect) {
     return;
   }
   try {
-    if (film_gesture_ == 0 || wish.remove) film_gesture_ = tools_.gestures.begin();
+    if (film_gesture_ == 0 || wish.remove) film_gesture_ = session_.editor.gestures.begin();
     Scene scene = wish.frame ? at_frame_with_keys(editor.scene(), *wish.frame) : editor.scene();
     if (wish.remove) remove_keys(scene, timeline_.frame());
     session_.editor.edit(std::move(scene), film_gesture_);
@@ -273,7 +271,7 @@ void MainWindow::draw_strip(const Rect& rect) {
   auto taken = strip_.draw(ui_, panels_.now, rect, editor.scene());
   if (!taken) return;
   move_linked_objects(editor.scene(), editor.scene(), *taken);
-  if (strip_gesture_ == 0) strip_gesture_ = tools_.gestures.begin();
+  if (strip_gesture_ == 0) strip_gesture_ = session_.editor.gestures.begin();
   session_.editor.edit(std::move(*taken), strip_gesture_);
   panels_.scene = EditedScene(session_.editor.shared());
 }
@@ -283,25 +281,24 @@ void MainWindow::use_mouse_and_keys(double now) {
   const Mouse mouse = read_mouse();
   if (log_) log_->mouse(mouse);
   const std::set<int>& held = platform_->held();
-  PointerTool& pointer = tools_.pointer;
   const bool holds = mouse.any_down() || holds_fly_key(held) || objects_.active();
-  const bool rotates = pointer.is_turning(mouse, layout, now);
-  tools_.gestures.update(holds ? Gesture::held : rotates ? Gesture::wheel : Gesture::none);
-  const bool free = !mouse.taken && !pointer.is_pressed() && !commands_.has_question();
+  const bool rotates = pointer_.is_turning(mouse, layout, now);
+  session_.editor.gestures.update(holds ? Gesture::held : rotates ? Gesture::wheel : Gesture::none);
+  const bool free = !mouse.taken && !pointer_.is_pressed() && !commands_.has_question();
   const bool looks = !objects_.active() && picture_tools_.use_mouse(mouse, free);
   const bool divides = !looks && !objects_.active() && picture_.drag_divider(ui_, mouse, free, panels_.now);
   const bool arranges = !looks && !divides && objects_.use_mouse(mouse, ui_.scale, free && !commands_.shows_menu());
   if (!looks && !divides && !arranges) {
     const bool opens = !commands_.has_question() && !commands_.shows_menu();
     Camera camera = panels_.scene->camera;
-    const PressedButton clicked = pointer.update(mouse, layout, ui_.scale, opens, now, camera);
+    const PressedButton clicked = pointer_.update(mouse, layout, ui_.scale, opens, now, camera);
     set_camera(camera);
     if (clicked != PressedButton::none && objects_.click(mouse, clicked)) ui_.requests.push_back({"menu"});
   }
   const bool grounded = mouse.control || objects_.active() || session_.shows_picture();
   Camera camera = panels_.scene->camera;
-  const bool flies = tools_.flight.update(grounded ? std::set<int>{} : held, platform_->shift_held(), now, camera);
-  if (flies) pacing_.wake_at(now + min_frame_interval);
+  const bool flies = flight_.update(grounded ? std::set<int>{} : held, platform_->shift_held(), now, camera);
+  if (flies) session_.pacing.wake_at(now + min_frame_interval);
   set_camera(camera);
 }
 
@@ -314,14 +311,14 @@ void MainWindow::take_edit() {
   Editor& editor = session_.editor;
   if (!panels_.scene.is_changed()) return;
   const std::string pointer = panels_.scene.pointer();
-  const std::uint64_t gesture = tools_.gestures.current();
+  const std::uint64_t gesture = session_.editor.gestures.current();
   Scene next = panels_.scene.take();
   if (session_.shows_picture()) {  // without a scene, how it is displayed is all that can be changed
     const Display display = next.display;
     next = editor.scene();
     next.display = display;
   }
-  if (pointer.empty() || pointer.starts_with("/objects/")) tools_.start.finish_edit(editor.shared(), next, gesture);
+  if (pointer.empty() || pointer.starts_with("/objects/")) start_.finish_edit(editor.shared(), next, gesture);
   editor.edit(std::move(next), gesture, pointer);
 }
 
@@ -329,13 +326,13 @@ void MainWindow::apply_panels(double now) {
   take_edit();
   session_.editor.select(all_selected(panels_));
   if (!ui_.problem.empty()) session_.messages.say(ui_.problem, true);
-  commands_.carry_out(ui_);
+  commands_.carry_out();
   gallery_.thumbnails.want(panels_.wanted_pictures);
   use_preferences();
   if (shows_errors(session_.view()) && !session_.can_show_errors())
     commands_.act({std::string("view: ") + view_entry(0).name});
   keep_message(now);
-  if (ui_.wake_in < 1e299) pacing_.wake_at(now + ui_.wake_in);
+  if (ui_.wake_in < 1e299) session_.pacing.wake_at(now + ui_.wake_in);
   const Document& document = session_.editor.document();
   platform_->set_title(document.origin->title +
                        (session_.editor.edited() && !session_.shows_picture() ? " (edited)" : "") + " – Tyndall");
@@ -345,16 +342,16 @@ void MainWindow::apply_panels(double now) {
 void MainWindow::keep_message(double now) {
   const Message& message = session_.messages.current();
   if (message.text.empty() || message.error) return;
-  if (now < message.until) return pacing_.wake_at(message.until);
+  if (now < message.until) return session_.pacing.wake_at(message.until);
   session_.messages.dismiss();
-  pacing_.on_event();  // draws once more, because this drawing still shows the message
+  session_.pacing.on_event();  // draws once more, because this drawing still shows the message
 }
 
 void MainWindow::finish_drawing(double now, double cpu_before, bool fresh) {
-  pacing_.on_drawn(now);
+  session_.pacing.on_drawn(now);
   const double after = clock_seconds();
   const Frame* shown = fresh ? picture_.shown().get() : nullptr;
-  if (shown) pacing_.on_picture(shown->edit, after);
+  if (shown) session_.pacing.on_picture(shown->edit, after);
   if (!log_) return;
   if (shown) log_->shown(*shown, after);
   const WindowSize size = platform_->size();

@@ -27,14 +27,6 @@ struct FrameAlarm {
   void on_frame(Platform& platform);
 };
 
-/// What mouse and keys do in the picture.
-struct Tools {
-  PointerTool pointer;
-  Flight flight;
-  Gestures gestures;
-  GestureStart start;
-};
-
 /// The window: waits for events, draws when there is something new, and hands edits to the session.
 class MainWindow {
  public:
@@ -86,8 +78,9 @@ class MainWindow {
   Ui ui_;
   PanelState panels_;
   Appearance appearance_;
-  Pacing pacing_;
-  Tools tools_;
+  PointerTool pointer_;
+  Flight flight_;
+  GestureStart start_;
   ObjectTools objects_;
   PictureTools picture_tools_;
   Commands commands_;

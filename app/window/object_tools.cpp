@@ -13,7 +13,7 @@ namespace tyndall {
 void ObjectTools::select_all(const ObjectPaths& paths) {
   session_.editor.select(paths);
   set_selected(panels_, paths);
-  pacing_.on_event();
+  session_.pacing.on_event();
 }
 
 /// The pixel is one of the picture that is rendered, which may have another size than the scene's file asks for.
@@ -38,27 +38,27 @@ void ObjectTools::grab() { handles_.grab(mouse_, selected(), session_.editor.sce
 bool ObjectTools::take_press(const KeyPress& press) {
   const bool typed = press.character != '\0';
   const bool taken = typed ? handles_.take_character(press.character) : handles_.take_key(press.key);
-  if (taken) pacing_.on_event();
+  if (taken) session_.pacing.on_event();
   return taken;
 }
 
 bool ObjectTools::escape() {
   if (!handles_.active()) return false;
   handles_.cancel();
-  pacing_.on_event();
+  session_.pacing.on_event();
   return true;
 }
 
 void ObjectTools::add(const Addition& what) {
   ObjectPaths added;
-  session_.editor.change(gestures_.begin(), [&](Scene& scene) { added = what.add(scene, spot_); });
+  session_.editor.change([&](Scene& scene) { added = what.add(scene, spot_); });
   select_all({added.front()});
   session_.messages.say("added: " + title_of(session_.editor.scene(), added.front()) + " (add " + what.name + ")");
 }
 
 void ObjectTools::duplicate() {
   ObjectPaths copies;
-  session_.editor.change(gestures_.begin(), [&](Scene& scene) { copies = duplicate_objects(scene, selected()); });
+  session_.editor.change([&](Scene& scene) { copies = duplicate_objects(scene, selected()); });
   select_all(copies);
   session_.messages.say("duplicated: the copy is in the same place, and is selected");
 }
@@ -67,7 +67,7 @@ void ObjectTools::remove() {
   const std::string title = title_of(session_.editor.scene(), panels_.selected);
   const auto& kept = session_.editor.document().origin->saved.materials;
   int count = 0;
-  session_.editor.change(gestures_.begin(), [&](Scene& scene) { count = delete_objects(scene, selected(), kept); });
+  session_.editor.change([&](Scene& scene) { count = delete_objects(scene, selected(), kept); });
   select_all({});
   session_.messages.say("deleted " + (count == 1 ? title : std::to_string(count) + " objects") + "; Ctrl + Z: undo");
 }
@@ -76,8 +76,8 @@ void ObjectTools::own_material() {
   Scene scene = session_.editor.scene();
   for (const ObjectPath& path : selected()) make_single_user(scene, path);
   if (scene == session_.editor.scene()) return session_.messages.say("nothing else has its material");
-  session_.editor.edit(std::move(scene), gestures_.begin());
-  pacing_.on_event();
+  session_.editor.edit(std::move(scene), session_.editor.gestures.begin());
+  session_.pacing.on_event();
 }
 
 bool ObjectTools::use_mouse(const Mouse& mouse, float scale, bool free) {
@@ -85,7 +85,7 @@ bool ObjectTools::use_mouse(const Mouse& mouse, float scale, bool free) {
   const bool was_active = handles_.active();
   const bool taken = handles_.update(mouse, panels_.now.layout, scale, free, selected(), panels_.scene);
   if (handles_.clicked_through()) click(mouse, PressedButton::left);
-  if (was_active != handles_.active()) pacing_.on_event();
+  if (was_active != handles_.active()) session_.pacing.on_event();
   return taken;
 }
 
@@ -106,7 +106,7 @@ bool ObjectTools::click(const Mouse& mouse, PressedButton button) {
 }
 
 void ObjectTools::select(const PictureClick& click, const Renderer::Pick& pick, bool more, bool again) {
-  pacing_.on_event();
+  session_.pacing.on_event();
   const ObjectPath found = clicked_object(*panels_.scene, pick, click.at, panels_.selected, again && !more);
   if (!more) {
     select_all(found.empty() ? ObjectPaths{} : ObjectPaths{found});

@@ -4,7 +4,6 @@
 #include "app/window/handles/handle_tool.h"
 #include "app/window/panels/panels.h"
 #include "app/window/session.h"
-#include "app/window/system/pacing.h"
 #include "app/window/tools/pointer.h"
 
 /// What the user does to objects: selecting, moving, adding, duplicating, deleting.
@@ -14,8 +13,7 @@ namespace tyndall {
 class ObjectTools {
  public:
   /// The arguments belong to the window and must outlive this.
-  ObjectTools(Session& session, PanelState& panels, Gestures& gestures, Pacing& pacing)
-      : session_(session), panels_(panels), gestures_(gestures), pacing_(pacing) {}
+  ObjectTools(Session& session, PanelState& panels) : session_(session), panels_(panels) {}
 
   /// The next object is added where the mouse is now, or in the middle of the picture if it is not over it. Called
   /// when a list of actions opens, whose lines may lie elsewhere.
@@ -53,8 +51,6 @@ class ObjectTools {
 
   Session& session_;
   PanelState& panels_;
-  Gestures& gestures_;
-  Pacing& pacing_;
   HandleTool handles_;
   ClickPlace clicks_;
   Mouse mouse_;  ///< as the last drawing found it

@@ -59,7 +59,7 @@ void add_missing(RowList& rows) {
   rows.add_kind<Dielectric<>>("Object", "an object of glass");
   rows.add("Object", colour_slot("", "albedo", {}), "an object with a colour");
   rows.add("Object", colour_slot("", "radiance", {}), "a lamp with a texture");
-  for (const Row* row : {&lamp_colour, &lamp_power, &lamp_stops}) rows.add("Object", *row, "a lamp");
+  for (const Row* row : {&light_colour_row, &light_power_row, &light_stops_row}) rows.add("Object", *row, "a lamp");
   rows.add_kind<Checker<>>("Object", "an object with a checker texture");
   rows.add_kind<Noise<>>("Object", "an object with a noise texture");
   rows.add_kind<Solid<>>("Object", "an object with a texture of one colour");

@@ -25,7 +25,7 @@ void PictureTools::look_through_next() {
   const CameraSlots& slots = panels_.cameras[panels_.now.origin->title];
   const auto next = next_slot(slots, session_.editor.scene().camera);
   if (!next) return session_.messages.say("no camera is stored yet");
-  session_.editor.change(gestures_.begin(), [&](Scene& scene) { scene.camera = slots[*next].camera; });
+  session_.editor.change([&](Scene& scene) { scene.camera = slots[*next].camera; });
 }
 
 void PictureTools::refine() {
@@ -42,7 +42,7 @@ void PictureTools::refine() {
 }
 
 bool PictureTools::escape() {
-  pacing_.on_event();
+  session_.pacing.on_event();
   if (rectangle_.cancel()) return session_.messages.dismiss(), true;
   if (inspector.drop_path()) return true;
   if (!inspector.on()) return false;
@@ -71,14 +71,14 @@ bool PictureTools::use_mouse(const Mouse& mouse, bool free) {
   inspector.point_at(over ? std::optional(click_at(image, mouse.x, mouse.y, frame->width, frame->height))
                           : std::nullopt);
   if (drag_picture(mouse, free)) {
-    if (mouse.any_down() || mouse.wheel != 0) pacing_.on_event();
+    if (mouse.any_down() || mouse.wheel != 0) session_.pacing.on_event();
     return true;
   }
   if (!frame || !rectangle_.active()) return false;
   const auto drawn = rectangle_.update(mouse, image, free, frame->width, frame->height);
   if (drawn) {
     session_.wanted.refine_first = *drawn;
-    pacing_.on_event();
+    session_.pacing.on_event();
   }
   return true;
 }

@@ -4,7 +4,6 @@
 #include "app/window/panels/panels.h"
 #include "app/window/picture/display.h"
 #include "app/window/session.h"
-#include "app/window/system/pacing.h"
 #include "app/window/tools/pointer.h"
 
 #include <functional>
@@ -16,8 +15,8 @@ namespace tyndall {
 class PictureTools {
  public:
   /// The arguments belong to the window and must outlive this. wake: see JobQueue.
-  PictureTools(Session& session, PanelState& panels, Gestures& gestures, Pacing& pacing, std::function<void()> wake)
-      : inspector(std::move(wake)), session_(session), panels_(panels), gestures_(gestures), pacing_(pacing) {}
+  PictureTools(Session& session, PanelState& panels, std::function<void()> wake)
+      : inspector(std::move(wake)), session_(session), panels_(panels) {}
 
   void toggle_actual_size() { zoom_.toggle(mouse_.x, mouse_.y); }
   void find_path();          ///< why the pixel under the cursor is noisy
@@ -48,8 +47,6 @@ class PictureTools {
 
   Session& session_;
   PanelState& panels_;
-  Gestures& gestures_;
-  Pacing& pacing_;
   ImageZoom zoom_;
   RectangleTool rectangle_;
   Mouse mouse_;      ///< as the last drawing found it

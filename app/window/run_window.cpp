@@ -54,15 +54,15 @@ bool MainWindow::step() {
   if (input_since_ <= 0) input_since_ = events.first;
   const bool looked = picture_tools_.inspector.collect(session_.renderers), came = gallery_.collect(),
              varied = strip_.collect();
-  if (events.any || session_.collect() || looked || came || varied) pacing_.on_event();
+  if (events.any || session_.collect() || looked || came || varied) session_.pacing.on_event();
   for (const KeyPress& press : events.keys)
     if (log_ && press.character == '\0') log_->line("key " + std::to_string(press.key));
   commands_.take(events);
   const double now = clock_seconds();
-  if (session_.accuracy.collect()) pacing_.wake_at(now);
+  if (session_.accuracy.collect()) session_.pacing.wake_at(now);
   const bool due = picture_due(now), again = std::exchange(takes_in_again_, false);
   if (!due && !again) send(now);
-  if (due || again || (pacing_.wait(now) <= 0 && !awaits_picture(now))) draw(now);
+  if (due || again || (session_.pacing.wait(now) <= 0 && !awaits_picture(now))) draw(now);
   return true;
 }
 

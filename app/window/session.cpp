@@ -15,13 +15,13 @@
 
 namespace tyndall {
 Session::Session(const WindowOptions& options, const std::function<void()>& wake, std::function<void()> on_frame,
-                 UiLog* log)
-    : log_(log),
-      isa_(options.isa),
+                 UiLog* log_of_window)
+    : isa_(options.isa),
       limits_(options.limits),
       kept_(state_folder(), wake),
       picture_(options.picture),
       function_(options.function),
+      log(log_of_window),
       messages(log),
       accuracy(wake),
       renderers(thread_count(options.threads).count, options.isa, std::move(on_frame)),
@@ -118,9 +118,9 @@ void Session::submit(double now) {
   if (split()) kept_scene_ = with_kept_settings(*wanted.scene);
   const double changed_at = timer.changed_at();
   timer.on_send(now);
-  if (!ask() || !log_) return;
+  if (!ask() || !log) return;
   const bool camera_only = before && !change_between(*before, *wanted.scene).others;
-  log_->submitted(renderers.edit(Half::current), changed_at, camera_only);
+  log->submitted(renderers.edit(Half::current), changed_at, camera_only);
 }
 
 /// The one place where the renderers are asked for anything. Returns whether the current half begins another picture.

@@ -119,8 +119,7 @@ class Session {
 
   std::shared_ptr<Film> opened_film_;        ///< of the scene that was opened, until it goes to the renderer
   std::shared_ptr<const Scene> kept_scene_;  ///< of the left half of a split view; null: there is none
-  UiLog* log_;
-  std::string isa_;  ///< "": the best
+  std::string isa_;                          ///< "": the best
   PauseLimits limits_;
   std::uint64_t limited_edit_ = 0;                     ///< the picture of this edit was paused by a limit; 0: none
   std::shared_ptr<const RenderProblem> told_problem_;  ///< the newest one
@@ -146,6 +145,8 @@ class Session {
   /// are not due to input.
   double input_time = 0;
   SendTimer timer;
+  Pacing pacing;  ///< of the drawings
+  UiLog* log;     ///< null: none
   MessageLine messages;
   Preferences preferences;  ///< see keep_preferences()
   LiveAccuracy accuracy;

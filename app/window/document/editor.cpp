@@ -120,7 +120,7 @@ void Editor::set_sky(const std::filesystem::path& file) {
   read_in_background([this, file, folder = document().origin->folder]() -> JobQueue::Result {
     return [this, folder, sky = sky_of_file(file, folder)] {
       if (document().origin->folder != folder) return;  // another scene was opened in the meantime
-      change(0, [&](Scene& changed) { changed.background = sky; });
+      change([&](Scene& changed) { changed.background = sky; });
       watch();
       messages_.say("the sky is " + sky.file + "; Ctrl + Z takes it away");
     };

@@ -52,12 +52,12 @@ class Editor {
   /// same number that follow each other are one step to undo; 0: none. pointer: of the value in which it differs, by
   /// which no scenes need to be compared; "": it may differ in anything.
   void edit(Scene scene, std::uint64_t gesture, const std::string& pointer = "");
-  /// The same of a change to a copy of the scene, as a step to undo of its own or of a gesture.
+  /// The same of a change to a copy of the scene, as a step to undo of its own.
   template <class F>
-  void change(std::uint64_t gesture, const F& change_of) {
+  void change(const F& change_of) {
     Scene next = scene();
     change_of(next);
-    edit(std::move(next), gesture);
+    edit(std::move(next), gestures.begin());
   }
   void undo();
   void redo();
@@ -99,6 +99,8 @@ class Editor {
   void answer_about_file(bool take);
   /// Whether one of these files was changed and collect() has not been called since.
   bool file_changed() const { return file_changed_; }
+
+  Gestures gestures;
 
  private:
   void show(Document document, bool own_file, const OpenedFilm& film = {});

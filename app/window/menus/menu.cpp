@@ -204,7 +204,7 @@ bool Palette::draw_text(Ui& ui) {
   const bool enter = ImGui::InputTextWithHint("##text", "what to do: type a part of its name", text_, sizeof text_,
                                               flags, to_end, &resumes_);
   if (std::exchange(active_, ImGui::IsItemActive()) && !active_) resumes_ = true;
-  if (!active_) ui.wake_in = 0;
+  if (!active_ || !ImGui::GetIO().WantTextInput) ui.wake_in = 0;  // shortcuts lose the keyboard a frame later
   log_item(ui, "palette", text_);
   return enter;
 }

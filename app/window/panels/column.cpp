@@ -9,6 +9,10 @@
 namespace tyndall {
 namespace {
 
+void histogram_panel(Ui& ui, PanelState& state) {
+  histogram_section(ui, state.histogram, state.now.frame.get(), state.scene->display);
+}
+
 constexpr Section sections[] = {
     {"Object", "", "properties, selected object", has_tab | of_scene, object_panel},
     {"Camera", "Camera", "camera settings", has_tab | of_scene, camera_panel},
@@ -178,13 +182,9 @@ std::vector<RowEntry> rows_of_column(const Ui& ui, const PanelState& state) {
 
 void draw_column(Ui& ui, PanelState& state, const Rect& column) {
   ui.drag.active = false;
-  ui.drag.cancel = std::exchange(state.cancel_drag, false);
-  if (std::exchange(state.leave_row, false)) ui.sought.has_keys = false;
-  if (state.seek) seek_row(ui, *std::exchange(state.seek, std::nullopt));
   draw_shown_column(ui, state, column);
   go_on_seeking(ui);
-  state.drags = ui.drag.active;
-  state.row_has_keys = ui.sought.has_keys;
+  ui.drag.cancel = ui.close_popup = false;
 }
 
 }  // namespace tyndall

@@ -1,6 +1,5 @@
 #include "app/window/panels/histogram.h"
 
-#include "app/window/panels/panels.h"
 #include "app/window/system/imgui_compat.h"
 
 #include <fmt/core.h>
@@ -60,10 +59,9 @@ const Histogram& LiveHistogram::of(const Frame& frame, const Display& display) {
   return histogram_;
 }
 
-void histogram_panel(Ui& ui, PanelState& state) {
-  const Frame* frame = state.now.frame.get();
+void histogram_section(Ui& ui, LiveHistogram& live, const Frame* frame, const Display& display) {
   if (!section(ui, "Histogram", "what is shown, logarithmic") || !frame) return;
-  const Histogram& histogram = state.histogram.of(*frame, state.scene->display);
+  const Histogram& histogram = live.of(*frame, display);
   const float s = ui.scale, width = ImGui::GetWindowContentRegionMax().x - ImGui::GetCursorPosX();
   const ImVec2 at = ImGui::GetCursorScreenPos(), size{std::max(width, 1.0f), 64 * s};
   ImGui::InvisibleButton("histogram", size);

@@ -1,4 +1,5 @@
 #pragma once
+#include "app/window/panels/widgets.h"
 #include "core/render/frame.h"
 #include "core/scene/settings.h"
 
@@ -32,5 +33,8 @@ class LiveHistogram {
   Display display_;
   Histogram histogram_;
 };
+
+/// The section with the histogram. frame: on the screen; null: none.
+void histogram_section(Ui& ui, LiveHistogram& live, const Frame* frame, const Display& display);
 
 }  // namespace tyndall

@@ -10,15 +10,16 @@
 
 namespace tyndall {
 
-const Row lamp_colour{"color",     "Colour",
-                      at_least(0), {0, 1},
-                      "",          "the proportions of red, green and blue",
-                      "",          "light color, light colour, lamp color, lamp colour"};
-const Row lamp_power{"power",     "Power",
-                     at_least(0), {0.01, 1000, true},
-                     "",          "radiance of the strongest of red, green and blue",
-                     "",          "emission, emissive, intensity, strength, luminance, lamp power, light power"};
-const Row lamp_stops{"stops", "Stops", {}, {}, "", "doubles or halves the light with each stop", "", "light stops"};
+const Row light_colour_row{"color",     "Colour",
+                           at_least(0), {0, 1},
+                           "",          "the proportions of red, green and blue",
+                           "",          "light color, light colour, lamp color, lamp colour"};
+const Row light_power_row{"power",     "Power",
+                          at_least(0), {0.01, 1000, true},
+                          "",          "radiance of the strongest of red, green and blue",
+                          "",          "emission, emissive, intensity, strength, luminance, lamp power, light power"};
+const Row light_stops_row{"stops", "Stops",      {}, {}, "", "doubles or halves the light with each stop",
+                          "",      "light stops"};
 const Row type_of_material{"type", "Type",
                            {},     {},
                            "",     "what kind of material it is; the colour stays",
@@ -42,7 +43,7 @@ void stops_row(Ui& ui, double& power) {
     const char* name;
     double stops;
   } buttons[] = {{"- 1", -1}, {"- 1/3", -1 / 3.0}, {"+ 1/3", 1 / 3.0}, {"+ 1", 1}};
-  begin_row(ui, lamp_stops);
+  begin_row(ui, light_stops_row);
   const float space = 2 * ui.scale, width = (value_width(ui) - 3 * space) / 4;
   for (const auto& button : buttons) {
     if (&button != buttons) ImGui::SameLine(0, space);
@@ -59,7 +60,7 @@ void light_rows(Ui& ui, PanelState& state, const Slot& radiance) {
   const LightColour before = light_colour(std::get<Vec3d>(radiance.value));
   const LightColour was = light_colour(saved ? std::get<Vec3d>(*saved) : Vec3d{1, 1, 1});
   LightColour light = before;
-  Row colour = lamp_colour, power = lamp_power;
+  Row colour = light_colour_row, power = light_power_row;
   colour.original = was.colour;
   power.meaning = stops_text(light.power);
   power.original = Vec3d{was.power, 0, 0};

@@ -66,9 +66,6 @@ struct PanelState {
   ObjectPath selected;           ///< whose values the panels show; empty: nothing is selected
   std::vector<ObjectPath> also;  ///< further objects that are selected with it
   bool rename = false;           ///< the name of the selected object is to be typed
-  bool close_popup = false;      ///< a list or a picker that is open closes in the next drawing
-  bool drags = false;            ///< a number is being dragged
-  bool cancel_drag = false;      ///< it goes back to what it was, in the next drawing
   BackgroundMemory backgrounds;
   MaterialMemory materials;
   LiveHistogram histogram;
@@ -77,9 +74,6 @@ struct PanelState {
   ObjectPath shown;             ///< the selected object that the column has jumped to
   Preferences* look = nullptr;  ///< theme, size of texts and width of the column are changed here
   ColumnTabs tabs;
-  std::optional<RowPlace> seek;              ///< the column goes to that row in the next drawings, see SoughtRow
-  bool row_has_keys = false;                 ///< the arrow keys go through the choices of a row
-  bool leave_row = false;                    ///< they do not from the next drawing on
   std::vector<std::string> wanted_pictures;  ///< of these scenes, that are to be seen
 };
 
@@ -98,7 +92,6 @@ void object_panel(Ui& ui, PanelState& state);
 void camera_panel(Ui& ui, PanelState& state);
 void background_panel(Ui& ui, PanelState& state);
 void image_panel(Ui& ui, PanelState& state);
-void histogram_panel(Ui& ui, PanelState& state);
 /// Only of a scene with an animation.
 void film_panel(Ui& ui, PanelState& state);
 void render_panel(Ui& ui, PanelState& state);

@@ -13,8 +13,8 @@ namespace tyndall {
 Row row_of(const Slot& slot, std::string meaning);
 
 // Rows that are no single value of the scene, and that some objects or skies have.
-extern const Row lamp_colour, lamp_power, lamp_stops, type_of_material, material_of_object, name_of_object,
-    texture_file, sky_file;
+extern const Row light_colour_row, light_power_row, light_stops_row, type_of_material, material_of_object,
+    name_of_object, texture_file, sky_file;
 
 /// Draws a row, and sets the value in the panels' scene when it was changed.
 void slot_row(Ui& ui, PanelState& state, const Slot& slot, const Row& row);

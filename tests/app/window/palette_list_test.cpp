@@ -62,8 +62,7 @@ struct VariedColumn : Column {
   void go(const RowEntry& row) {
     problem.clear();
     ui.edit = {};
-    state.leave_row = true;
-    state.seek = RowPlace{row.part, row.label};
+    seek_row(ui, {row.part, row.label});
     for (int k = 0; k < 7; ++k) draw();
   }
 };
@@ -248,14 +247,14 @@ TEST_CASE("while nothing is selected the row is that of the first object that is
 TEST_CASE("the arrow keys go through the choices of a row that was gone to, until Enter") {
   VariedColumn column;
   column.go(column.row_named("Tone map", "Image").row);
-  REQUIRE(column.state.row_has_keys);
+  REQUIRE(column.ui.sought.has_keys);
   column.press(ImGuiKey_RightArrow);
   CHECK(column.scene().display.tone_map == ToneMap::aces);
   column.press(ImGuiKey_LeftArrow);
   column.press(ImGuiKey_LeftArrow);  // there is none before the first
   CHECK(column.scene().display.tone_map == ToneMap::srgb);
   column.press(ImGuiKey_Enter);
-  CHECK_FALSE(column.state.row_has_keys);
+  CHECK_FALSE(column.ui.sought.has_keys);
   column.press(ImGuiKey_RightArrow);
   CHECK(column.scene().display.tone_map == ToneMap::srgb);
   column.state.selected = {0};

@@ -182,15 +182,15 @@ TEST_CASE("Esc takes a drag back, of sliders and of numbers, and the mouse chang
     column.draw();
     column.aim(name, 0.5);
     column.button(true);
-    CHECK(column.state.drags);
+    CHECK(column.ui.drag.active);
     column.aim(name, 0.9);
     CHECK(column.gold().fuzz != 0.5);
-    column.state.cancel_drag = true;
+    column.ui.drag.cancel = true;
     column.draw();
     CHECK(column.gold().fuzz == 0.5);
     column.aim(name, 0.1);
     CHECK(column.gold().fuzz == 0.5);
-    CHECK_FALSE(column.state.drags);
+    CHECK_FALSE(column.ui.drag.active);
     column.button(false);
     column.draw();
     CHECK(column.gold().fuzz == 0.5);
