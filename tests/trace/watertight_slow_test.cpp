@@ -18,9 +18,10 @@ void check_rays(int all) {
         for (const int n : {3, 40})
           leaks += slip_through({n, is_round}, scale, transform, kernels, all / 4, from_within, 2);
       CHECK(leaks == 0);
-      MESSAGE(std::string(kernels.isa) + (transform.empty() ? "" : ", turned and moved") +
-                  (from_within ? ", from within" : ", from outside") + ", scale ",
-              scale, ": ", leaks, " of ", all, " rays slip through");
+      std::string told(kernels.isa);
+      told += transform.empty() ? "" : ", turned and moved";
+      told += from_within ? ", from within" : ", from outside";
+      MESSAGE(told, ", scale ", scale, ": ", leaks, " of ", all, " rays slip through");
     }
 }
 
