@@ -143,34 +143,31 @@ void list_frame(Animating& film, const RenderJob& job, int frame, bool whole) {
 }
 
 /// Renders a frame and writes it; false if something could not be written.
-bool make_frame(Animating& film, const FrameTask& task, Series& series, bool first) {
+bool make_frame(Animating& film, const FrameTask& task, Series& series) {
   const Request command = command_of(film.command, task.frame, task.outputs);
   RenderJob job = job_of(film, command, task.frame);
   prepare(job);
-  if (first) tell_remarks(job);
   if (!task.film.empty()) take_film(job, read_film_alone(task.film));
-  const RenderResult result = series.render(job, "frame " + std::to_string(task.frame));
-  const RenderOutcome outcome = outcome_of(job, result, result.interrupted);
-  if (outcome.picture.totals.max_taken == 0) return true;
-  series.warn(job, outcome, "frame " + std::to_string(task.frame));
-  if (!result.interrupted) list_frame(film, job, task.frame, false);
-  if (!write(job, outcome)) return false;
-  if (result.interrupted) return true;
-  list_frame(film, job, task.frame, true);
-  if (film.video && task.frame >= film.range.first + film.video->frames())
-    film.video->add(result.clean ? LinearImage{result.clean->width, result.clean->height, result.clean->rgb}
-                                 : outcome.picture.image,
-                    job.loaded.scene.display);
-  return true;
+  const auto made = [&](const RenderOutcome& outcome, bool written) {
+    if (!written) return;
+    list_frame(film, job, task.frame, true);
+    const auto& clean = outcome.result.clean;
+    if (film.video && task.frame >= film.range.first + film.video->frames())
+      film.video->add(clean ? LinearImage{clean->width, clean->height, clean->rgb} : outcome.picture.image,
+                      job.loaded.scene.display);
+  };
+  const auto list = [&] { list_frame(film, job, task.frame, false); };
+  return series.make(job, "frame " + std::to_string(task.frame), {{}, list, made});
 }
 
-std::string summary(const Animating& film, std::size_t made, std::size_t kept) {
+std::string summary(const Animating& film, const Series& series, std::size_t kept) {
+  const std::size_t made = series.made();
   std::string names = film.video ? printable(film.command.video.string()) : "";
   for (const FrameFiles& files : film.files)
     names += (names.empty() ? "" : ", ") + printable(name_for(files.pattern, film.range.first)) + " to " +
              printable(name_for(files.pattern, film.range.last - 1));
   return names + ": " + std::to_string(made) + (made == 1 ? " frame" : " frames") +
-         (kept > 0 ? " rendered, " + std::to_string(kept) + " kept" : "");
+         (kept > 0 ? " rendered, " + std::to_string(kept) + " kept" : "") + ", " + duration(series.seconds());
 }
 
 }  // namespace
@@ -192,13 +189,13 @@ int run_animate(const Request& command) {
   if (kept > 0) complain(std::to_string(kept) + " of " + std::to_string(all) + " frames are there already");
   Series series(command.progress, tasks.size());
   for (const FrameTask& task : tasks) {
-    if (!make_frame(film, task, series, &task == tasks.data())) return output_failed;
+    if (!make_frame(film, task, series)) return output_failed;
     if (series.signal() != 0) {
-      series.finish("interrupted: ", summary(film, series.made(), kept));
+      series.finish("interrupted: " + summary(film, series, kept));
       return 128 + series.signal();
     }
   }
-  series.finish("done: ", summary(film, tasks.size(), kept));
+  series.finish("done: " + summary(film, series, kept));
   return 0;
 }
 

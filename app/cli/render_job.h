@@ -21,6 +21,7 @@ struct RenderJob {
   LoadedScene loaded{};     ///< what the command's scene is; see open_scene_or_samples()
   OwnSamples own{};         ///< where it is a picture
   bool whole_only = false;  ///< of a picture that is unfinished only a film is written, which can be gone on with
+  bool is_there = false;    ///< an earlier run has written all of it
   ThreadCount threads = thread_count(command.threads);
   RenderOptions options{};
   Kernels kernels{};

@@ -160,18 +160,13 @@ bool make_picture(Sweeping& sweep, std::size_t k, Series& series) {
   job.loaded = scene_of(sweep, step);
   job.whole_only = true;
   prepare(job);
-  const std::string name = values_text(step, ", ");
-  if (k == sweep.middle) tell_remarks(job);
   auto kept = kept_film_of(job);
+  job.is_there = job.begin.as_requested || kept;
   if (kept) take_film(job, std::move(*kept));
-  const bool whole = job.begin.as_requested || kept;
-  const RenderResult result = series.render(job, name);
-  if (result.interrupted && totals(result.film).max_taken == 0) return true;
-  const RenderOutcome outcome = outcome_of(job, result, result.interrupted);
-  series.warn(job, outcome, name);
-  const bool written = whole || write(job, outcome);
-  if (!result.interrupted) add_figures(sweep, k, outcome, job.loaded.scene.display);
-  return written;
+  const auto made = [&](const RenderOutcome& outcome, bool) {
+    add_figures(sweep, k, outcome, job.loaded.scene.display);
+  };
+  return series.make(job, values_text(step, ", "), {{}, {}, made});
 }
 
 std::string percent(double part, double error) {
@@ -292,7 +287,7 @@ int run_sweep(const Request& command) {
       return 128 + series.signal();
     }
   }
-  series.finish("done: ", std::to_string(count) + " pictures");
+  series.finish("done: " + std::to_string(count) + " pictures, " + duration(series.seconds()));
   return write_all(sweep) && whole ? 0 : output_failed;
 }
 
