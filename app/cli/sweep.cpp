@@ -4,6 +4,7 @@
 #include "app/files/open_scene.h"
 #include "app/report/contact_sheet.h"
 #include "app/report/film_difference.h"
+#include "app/text/markup.h"
 #include "app/text/name_pattern.h"
 #include "app/text/standard_streams.h"
 #include "core/accuracy/error.h"
@@ -176,12 +177,6 @@ std::string percent(double part, double error) {
 }
 
 std::string csv_text(const Sweeping& sweep) {
-  const auto quoted = [](const std::string& text) {
-    if (text.find_first_of(",\"\n") == text.npos) return text;
-    std::string out = "\"";
-    for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-    return out + "\"";
-  };
   std::string text = sweep.command.axes.size() > 1 ? "value,value_2" : "value";
   text += ",mean,mean_error,relative_error,change,change_error,difference,difference_error,spp,seconds,image_hash\n";
   const double mean = sweep.figures[sweep.middle].mean.mean;
@@ -191,7 +186,7 @@ std::string csv_text(const Sweeping& sweep) {
   };
   for (std::size_t k = 0; k < sweep.steps.size(); ++k) {
     const SweepFigures& f = sweep.figures[k];
-    for (const std::string& value : sweep.steps[k].values) text += quoted(value) + ",";
+    for (const std::string& value : sweep.steps[k].values) text += in_csv(value) + ",";
     text += fmt::format("{:.8g},{:.4g},{:.4g},{},{},{:.8g},{:.4g},{},{:.4g},{}\n", f.mean.mean, f.mean.error,
                         f.relative_error, part(f.difference.mean, 8), part(f.difference.mean_error, 4),
                         f.difference.rms, f.difference.rms_error, f.spp, f.seconds, hash_text(f.hash));

@@ -4,6 +4,7 @@
 #include "app/files/memory.h"
 #include "app/files/open_scene.h"
 #include "app/files/outputs.h"
+#include "app/text/markup.h"
 #include "app/window/window.h"
 #include "core/base/environment.h"
 #include "core/base/error.h"
@@ -32,11 +33,8 @@ constexpr const char* input_name = "standard input";
 std::string shell_argument(const std::string& argument) {
   constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";
   if (!argument.empty() && argument.find_first_not_of(plain) == std::string::npos) return argument;
-  std::string quoted = "'";
-  if (all_printable(argument) == argument) {
-    for (const char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return quoted + "'";
-  }
+  if (all_printable(argument) == argument) return in_shell(argument);
+  std::string quoted;
   for (const char c : argument) {  // what a line cannot show, bash reads from numbers: $'two\x0alines'
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x20 || byte >= 0x7f || c == '\'' || c == '\\')
@@ -44,7 +42,7 @@ std::string shell_argument(const std::string& argument) {
     else
       quoted += c;
   }
-  return "$" + quoted + "'";
+  return "$'" + quoted + "'";
 }
 
 /// The render command that makes the picture which the window would show.
