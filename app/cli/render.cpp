@@ -33,7 +33,7 @@ std::string summary(const RenderOutcome& outcome, const std::vector<std::filesys
          clean + losses(outcome.picture.totals);
 }
 
-int print_replay(const Request& command) {
+int print_replay(const CommandRequest& command) {
   OwnSamples own;
   const LoadedScene loaded = open_frame(command, own);
   const SampleKey& key = *command.replay;
@@ -49,7 +49,7 @@ int print_replay(const Request& command) {
 
 }  // namespace
 
-int run_render(const Request& command) {
+int run_render(const CommandRequest& command) {
   if (command.replay) return print_replay(command);
   check_names(command);
   RenderJob job{command};

@@ -39,7 +39,7 @@ struct SweepFigures {
 };
 
 struct Sweeping {
-  const Request& command;
+  const CommandRequest& command;
   LoadedScene base;
   std::vector<SweepStep> steps{};
   std::size_t middle = 0;  ///< its picture is what the others are compared with
@@ -50,7 +50,7 @@ struct Sweeping {
 
 std::string values_text(const SweepStep& step, const std::string& between) { return joined(step.values, between); }
 
-std::vector<SweepStep> steps_of(const Request& command) {
+std::vector<SweepStep> steps_of(const CommandRequest& command) {
   const std::vector<std::string> once{""};
   const auto& first = command.axes[0].values;
   const auto& second = command.axes.size() > 1 ? command.axes[1].values : once;
@@ -82,14 +82,14 @@ LoadedScene scene_of(const Sweeping& sweep, const SweepStep& step) {
                       sweep.base.name + ": step " + number + " (" + settings + ")");
 }
 
-Request command_of(const Sweeping& sweep, const SweepStep& step) {
-  Request command = sweep.command;
+CommandRequest command_of(const Sweeping& sweep, const SweepStep& step) {
+  CommandRequest command = sweep.command;
   command.outputs = step.outputs;
   command.time_limit = std::min(command.time_limit, sweep.command.total_time);
   return command;
 }
 
-void check_axes(const Request& command) {
+void check_axes(const CommandRequest& command) {
   for (const SweepAxis& axis : command.axes) {
     const auto steps = pointer_steps(axis.pointer);
     if (steps && steps->front() == "image")
@@ -117,7 +117,7 @@ void check_steps(Sweeping& sweep) {
   check_outputs(outputs, sweep.base.files);
   check_can_write(std::vector<Output>(outputs.begin(), outputs.begin() + 2));
   for (const SweepStep& step : sweep.steps) {
-    const Request command = command_of(sweep, step);
+    const CommandRequest command = command_of(sweep, step);
     check_names(command);
     RenderJob job{command};
     job.kernels = kernels_to_render(command.isa);
@@ -155,7 +155,7 @@ void add_figures(Sweeping& sweep, std::size_t k, const RenderOutcome& outcome, c
 /// Renders a picture and takes what is needed of it; false if something could not be written.
 bool make_picture(Sweeping& sweep, std::size_t k, Series& series) {
   const SweepStep& step = sweep.steps[k];
-  Request command = command_of(sweep, step);
+  CommandRequest command = command_of(sweep, step);
   command.time_limit = time_limit(sweep, series);
   RenderJob job{command};
   job.loaded = scene_of(sweep, step);
@@ -239,7 +239,7 @@ void write_sheet(const Sweeping& sweep) {
 /// Writes the sheet and the table; false if something could not be written, which is told.
 bool write_all(const Sweeping& sweep) {
   bool whole = true;
-  const Request& command = sweep.command;
+  const CommandRequest& command = sweep.command;
   if (!command.sheet.empty()) whole = written_or_told([&] { write_sheet(sweep); });
   if (command.csv == "-")
     whole = written_or_told([&] { write_standard_output(csv_text(sweep)); }) && whole;
@@ -256,7 +256,7 @@ void check_sheet_name(const std::filesystem::path& sheet) {
 
 }  // namespace
 
-int run_sweep(const Request& command) {
+int run_sweep(const CommandRequest& command) {
   check_axes(command);
   check_sheet_name(command.sheet);
   Sweeping sweep{command, open_scene(command.scene)};
