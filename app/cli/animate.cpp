@@ -31,7 +31,7 @@ struct FrameTask {
 
 /// A film while its frames are rendered.
 struct Animating {
-  const Request& command;
+  const CommandRequest& command;
   LoadedScene base;
   FramePlan plan{};
   FrameRange range{};
@@ -39,7 +39,7 @@ struct Animating {
   std::optional<Y4mFile> video{};
 };
 
-FramePlan plan_of(const Request& command, const LoadedScene& base) {
+FramePlan plan_of(const CommandRequest& command, const LoadedScene& base) {
   const std::optional<Animation>& animation = base.scene.animation;
   if (!command.frames && !animation)
     throw UsageError("--frames: found no number, and no \"animation\" in " + printable(base.name) +
@@ -49,7 +49,7 @@ FramePlan plan_of(const Request& command, const LoadedScene& base) {
   return {command.frames ? *command.frames : animation->frames, command.turntable, command.seed_per_frame};
 }
 
-FrameRange range_of(const Request& command, const FramePlan& plan) {
+FrameRange range_of(const CommandRequest& command, const FramePlan& plan) {
   if (!command.range) return {0, plan.frames};
   if (command.range->last > plan.frames)
     throw UsageError("--frame-range: found frames up to " + std::to_string(command.range->last) +
@@ -57,7 +57,7 @@ FrameRange range_of(const Request& command, const FramePlan& plan) {
   return *command.range;
 }
 
-std::vector<FrameFiles> files_of(const Request& command) {
+std::vector<FrameFiles> files_of(const CommandRequest& command) {
   std::vector<FrameFiles> all;
   for (const std::filesystem::path& name : command.outputs) {
     FrameFiles files{read_numbered_name(name.string())};
@@ -70,15 +70,15 @@ std::vector<FrameFiles> files_of(const Request& command) {
 }
 
 /// The command that renders a frame into these files.
-Request command_of(const Request& command, int frame, std::vector<std::filesystem::path> outputs) {
-  Request made = command;
+CommandRequest command_of(const CommandRequest& command, int frame, std::vector<std::filesystem::path> outputs) {
+  CommandRequest made = command;
   made.outputs = std::move(outputs);
   if (!made.stats.empty()) made.stats = name_for(read_numbered_name(made.stats.string()), frame);
   return made;
 }
 
 /// A job whose picture can be compared with what is there already.
-RenderJob job_of(const Animating& film, const Request& command, int frame) {
+RenderJob job_of(const Animating& film, const CommandRequest& command, int frame) {
   RenderJob job{command};
   job.kernels = kernels_to_render(command.isa);
   job.loaded = at_frame(film.base, film.plan, frame);
@@ -91,7 +91,7 @@ RenderJob job_of(const Animating& film, const Request& command, int frame) {
 FrameTask task_of(const Animating& film, int frame) {
   std::vector<std::filesystem::path> names;
   for (const FrameFiles& files : film.files) names.emplace_back(name_for(files.pattern, frame));
-  const Request command = command_of(film.command, frame, names);
+  const CommandRequest command = command_of(film.command, frame, names);
   check_outputs(outputs_of("--output", names), film.base.files);
   const RenderJob job = job_of(film, command, frame);
   FrameTask task{frame, {}, {}};
@@ -110,7 +110,7 @@ FrameTask task_of(const Animating& film, int frame) {
 
 /// What the video is of.
 std::string video_mark(const Animating& film) {
-  const Request command = command_of(film.command, 0, {});
+  const CommandRequest command = command_of(film.command, 0, {});
   RenderJob job = job_of(film, command, film.range.first);
   job.loaded.scene.animation = film.base.scene.animation;  // each frame follows from the first and from the keys
   return mark_of(picture_mark(job) + " " + std::to_string(film.range.first) + " of " +
@@ -119,7 +119,7 @@ std::string video_mark(const Animating& film) {
 }
 
 void open_video(Animating& film) {
-  const Request& command = film.command;
+  const CommandRequest& command = film.command;
   if (command.video.empty()) return;
   check_outputs({{"--output", command.video}}, film.base.files);
   const Region region = command.region.value_or(Region{0, 0, film.base.scene.width, film.base.scene.height});
@@ -143,39 +143,36 @@ void list_frame(Animating& film, const RenderJob& job, int frame, bool whole) {
 }
 
 /// Renders a frame and writes it; false if something could not be written.
-bool make_frame(Animating& film, const FrameTask& task, Series& series, bool first) {
-  const Request command = command_of(film.command, task.frame, task.outputs);
+bool make_frame(Animating& film, const FrameTask& task, Series& series) {
+  const CommandRequest command = command_of(film.command, task.frame, task.outputs);
   RenderJob job = job_of(film, command, task.frame);
   prepare(job);
-  if (first) tell_remarks(job);
   if (!task.film.empty()) take_film(job, read_film_alone(task.film));
-  const RenderResult result = series.render(job, "frame " + std::to_string(task.frame));
-  const RenderOutcome outcome = outcome_of(job, result, result.interrupted);
-  if (outcome.picture.totals.max_taken == 0) return true;
-  series.warn(job, outcome, "frame " + std::to_string(task.frame));
-  if (!result.interrupted) list_frame(film, job, task.frame, false);
-  if (!write(job, outcome)) return false;
-  if (result.interrupted) return true;
-  list_frame(film, job, task.frame, true);
-  if (film.video && task.frame >= film.range.first + film.video->frames())
-    film.video->add(result.clean ? LinearImage{result.clean->width, result.clean->height, result.clean->rgb}
-                                 : outcome.picture.image,
-                    job.loaded.scene.display);
-  return true;
+  const auto made = [&](const RenderOutcome& outcome, bool written) {
+    if (!written) return;
+    list_frame(film, job, task.frame, true);
+    const auto& clean = outcome.result.clean;
+    if (film.video && task.frame >= film.range.first + film.video->frames())
+      film.video->add(clean ? LinearImage{clean->width, clean->height, clean->rgb} : outcome.picture.image,
+                      job.loaded.scene.display);
+  };
+  const auto list = [&] { list_frame(film, job, task.frame, false); };
+  return series.make(job, "frame " + std::to_string(task.frame), {{}, list, made});
 }
 
-std::string summary(const Animating& film, std::size_t made, std::size_t kept) {
+std::string summary(const Animating& film, const Series& series, std::size_t kept) {
+  const std::size_t made = series.made();
   std::string names = film.video ? printable(film.command.video.string()) : "";
   for (const FrameFiles& files : film.files)
     names += (names.empty() ? "" : ", ") + printable(name_for(files.pattern, film.range.first)) + " to " +
              printable(name_for(files.pattern, film.range.last - 1));
   return names + ": " + std::to_string(made) + (made == 1 ? " frame" : " frames") +
-         (kept > 0 ? " rendered, " + std::to_string(kept) + " kept" : "");
+         (kept > 0 ? " rendered, " + std::to_string(kept) + " kept" : "") + ", " + duration(series.seconds());
 }
 
 }  // namespace
 
-int run_animate(const Request& command) {
+int run_animate(const CommandRequest& command) {
   check_names(command_of(command, 0, {}));
   Animating film{command, open_scene(command.scene)};
   film.plan = plan_of(command, film.base);
@@ -192,13 +189,13 @@ int run_animate(const Request& command) {
   if (kept > 0) complain(std::to_string(kept) + " of " + std::to_string(all) + " frames are there already");
   Series series(command.progress, tasks.size());
   for (const FrameTask& task : tasks) {
-    if (!make_frame(film, task, series, &task == tasks.data())) return output_failed;
+    if (!make_frame(film, task, series)) return output_failed;
     if (series.signal() != 0) {
-      series.finish("interrupted: ", summary(film, series.made(), kept));
+      series.finish("interrupted: " + summary(film, series, kept));
       return 128 + series.signal();
     }
   }
-  series.finish("done: ", summary(film, tasks.size(), kept));
+  series.finish("done: " + summary(film, series, kept));
   return 0;
 }
 

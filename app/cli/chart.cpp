@@ -35,7 +35,7 @@ void make_small(Scene& scene) {
 }
 
 /// Settings of --method: the scene's own, and what its flags change.
-ChartMethod method_of(const Request& request, const Scene& scene) {
+ChartMethod method_of(const CommandRequest& request, const Scene& scene) {
   ChartMethod method{request.command, scene.render, request.isa};
   find_kernels(request.isa);
   apply(request.scene.render, method.settings);
@@ -44,7 +44,7 @@ ChartMethod method_of(const Request& request, const Scene& scene) {
 
 class ChartJob {
  public:
-  ChartJob(const Request& command, const SignalWatch& signals)
+  ChartJob(const CommandRequest& command, const SignalWatch& signals)
       : command_(command), signals_(signals), report_(command.progress) {}
 
   /// svg: the file that the chart is to be written to.
@@ -57,7 +57,7 @@ class ChartJob {
     Scene& scene = loaded.scene;
     if (!request.size) make_small(scene);
     std::vector<ChartMethod> methods;
-    for (const Request& m : command_.methods) methods.push_back(method_of(m, scene));
+    for (const CommandRequest& m : command_.methods) methods.push_back(method_of(m, scene));
     if (methods.empty()) methods = default_methods(scene);
     const double budget = command_.budget;
     Chart chart;
@@ -107,7 +107,7 @@ class ChartJob {
   }
 
   using Clock = std::chrono::steady_clock;
-  const Request& command_;
+  const CommandRequest& command_;
   const SignalWatch& signals_;
   ProgressReport report_;
   Clock::time_point start_ = Clock::now();
@@ -119,7 +119,7 @@ bool write(const Chart& chart, const std::filesystem::path& svg, const std::stri
   return written_or_told([&] { write_standard_output(table); }) && saved;
 }
 
-int chart_all(const Request& command, const SignalWatch& signals) {
+int chart_all(const CommandRequest& command, const SignalWatch& signals) {
   const auto file_of = [&command](const char* name) { return command.output / (std::string(name) + ".svg"); };
   for (const char* name : gallery) check_can_write(file_of(name)), check_can_write(csv_beside(file_of(name)));
   bool whole = true;
@@ -140,7 +140,7 @@ int chart_all(const Request& command, const SignalWatch& signals) {
 
 }  // namespace
 
-int run_chart(const Request& command) {
+int run_chart(const CommandRequest& command) {
   const SignalWatch signals;
   if (command.scene.what == "all") return chart_all(command, signals);
   check_can_write(command.output);

@@ -14,14 +14,14 @@ namespace {
 
 using Text = const std::string&;
 
-std::string see_help(const Request& request) { return " (see tyndall " + request.command + " --help)"; }
+std::string see_help(const CommandRequest& request) { return " (see tyndall " + request.command + " --help)"; }
 
-void require(const Request& request, bool given, const char* what) {
+void require(const CommandRequest& request, bool given, const char* what) {
   if (!given) throw UsageError(what + std::string(" is missing") + see_help(request));
 }
 
 /// A program may have further source files; nothing else takes more words than one.
-void take_scene(Request& request, std::size_t at = 0) {
+void take_scene(CommandRequest& request, std::size_t at = 0) {
   if (request.operands.size() <= at) return;
   request.scene.what = request.operands[at];
   request.scene.program.allowed = true;
@@ -33,23 +33,23 @@ void take_scene(Request& request, std::size_t at = 0) {
   }
 }
 
-void finish_view(Request& request) {
+void finish_view(CommandRequest& request) {
   take_scene(request);
   require(request, !request.scene.what.empty(), "SCENE");
 }
 
-void finish_inspect(Request& request) {
+void finish_inspect(CommandRequest& request) {
   finish_view(request);
   if (!request.isa.empty() && !request.measure) throw UsageError("--isa can only be given with --measure");
 }
 
-void finish_render(Request& request) {
+void finish_render(CommandRequest& request) {
   finish_view(request);
   require(request, request.replay || !request.outputs.empty(), "an output (-o FILE)");
   refuse_conflicts(request);
 }
 
-void finish_sweep(Request& request) {
+void finish_sweep(CommandRequest& request) {
   finish_view(request);
   require(request, !request.axes.empty(), "a value to vary (--vary POINTER=FROM:TO:STEPS)");
   if (request.axes.size() > 2)
@@ -69,7 +69,7 @@ void check_numbered(const char* option, Text name) {
 }
 
 /// Takes the video out of the outputs, and checks the names of the others.
-void finish_animate(Request& request) {
+void finish_animate(CommandRequest& request) {
   finish_view(request);
   require(request, !request.outputs.empty(), "an output (-o 'f/%04d.png')");
   std::vector<std::filesystem::path> pictures;
@@ -89,7 +89,7 @@ void finish_animate(Request& request) {
 
 /// Puts the images where they belong. Throws UsageError for too few or too many, and for options that do not go
 /// together.
-void finish_compare(Request& request) {
+void finish_compare(CommandRequest& request) {
   const std::vector<std::string>& images = request.operands;
   request.baseline.ppm = request.form.ppm;
   require(request, !images.empty(), "IMAGE");
@@ -110,25 +110,25 @@ void finish_compare(Request& request) {
   request.reference = images[1];
 }
 
-void finish_chart(Request& request) {
+void finish_chart(CommandRequest& request) {
   finish_view(request);
   require(request, !request.output.empty(), "an output (-o FILE.svg)");
   if (request.scene.what != "all") read_file_name(request.output.string(), ".svg");
 }
 
-void finish_nothing(Request&) {}
+void finish_nothing(CommandRequest&) {}
 
-void finish_merge(Request& request) {
+void finish_merge(CommandRequest& request) {
   require(request, !request.operands.empty(), "PART");
   require(request, !request.outputs.empty(), "an output (-o FILE)");
 }
 
-void finish_denoise(Request& request) {
+void finish_denoise(CommandRequest& request) {
   require(request, !request.image.empty(), "FILM.exr");
   require(request, !request.outputs.empty(), "an output (-o FILE)");
 }
 
-void finish_convert(Request& request) {
+void finish_convert(CommandRequest& request) {
   finish_view(request);
   require(request, !request.output.empty(), "an output (-o FILE)");
 }

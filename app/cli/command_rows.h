@@ -20,8 +20,8 @@ struct CommandRow {
   const char* about;     ///< before the options in the help
   const char* examples;  ///< and after them
   std::vector<OptionGroup> groups;
-  void (*finish)(Request&);  ///< looks at the options as a whole; throws UsageError
-  int (*run)(const Request&);
+  void (*finish)(CommandRequest&);  ///< looks at the options as a whole; throws UsageError
+  int (*run)(const CommandRequest&);
 };
 
 const std::vector<CommandRow>& command_rows();

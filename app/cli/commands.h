@@ -12,17 +12,17 @@ inline constexpr int output_failed = 3;
 /// Runs the command that was read, or prints the text.
 int run(const Command& command);
 
-int run_view(const Request& request);
-int run_render(const Request& request);
-int run_sweep(const Request& request);
-int run_animate(const Request& request);
-int run_compare(const Request& request);
-int run_chart(const Request& request);
-int run_verify(const Request& request);
-int run_merge(const Request& request);
-int run_denoise(const Request& request);
-int run_inspect(const Request& request);
-int run_scenes(const Request& request);
-int run_convert(const Request& request);
+int run_view(const CommandRequest& request);
+int run_render(const CommandRequest& request);
+int run_sweep(const CommandRequest& request);
+int run_animate(const CommandRequest& request);
+int run_compare(const CommandRequest& request);
+int run_chart(const CommandRequest& request);
+int run_verify(const CommandRequest& request);
+int run_merge(const CommandRequest& request);
+int run_denoise(const CommandRequest& request);
+int run_inspect(const CommandRequest& request);
+int run_scenes(const CommandRequest& request);
+int run_convert(const CommandRequest& request);
 
 }  // namespace tyndall

@@ -18,14 +18,14 @@ namespace tyndall {
 namespace {
 
 /// If both are EXR files with films: scores that tell whether they differ by more than their noise; else no blocks.
-BlockScores compare_films(const Request& command) {
+BlockScores compare_films(const CommandRequest& command) {
   if (!is_exr(command.image) || !is_exr(command.reference)) return {};
   const auto image = read_film(command.image), reference = read_film(command.reference);
   return image && reference ? block_scores(*image, *reference) : BlockScores{};
 }
 
 /// The picture against a scene; nothing if the reference is a picture.
-std::optional<Check> check_against_scene(const Request& command) {
+std::optional<Check> check_against_scene(const CommandRequest& command) {
   if (!names_scene(command.reference.string())) {
     const bool of_scene = command.seconds || !command.scene.overrides.empty() ||
                           !command.scene.program.include_folders.empty() || !command.scene.program.more_files.empty();
@@ -113,7 +113,7 @@ std::string table(const Comparison& c, const BlockScores& blocks) {
 }
 
 /// A line for each picture, and the reports. Returns the exit code.
-int compare_with_baseline(const Request& command) {
+int compare_with_baseline(const CommandRequest& command) {
   std::vector<std::filesystem::path> inputs;
   for (const auto& image : command.baseline.images) inputs.push_back(picture_name(image).file);
   check_outputs({{"--report", command.report}, {"--junit", command.junit}}, inputs);
@@ -155,7 +155,7 @@ int compare_with_baseline(const Request& command) {
 
 }  // namespace
 
-int run_compare(const Request& command) {
+int run_compare(const CommandRequest& command) {
   if (!command.baseline.folder.empty()) return compare_with_baseline(command);
   check_outputs({{"--heatmap", command.heatmap}},
                 {picture_name(command.image).file, picture_name(command.reference).file});

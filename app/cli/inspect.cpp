@@ -31,7 +31,7 @@ struct Report {
   MethodGain specular_gain, splitting_gain, reuse_gain;
 };
 
-Report examine(const Request& command) {
+Report examine(const CommandRequest& command) {
   Report report{open_scene(command.scene), {}, {}, "", {}, 0, {}, {}, {}, {}};
   const Scene& scene = report.loaded.scene;
   report.contents = contents_of(scene);
@@ -278,7 +278,7 @@ std::string table(const Report& report) {
 
 }  // namespace
 
-int run_inspect(const Request& command) {
+int run_inspect(const CommandRequest& command) {
   const Report report = examine(command);
   write_standard_output(command.json ? json_text(report) : table(report));
   return report.gain && !report.gain->same_picture ? 1 : 0;

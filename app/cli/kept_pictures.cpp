@@ -37,7 +37,7 @@ StoredFilm described_film(const std::filesystem::path& file, const JsonValue& st
 
 /// How a finished picture differs from the one that the job makes, as "found X, expected Y" without "found".
 std::string differing_picture(const StoredFilm& stored, const JsonValue& stats, const RenderJob& job, bool shown) {
-  const Request& command = job.command;
+  const CommandRequest& command = job.command;
   const std::uint32_t found = static_cast<std::uint32_t>(stored.scene.render.spp.value_or(0)),
                       wanted = *job.options.spp;
   const bool counted = wanted < max_samples && command.target_error == 0 && !(command.time_limit < 1e300);
@@ -100,7 +100,7 @@ PictureState look_at_list(const std::filesystem::path& file, const FrameList& li
 std::string mark_of(const std::string& text) { return hash_text(fnv1a(text)); }
 
 std::string picture_mark(const RenderJob& job) {
-  const Request& c = job.command;
+  const CommandRequest& c = job.command;
   Scene scene = move_textures(job.loaded.scene, job.loaded.folder, ".");
   scene.name.clear();
   scene.render.spp.reset();

@@ -70,7 +70,7 @@ MemoryPlan memory_plan(const FilmPart& part, const Scene& scene, const std::vect
 
 }  // namespace
 
-int run_merge(const Request& command) {
+int run_merge(const CommandRequest& command) {
   const std::vector<std::filesystem::path> files(command.operands.begin(), command.operands.end());
   check_image_names(command.outputs, command.form);
   check_outputs(outputs_of("--output", command.outputs), files);
@@ -90,7 +90,7 @@ int run_merge(const Request& command) {
   return write(film, parts.scene, parts.label, command.outputs, command.form, clean);
 }
 
-int run_denoise(const Request& command) {
+int run_denoise(const CommandRequest& command) {
   check_image_names(command.outputs, command.form, command.stats);
   find_kernels(command.isa);
   std::vector<Output> outputs = outputs_of("--output", command.outputs);

@@ -12,7 +12,7 @@ namespace tyndall {
 
 /// What an option does with its text. Throws UsageError `found "X", expected Y`, before which the option's name is put.
 struct Taker {
-  std::function<void(Request&, const std::string&)> take;
+  std::function<void(CommandRequest&, const std::string&)> take;
   Takes takes = Takes::once;
   std::vector<std::string> choices{};  ///< the values that it takes, where they have names
 };
@@ -29,9 +29,9 @@ struct OptionRow {
 const OptionRow& option_row(std::string_view name, std::string_view command);
 
 /// The curve of a chart that --method describes, NAME=FLAGS; its command is the name.
-Request read_method(const std::string& text);
+CommandRequest read_method(const std::string& text);
 
 /// Refuses options of a render that exclude each other.
-void refuse_conflicts(const Request& request);
+void refuse_conflicts(const CommandRequest& request);
 
 }  // namespace tyndall

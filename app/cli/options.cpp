@@ -16,7 +16,7 @@ namespace {
 using Text = const std::string&;
 using Arguments = const std::vector<std::string>&;
 
-void add_group(CLI::App& app, const OptionGroup& group, Request& request) {
+void add_group(CLI::App& app, const OptionGroup& group, CommandRequest& request) {
   app.option_defaults()->group(group.heading);
   std::istringstream names(group.options);
   for (std::string name; names >> name;) {
@@ -34,7 +34,7 @@ void add_group(CLI::App& app, const OptionGroup& group, Request& request) {
 }
 
 Command read(const CommandRow& row, Arguments arguments) {
-  Request request;
+  CommandRequest request;
   request.command = row.name;
   request.arguments = arguments;
   if (request.command != "view") request.scene.what.clear();
@@ -94,11 +94,11 @@ Command read_help(Arguments arguments) {
 }  // namespace
 
 /// NAME=FLAGS, e.g. "no MIS=--integrator nee --isa avx2".
-Request read_method(const std::string& text) {
+CommandRequest read_method(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals == std::string::npos)
     throw UsageError("found \"" + text + "\", expected NAME=FLAGS, e.g. 'no MIS=--integrator nee'");
-  Request method;
+  CommandRequest method;
   method.command = text.substr(0, equals);
   std::istringstream stream(text.substr(equals + 1));
   std::vector<std::string> arguments;
@@ -132,7 +132,7 @@ int run(const Command& command) {
     write_standard_output(print->text);
     return 0;
   }
-  const auto& request = std::get<Request>(command);
+  const auto& request = std::get<CommandRequest>(command);
   for (const CommandRow& row : command_rows())
     if (request.command == row.name) return row.run(request);
   return 0;

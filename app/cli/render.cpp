@@ -1,5 +1,5 @@
 #include "app/cli/commands.h"
-#include "app/cli/render_job.h"
+#include "app/cli/series.h"
 #include "app/files/open_scene.h"
 #include "app/report/replay.h"
 #include "app/text/standard_streams.h"
@@ -33,7 +33,7 @@ std::string summary(const RenderOutcome& outcome, const std::vector<std::filesys
          clean + losses(outcome.picture.totals);
 }
 
-int print_replay(const Request& command) {
+int print_replay(const CommandRequest& command) {
   OwnSamples own;
   const LoadedScene loaded = open_frame(command, own);
   const SampleKey& key = *command.replay;
@@ -49,7 +49,7 @@ int print_replay(const Request& command) {
 
 }  // namespace
 
-int run_render(const Request& command) {
+int run_render(const CommandRequest& command) {
   if (command.replay) return print_replay(command);
   check_names(command);
   RenderJob job{command};
@@ -57,21 +57,13 @@ int run_render(const Request& command) {
   prepare(job);
   if (!job.begin.note.empty()) complain(job.begin.note);
   if (job.begin.as_requested) return 0;
-  tell_remarks(job);
-  const SignalWatch signals;
-  ProgressReport report(command.progress, goal_of(job));
-  const RenderResult result = render(job, signals, report, [&report](const RenderProgress& now) { report.show(now); });
-  const RenderOutcome outcome = outcome_of(job, result, result.interrupted);
-  report.finish(summary(outcome, command.outputs));
-  const int code = result.interrupted ? 128 + signals.received() : 0;
-  if (outcome.picture.totals.max_taken == 0) {
-    complain("interrupted before the first samples: nothing written");
-    return code;
-  }
-  for (const std::string& text : warnings(job, outcome)) complain(text);
-  const bool written = write(job, outcome);
-  show_last(job, outcome);
-  return written ? code : output_failed;
+  Series series(command.progress, 1);
+  const auto rendered = [&](const RenderOutcome& outcome) {
+    series.finish(summary(outcome, command.outputs));
+    if (outcome.picture.totals.max_taken == 0) complain("interrupted before the first samples: nothing written");
+  };
+  const bool written = series.make(job, "", {rendered, {}, {}});
+  return written ? series.made() == 1 ? 0 : 128 + series.signal() : output_failed;
 }
 
 }  // namespace tyndall

@@ -23,7 +23,7 @@ namespace tyndall {
 namespace {
 
 /// Tells the user if an option asks for what the integrator does not do.
-void tell_ignored(const Request& command, const RenderSettings& settings) {
+void tell_ignored(const CommandRequest& command, const RenderSettings& settings) {
   if (settings.integrator == Integrator::mis) return;
   const auto& given = command.scene.render.given;
   const auto ignored = [&](const std::string& option, const char* what) {
@@ -34,7 +34,7 @@ void tell_ignored(const Request& command, const RenderSettings& settings) {
   if (given.contains("sharing") && settings.sharing) ignored("--sharing on", "sharing is a");
 }
 
-MemoryPlan memory_plan(const Request& command, const LoadedScene& loaded, const Region& region) {
+MemoryPlan memory_plan(const CommandRequest& command, const LoadedScene& loaded, const Region& region) {
   // Without the option only renders of more than half a minute copy their film, and only if there is memory for it.
   const bool copies = command.checkpoint > 0;
   return {.width = region.width(),
@@ -122,7 +122,7 @@ RenderOutcome outcome_of(const RenderJob& job, const RenderResult& result, bool 
   return {result, finished_picture(*job.prepared, result), unfinished};
 }
 
-void check_names(const Request& command) {
+void check_names(const CommandRequest& command) {
   check_image_names(command.outputs, command.form, command.stats);
   if (is_image_output(command.stats))
     throw UsageError("--stats: found " + in_quotes(command.stats.string()) + ", expected a name that ends in .json");
@@ -130,7 +130,7 @@ void check_names(const Request& command) {
 }
 
 void prepare(RenderJob& job) {
-  const Request& command = job.command;
+  const CommandRequest& command = job.command;
   job.kernels = kernels_to_render(command.isa);
   job.options = render_options(command, job.loaded);
   job.options.threads = job.threads.count;

@@ -16,11 +16,12 @@
 namespace tyndall {
 
 struct RenderJob {
-  const Request& command;
+  const CommandRequest& command;
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   LoadedScene loaded{};     ///< what the command's scene is; see open_scene_or_samples()
   OwnSamples own{};         ///< where it is a picture
   bool whole_only = false;  ///< of a picture that is unfinished only a film is written, which can be gone on with
+  bool is_there = false;    ///< an earlier run has written all of it
   ThreadCount threads = thread_count(command.threads);
   RenderOptions options{};
   Kernels kernels{};
@@ -40,7 +41,7 @@ struct RenderOutcome {
 RenderOutcome outcome_of(const RenderJob& job, const RenderResult& result, bool unfinished);
 
 /// Checks the names of the outputs, before any file is read.
-void check_names(const Request& command);
+void check_names(const CommandRequest& command);
 /// Finds everything else that can be wrong before the first sample, and where the render begins.
 void prepare(RenderJob& job);
 /// Remarks on what the user may not expect of the outputs, settings and textures.

@@ -14,7 +14,7 @@ namespace tyndall {
 namespace {
 
 /// Samples a pixel at which to stop.
-std::uint32_t last_sample_count(const Request& command, const LoadedScene& loaded) {
+std::uint32_t last_sample_count(const CommandRequest& command, const LoadedScene& loaded) {
   if (command.samples) return command.samples->last - command.samples->first;
   if (command.spp) return *command.spp;
   if (std::isfinite(command.time_limit) || command.target_error > 0) return max_samples;
@@ -95,7 +95,7 @@ void spare_unfinished(const std::vector<std::filesystem::path>& outputs, const s
   }
 }
 
-RenderStart start_with(StoredFilm stored, const Request& command, const LoadedScene& loaded,
+RenderStart start_with(StoredFilm stored, const CommandRequest& command, const LoadedScene& loaded,
                        const RenderOptions& options) {
   RenderStart start;
   const std::uint32_t taken = labelled_spp(stored.part.film), requested = *options.spp;
@@ -116,7 +116,7 @@ RenderStart start_with(StoredFilm stored, const Request& command, const LoadedSc
 }
 
 /// The film in `file`, if it is to be gone on with.
-std::optional<StoredFilm> find_film(const std::filesystem::path& file, const Request& command,
+std::optional<StoredFilm> find_film(const std::filesystem::path& file, const CommandRequest& command,
                                     const LoadedScene& loaded, const RenderOptions& options, const Kernels& kernels) {
   std::error_code error;
   const bool exists = std::filesystem::exists(file, error);
@@ -148,7 +148,7 @@ Kernels kernels_to_render(const std::string& isa) {
   return find_kernels(isa);
 }
 
-std::string differing_film(const StoredFilm& stored, const Request& command, const LoadedScene& loaded,
+std::string differing_film(const StoredFilm& stored, const CommandRequest& command, const LoadedScene& loaded,
                            const RenderOptions& options, const Kernels& kernels) {
   const Film& film = stored.part.film;
   const auto other = differing_samples(stored.scene, stored.label, loaded.scene, label_for(loaded.scene, kernels.isa));
@@ -170,7 +170,7 @@ std::string differing_film(const StoredFilm& stored, const Request& command, con
 namespace {
 
 /// Own samples are no function of seed and index, so that nothing can be gone on with or put together.
-void check_own_samples(const Request& command, const std::string& name) {
+void check_own_samples(const CommandRequest& command, const std::string& name) {
   const auto refuse = [&](const char* option) {
     throw UsageError(name + ": " + option +
                      ": found samples of the program's own, expected a scene; they are taken anew each time");
@@ -184,7 +184,7 @@ void check_own_samples(const Request& command, const std::string& name) {
 
 }  // namespace
 
-LoadedScene open_frame(const Request& command, OwnSamples& own) {
+LoadedScene open_frame(const CommandRequest& command, OwnSamples& own) {
   LoadedScene loaded = open_scene_or_samples(command.scene, own);
   if (loaded.is_picture) check_own_samples(command, loaded.name);
   if (!command.frame) return loaded;
@@ -197,7 +197,7 @@ LoadedScene open_frame(const Request& command, OwnSamples& own) {
   return at_frame(std::move(loaded), {.frames = frames, .seed_per_frame = command.seed_per_frame}, *command.frame);
 }
 
-RenderOptions render_options(const Request& command, const LoadedScene& loaded) {
+RenderOptions render_options(const CommandRequest& command, const LoadedScene& loaded) {
   const bool adaptive = loaded.scene.render.adaptive;
   if (adaptive && command.samples) refuse_adaptive("--samples", "it says which samples every pixel takes");
   if (command.region) check_region(*command.region, loaded.scene);
@@ -222,7 +222,7 @@ void tell_alpha(const LoadedScene& loaded) {
   if (!note.empty()) complain(loaded.name + ": " + note);
 }
 
-RenderStart find_start(const Request& command, const LoadedScene& loaded, const RenderOptions& options,
+RenderStart find_start(const CommandRequest& command, const LoadedScene& loaded, const RenderOptions& options,
                        const Kernels& kernels) {
   const FilmPlace place = film_place(command.outputs, command.form);
   if (command.resume && place.output.empty())
@@ -241,7 +241,7 @@ RenderStart find_start(const Request& command, const LoadedScene& loaded, const 
   return start;
 }
 
-std::vector<std::string> remarks_on_outputs(const Request& command, const FilmPlace& film) {
+std::vector<std::string> remarks_on_outputs(const CommandRequest& command, const FilmPlace& film) {
   std::vector<std::string> remarks;
   for (const auto& file : command.outputs) {
     const FilePlace place = check_can_write(file);

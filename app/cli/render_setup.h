@@ -19,11 +19,11 @@ Kernels find_kernels(const std::string& isa);
 Kernels kernels_to_render(const std::string& isa);
 
 /// The scene of a command, with --frame the one of that frame.
-LoadedScene open_frame(const Request& command, OwnSamples& own);
+LoadedScene open_frame(const CommandRequest& command, OwnSamples& own);
 
 /// Limits and region of a render. spp is always set; where only time or error end the render, to max_samples.
 /// Throws UsageError for a region beyond the image and for adaptive sampling of a range.
-RenderOptions render_options(const Request& command, const LoadedScene& loaded);
+RenderOptions render_options(const CommandRequest& command, const LoadedScene& loaded);
 
 /// Where a render begins: anew, or with the film that its .exr output holds already.
 struct RenderStart {
@@ -39,7 +39,7 @@ struct RenderStart {
 /// are asked for, or --resume asks for it. Throws UsageError where --resume finds no film that fits, and for an
 /// unfinished one that does not fit: it says what differs; likewise for unfinished ones in further outputs. Any other
 /// file is replaced in the end.
-RenderStart find_start(const Request& command, const LoadedScene& loaded, const RenderOptions& options,
+RenderStart find_start(const CommandRequest& command, const LoadedScene& loaded, const RenderOptions& options,
                        const Kernels& kernels);
 
 /// One line on standard error if a film that fits does not say which pixels its textures and sky had.
@@ -50,10 +50,10 @@ void tell_alpha(const LoadedScene& loaded);
 
 /// What to tell of outputs that nothing can take the place of, where that costs something: checkpoints go to another
 /// file or nowhere, and where the folder takes no new files, what cannot be written into an output goes far from it.
-std::vector<std::string> remarks_on_outputs(const Request& command, const FilmPlace& film);
+std::vector<std::string> remarks_on_outputs(const CommandRequest& command, const FilmPlace& film);
 
 /// What keeps a render from going on with a film, as "found X, expected Y" without "found"; "": nothing does.
-std::string differing_film(const StoredFilm& stored, const Request& command, const LoadedScene& loaded,
+std::string differing_film(const StoredFilm& stored, const CommandRequest& command, const LoadedScene& loaded,
                            const RenderOptions& options, const Kernels& kernels);
 
 }  // namespace tyndall

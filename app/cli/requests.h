@@ -19,7 +19,7 @@
 namespace tyndall {
 
 /// All that options and arguments can say. Each command reads the part that its options fill.
-struct Request {
+struct CommandRequest {
   std::string command;                 ///< "render"
   std::vector<std::string> arguments;  ///< as the user typed them
   std::vector<std::string> operands;   ///< those of them that are neither options nor a scene
@@ -70,8 +70,9 @@ struct Request {
 
   // Of chart, verify, inspect and convert.
   std::filesystem::path output;  ///< chart: the SVG, for "all" a folder; convert: the scene, "-": standard output
-  std::vector<Request> methods;  ///< curves of a chart, by their command's name: settings and what their flags change
-  double budget = 50;            ///< seconds, the reference included; for "all" of each chart
+  std::vector<CommandRequest>
+      methods;         ///< curves of a chart, by their command's name: settings and what their flags change
+  double budget = 50;  ///< seconds, the reference included; for "all" of each chart
   bool json = false;
   bool thorough = false;  ///< standard errors of 1e-4 instead of 1e-3
   bool measure = false;   ///< measure how much faster the chosen kernel and chains are
@@ -86,7 +87,7 @@ struct PrintCommand {
 /// The command line as a whole: a command's request, or what is to be printed. arguments[0] is what follows the
 /// program's name. Throws UsageError. Of files only the existence is looked at, to tell a misspelt command from a
 /// scene's file.
-using Command = std::variant<Request, PrintCommand>;
+using Command = std::variant<CommandRequest, PrintCommand>;
 Command read_command(const std::vector<std::string>& arguments);
 
 }  // namespace tyndall

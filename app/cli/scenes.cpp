@@ -35,7 +35,7 @@ std::optional<ForeignFile> foreign_file(const Scene& scene, const std::string& n
 
 }  // namespace
 
-int run_scenes(const Request&) {
+int run_scenes(const CommandRequest&) {
   const std::vector<BuiltIn> scenes = built_in_scenes();
   if (scenes.empty()) throw IoError("no built-in scenes were found (TYNDALL_ASSETS names the folder that has scenes/)");
   std::size_t width = 0;
@@ -47,7 +47,7 @@ int run_scenes(const Request&) {
   return 0;
 }
 
-int run_convert(const Request& command) {
+int run_convert(const CommandRequest& command) {
   const LoadedScene loaded = open_scene(command.scene);
   const bool to_standard_output = command.output == "-";
   const std::filesystem::path folder = to_standard_output ? "" : command.output.parent_path();

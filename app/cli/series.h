@@ -4,23 +4,30 @@
 #include "core/system/signals.h"
 
 #include <cstddef>
+#include <functional>
 #include <set>
 #include <string>
 
-/// Pictures that one command renders one after the other.
+/// The pictures that a command renders, one after the other: a render is a list of one.
 namespace tyndall {
 
-/// Renders each, and tells how far all of them are.
+/// What a command does beside rendering and writing a picture. All may be empty.
+struct PictureSteps {
+  std::function<void(const RenderOutcome&)> rendered;  ///< before anything is written, also of what is unfinished
+  std::function<void()> writing;                       ///< before the files of a whole picture are written
+  std::function<void(const RenderOutcome&, bool written)> made;  ///< of a whole picture, at the end
+};
+
+/// Renders and writes each, and tells how far all of them are.
 class Series {
  public:
   /// count: of pictures that are to be rendered.
   Series(ProgressStyle style, std::size_t count) : report_(style), count_(count) {}
 
-  /// name: "frame 12".
-  RenderResult render(RenderJob& job, const std::string& name);
-  /// Tells what users should know of a picture; what holds for several, once.
-  void warn(const RenderJob& job, const RenderOutcome& outcome, const std::string& name);
-  void finish(const std::string& how, const std::string& summary);
+  /// Makes the picture of a job that is prepared. name: "frame 12"; "": it is the only one. False if something could
+  /// not be written.
+  bool make(RenderJob& job, const std::string& name, const PictureSteps& steps);
+  void finish(const std::string& summary) { report_.finish(summary); }
 
   /// The signal that asked for an end; 0: none did.
   int signal() const { return signals_.received(); }
@@ -29,9 +36,12 @@ class Series {
   std::size_t left() const { return count_ - made_; }
 
  private:
+  RenderResult render(RenderJob& job, const std::string& name);
+  void warn(const RenderJob& job, const RenderOutcome& outcome, const std::string& name);
+
   SignalWatch signals_;
   ProgressReport report_;
-  std::size_t count_, made_ = 0;
+  std::size_t count_, begun_ = 0, made_ = 0;
   double seconds_ = 0;
   std::set<std::string> told_;
 };

@@ -4,6 +4,7 @@
 #include "app/files/open_scene.h"
 #include "app/report/contact_sheet.h"
 #include "app/report/film_difference.h"
+#include "app/text/markup.h"
 #include "app/text/name_pattern.h"
 #include "app/text/standard_streams.h"
 #include "core/accuracy/error.h"
@@ -38,7 +39,7 @@ struct SweepFigures {
 };
 
 struct Sweeping {
-  const Request& command;
+  const CommandRequest& command;
   LoadedScene base;
   std::vector<SweepStep> steps{};
   std::size_t middle = 0;  ///< its picture is what the others are compared with
@@ -49,7 +50,7 @@ struct Sweeping {
 
 std::string values_text(const SweepStep& step, const std::string& between) { return joined(step.values, between); }
 
-std::vector<SweepStep> steps_of(const Request& command) {
+std::vector<SweepStep> steps_of(const CommandRequest& command) {
   const std::vector<std::string> once{""};
   const auto& first = command.axes[0].values;
   const auto& second = command.axes.size() > 1 ? command.axes[1].values : once;
@@ -81,14 +82,14 @@ LoadedScene scene_of(const Sweeping& sweep, const SweepStep& step) {
                       sweep.base.name + ": step " + number + " (" + settings + ")");
 }
 
-Request command_of(const Sweeping& sweep, const SweepStep& step) {
-  Request command = sweep.command;
+CommandRequest command_of(const Sweeping& sweep, const SweepStep& step) {
+  CommandRequest command = sweep.command;
   command.outputs = step.outputs;
   command.time_limit = std::min(command.time_limit, sweep.command.total_time);
   return command;
 }
 
-void check_axes(const Request& command) {
+void check_axes(const CommandRequest& command) {
   for (const SweepAxis& axis : command.axes) {
     const auto steps = pointer_steps(axis.pointer);
     if (steps && steps->front() == "image")
@@ -116,7 +117,7 @@ void check_steps(Sweeping& sweep) {
   check_outputs(outputs, sweep.base.files);
   check_can_write(std::vector<Output>(outputs.begin(), outputs.begin() + 2));
   for (const SweepStep& step : sweep.steps) {
-    const Request command = command_of(sweep, step);
+    const CommandRequest command = command_of(sweep, step);
     check_names(command);
     RenderJob job{command};
     job.kernels = kernels_to_render(command.isa);
@@ -154,24 +155,19 @@ void add_figures(Sweeping& sweep, std::size_t k, const RenderOutcome& outcome, c
 /// Renders a picture and takes what is needed of it; false if something could not be written.
 bool make_picture(Sweeping& sweep, std::size_t k, Series& series) {
   const SweepStep& step = sweep.steps[k];
-  Request command = command_of(sweep, step);
+  CommandRequest command = command_of(sweep, step);
   command.time_limit = time_limit(sweep, series);
   RenderJob job{command};
   job.loaded = scene_of(sweep, step);
   job.whole_only = true;
   prepare(job);
-  const std::string name = values_text(step, ", ");
-  if (k == sweep.middle) tell_remarks(job);
   auto kept = kept_film_of(job);
+  job.is_there = job.begin.as_requested || kept;
   if (kept) take_film(job, std::move(*kept));
-  const bool whole = job.begin.as_requested || kept;
-  const RenderResult result = series.render(job, name);
-  if (result.interrupted && totals(result.film).max_taken == 0) return true;
-  const RenderOutcome outcome = outcome_of(job, result, result.interrupted);
-  series.warn(job, outcome, name);
-  const bool written = whole || write(job, outcome);
-  if (!result.interrupted) add_figures(sweep, k, outcome, job.loaded.scene.display);
-  return written;
+  const auto made = [&](const RenderOutcome& outcome, bool) {
+    add_figures(sweep, k, outcome, job.loaded.scene.display);
+  };
+  return series.make(job, values_text(step, ", "), {{}, {}, made});
 }
 
 std::string percent(double part, double error) {
@@ -181,12 +177,6 @@ std::string percent(double part, double error) {
 }
 
 std::string csv_text(const Sweeping& sweep) {
-  const auto quoted = [](const std::string& text) {
-    if (text.find_first_of(",\"\n") == text.npos) return text;
-    std::string out = "\"";
-    for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-    return out + "\"";
-  };
   std::string text = sweep.command.axes.size() > 1 ? "value,value_2" : "value";
   text += ",mean,mean_error,relative_error,change,change_error,difference,difference_error,spp,seconds,image_hash\n";
   const double mean = sweep.figures[sweep.middle].mean.mean;
@@ -196,7 +186,7 @@ std::string csv_text(const Sweeping& sweep) {
   };
   for (std::size_t k = 0; k < sweep.steps.size(); ++k) {
     const SweepFigures& f = sweep.figures[k];
-    for (const std::string& value : sweep.steps[k].values) text += quoted(value) + ",";
+    for (const std::string& value : sweep.steps[k].values) text += in_csv(value) + ",";
     text += fmt::format("{:.8g},{:.4g},{:.4g},{},{},{:.8g},{:.4g},{},{:.4g},{}\n", f.mean.mean, f.mean.error,
                         f.relative_error, part(f.difference.mean, 8), part(f.difference.mean_error, 4),
                         f.difference.rms, f.difference.rms_error, f.spp, f.seconds, hash_text(f.hash));
@@ -249,7 +239,7 @@ void write_sheet(const Sweeping& sweep) {
 /// Writes the sheet and the table; false if something could not be written, which is told.
 bool write_all(const Sweeping& sweep) {
   bool whole = true;
-  const Request& command = sweep.command;
+  const CommandRequest& command = sweep.command;
   if (!command.sheet.empty()) whole = written_or_told([&] { write_sheet(sweep); });
   if (command.csv == "-")
     whole = written_or_told([&] { write_standard_output(csv_text(sweep)); }) && whole;
@@ -266,7 +256,7 @@ void check_sheet_name(const std::filesystem::path& sheet) {
 
 }  // namespace
 
-int run_sweep(const Request& command) {
+int run_sweep(const CommandRequest& command) {
   check_axes(command);
   check_sheet_name(command.sheet);
   Sweeping sweep{command, open_scene(command.scene)};
@@ -292,7 +282,7 @@ int run_sweep(const Request& command) {
       return 128 + series.signal();
     }
   }
-  series.finish("done: ", std::to_string(count) + " pictures");
+  series.finish("done: " + std::to_string(count) + " pictures, " + duration(series.seconds()));
   return write_all(sweep) && whole ? 0 : output_failed;
 }
 

@@ -25,7 +25,7 @@ std::uint32_t seed_of(const std::string& name) {
 }
 
 /// A case's scene with the command's method.
-Scene scene_of(const Request& command, const VerifyCase& what) {
+Scene scene_of(const CommandRequest& command, const VerifyCase& what) {
   SceneRequest request = command.scene;
   request.what = what.scene.string();
   request.overrides = what.overrides;
@@ -43,7 +43,7 @@ bool is_out_of_reach(const VerifyCase& what, const RenderSettings& method) {
 
 class Verification {
  public:
-  Verification(const Request& command, std::vector<VerifyCase> cases)
+  Verification(const CommandRequest& command, std::vector<VerifyCase> cases)
       : command_(command), cases_(std::move(cases)), report_(command.progress) {
     run_.precision = command.thorough ? 1e-4 : 1e-3;
     run_.isa = find_kernels(command.isa).isa;
@@ -82,7 +82,7 @@ class Verification {
     });
   }
 
-  const Request& command_;
+  const CommandRequest& command_;
   std::vector<VerifyCase> cases_;
   ProgressReport report_;
   SignalWatch signals_;
@@ -92,7 +92,7 @@ class Verification {
 
 }  // namespace
 
-int run_verify(const Request& command) {
+int run_verify(const CommandRequest& command) {
   const auto table = assets_folder() / "verify" / "cases.json";
   Verification verification(command, chosen_cases(read_verify_cases(table), command.operands));
   const VerifyRun run = verification.run();

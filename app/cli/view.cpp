@@ -4,6 +4,7 @@
 #include "app/files/memory.h"
 #include "app/files/open_scene.h"
 #include "app/files/outputs.h"
+#include "app/text/markup.h"
 #include "app/window/window.h"
 #include "core/base/environment.h"
 #include "core/base/error.h"
@@ -32,11 +33,8 @@ constexpr const char* input_name = "standard input";
 std::string shell_argument(const std::string& argument) {
   constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";
   if (!argument.empty() && argument.find_first_not_of(plain) == std::string::npos) return argument;
-  std::string quoted = "'";
-  if (all_printable(argument) == argument) {
-    for (const char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return quoted + "'";
-  }
+  if (all_printable(argument) == argument) return in_shell(argument);
+  std::string quoted;
   for (const char c : argument) {  // what a line cannot show, bash reads from numbers: $'two\x0alines'
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x20 || byte >= 0x7f || c == '\'' || c == '\\')
@@ -44,11 +42,11 @@ std::string shell_argument(const std::string& argument) {
     else
       quoted += c;
   }
-  return "$" + quoted + "'";
+  return "$'" + quoted + "'";
 }
 
 /// The render command that makes the picture which the window would show.
-std::string headless_command(const Request& command) {
+std::string headless_command(const CommandRequest& command) {
   std::string text = "tyndall render";
   if (std::find(command.arguments.begin(), command.arguments.end(), command.scene.what) == command.arguments.end())
     text += " " + shell_argument(command.scene.what);
@@ -94,13 +92,13 @@ int open_window(const std::string& instead, [[maybe_unused]] const Options& opti
 #endif
 }
 
-void check_files(const Request& command, std::vector<std::filesystem::path> inputs) {
+void check_files(const CommandRequest& command, std::vector<std::filesystem::path> inputs) {
   if (!command.reference.empty()) inputs.push_back(picture_name(command.reference).file);
   check_outputs({{"--ui-log", command.ui_log}}, inputs);
 }
 
 /// Options that change a scene, or how one is rendered, say nothing of a picture.
-void refuse_scene_options(const Request& command) {
+void refuse_scene_options(const CommandRequest& command) {
   const SceneRequest& request = command.scene;
   const bool limited = std::isfinite(command.time_limit) || command.target_error > 0;
   if (request.overrides.empty() && !request.size && request.render.given.empty() && !limited) return;
@@ -110,7 +108,7 @@ void refuse_scene_options(const Request& command) {
 }
 
 /// A scene of the picture's size that has nothing else, to be shown in its place.
-LoadedScene scene_of(const ArrivingPicture& picture, const Request& command) {
+LoadedScene scene_of(const ArrivingPicture& picture, const CommandRequest& command) {
   LoadedScene loaded;
   loaded.name = input_name;
   loaded.folder = ".";
@@ -122,7 +120,7 @@ LoadedScene scene_of(const ArrivingPicture& picture, const Request& command) {
 }
 
 /// Shows what a program writes to standard input, as it comes. begin: the bytes with which it begins.
-int view_picture(const Request& command, const std::string& begin) {
+int view_picture(const CommandRequest& command, const std::string& begin) {
   refuse_scene_options(command);
   check_files(command, {});
   const auto picture = std::make_shared<ArrivingPicture>(standard_input, begin, input_name, command.form.ppm);
@@ -140,7 +138,7 @@ int view_picture(const Request& command, const std::string& begin) {
   });
 }
 
-int view_scene(const Request& command) {
+int view_scene(const CommandRequest& command) {
   if (command.form.ppm == PpmCurve::gamma2)
     throw UsageError(
         "--gamma2: found a scene, expected a picture (P3 or P6) on standard input: only these are read so");
@@ -180,7 +178,7 @@ int view_scene(const Request& command) {
 
 }  // namespace
 
-int run_view(const Request& command) {
+int run_view(const CommandRequest& command) {
   if (command.scene.what != "-") return view_scene(command);
   const Beginning begin = beginning_of(standard_input);
   if (begin.bytes.empty())

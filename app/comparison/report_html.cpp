@@ -43,13 +43,6 @@ std::string row(const char* name, double value, const std::optional<double>& lim
   return fmt::format("<tr{}><th>{}</th><td>{:.6g}</td><td>{}</td></tr>\n", bad, name, value, limit_text(limit));
 }
 
-/// A word of a command line as a shell reads it.
-std::string in_shell(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 /// A line to copy.
 std::string command_line(const char* what, const std::string& command) {
   return fmt::format("<p class=\"command\">{} <code>{}</code> <button type=\"button\">copy</button></p>\n", what,

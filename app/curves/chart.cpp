@@ -14,14 +14,6 @@
 namespace tyndall {
 namespace {
 
-/// A name as one field of CSV.
-std::string csv_field(const std::string& name) {
-  if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
-  std::string quoted = "\"";
-  for (const char c : name) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + '"';
-}
-
 constexpr double width = 960, height = 600, left = 78, right = 230, top = 64, bottom = 62;
 constexpr std::size_t colours = 8;
 
@@ -168,7 +160,7 @@ std::string chart_csv(const Chart& chart) {
   std::string out = "method,spp,seconds,relmse\n";
   for (const ErrorCurve& curve : chart.curves)
     for (const ErrorPoint& p : curve.points)
-      out += csv_field(curve.method) + fmt::format(",{},{:.6g},{:.6g}\n", p.spp, p.seconds, p.rel_mse);
+      out += in_csv(curve.method) + fmt::format(",{},{:.6g},{:.6g}\n", p.spp, p.seconds, p.rel_mse);
   return out;
 }
 

@@ -7,7 +7,7 @@
 #include <exception>
 #include <initializer_list>
 
-/// What the Python package takes from the library; app/python/tyndall/__init__.py makes it Python's own. Numbers and
+/// The classes of the Python package; app/python/tyndall/__init__.py adds what is simpler to say in Python. Numbers and
 /// pictures are not copied: arrays look into the picture, which they keep alive.
 namespace {
 
@@ -89,32 +89,32 @@ void add_scene(py::module_& module) {
   py::class_<Scene>(module, "Scene")
       .def(py::init<>())
       .def(py::init<const Scene&>())
-      .def_static("load", &Scene::load, WithoutLock())
-      .def_static("parse", &Scene::parse, WithoutLock())
-      .def_static("built_in", &Scene::built_in, WithoutLock())
-      .def("set_json", &Scene::set_json, WithoutLock())
-      .def("get_json", &Scene::get_json, WithoutLock())
-      .def("remove", &Scene::remove, WithoutLock())
-      .def("add_json", &Scene::add_json, WithoutLock())
-      .def("json", &Scene::json, WithoutLock())
-      .def("save", &Scene::save, WithoutLock())
-      .def_property_readonly("width", &Scene::width)
-      .def_property_readonly("height", &Scene::height)
-      .def_property_readonly("folder", [](const Scene& scene) { return py::bytes(scene.folder()); });
+      .def_static("_load", &Scene::load, WithoutLock())
+      .def_static("_parse", &Scene::parse, WithoutLock())
+      .def_static("_built_in", &Scene::built_in, WithoutLock())
+      .def("_set_json", &Scene::set_json, WithoutLock())
+      .def("_get_json", &Scene::get_json, WithoutLock())
+      .def("_remove", &Scene::remove, WithoutLock())
+      .def("_add_json", &Scene::add_json, WithoutLock())
+      .def("json", &Scene::json, WithoutLock(), "The scene file's text, in normal form.")
+      .def("_save", &Scene::save, WithoutLock())
+      .def_property_readonly("width", &Scene::width, "Pixels.")
+      .def_property_readonly("height", &Scene::height, "Pixels.")
+      .def_property_readonly("_folder", [](const Scene& scene) { return py::bytes(scene.folder()); });
 }
 
 void add_film(py::module_& module) {
   using tyndall::Film;
   py::class_<Film>(module, "Film")
-      .def_static("load", &Film::load, WithoutLock())
-      .def_static("merge", &Film::merge, WithoutLock())
-      .def("save", &Film::save, WithoutLock())
-      .def("picture", &Film::picture, WithoutLock())
-      .def_property_readonly("scene", &Film::scene)
-      .def_property_readonly("width", &Film::width)
-      .def_property_readonly("height", &Film::height)
-      .def_property_readonly("spp", &Film::spp)
-      .def_property_readonly("hash", &Film::hash);
+      .def_static("_load", &Film::load, WithoutLock())
+      .def_static("_merge", &Film::merge, WithoutLock())
+      .def("_save", &Film::save, WithoutLock())
+      .def_property_readonly("picture", py::cpp_function(&Film::picture, WithoutLock()), "What these samples show.")
+      .def_property_readonly("scene", &Film::scene, "What it is a film of.")
+      .def_property_readonly("_width", &Film::width)
+      .def_property_readonly("_height", &Film::height)
+      .def_property_readonly("spp", &Film::spp, "Samples a pixel.")
+      .def_property_readonly("hash", &Film::hash, "16 hexadecimal digits: image_hash of the command's --stats.");
 }
 
 void add_picture(py::module_& module) {
@@ -125,27 +125,35 @@ void add_picture(py::module_& module) {
       .def_readonly("error", &tyndall::Progress::error)
       .def_readonly("mrays_per_s", &tyndall::Progress::mrays_per_s);
   py::class_<Picture>(module, "Picture")
-      .def_property_readonly("rgb", &array_of<&Picture::rgb, 3>)
-      .def_property_readonly("error_map", &array_of<&Picture::error_map, 1>)
-      .def_property_readonly("clean", &array_of<&Picture::clean, 3>)
-      .def_property_readonly("albedo", &array_of<&Picture::albedo, 3>)
-      .def_property_readonly("normal", &array_of<&Picture::normal, 3>)
-      .def_property_readonly("depth", &array_of<&Picture::depth, 1>)
-      .def_property_readonly("width", &Picture::width)
-      .def_property_readonly("height", &Picture::height)
-      .def_property_readonly("error", &Picture::error)
-      .def_property_readonly("error_is_reliable", &Picture::error_is_reliable)
-      .def_property_readonly("clean_error", &Picture::clean_error)
-      .def_property_readonly("hash", &Picture::hash)
-      .def_property_readonly("clean_hash", &Picture::clean_hash)
-      .def_property_readonly("spp", &Picture::spp)
-      .def_property_readonly("seconds", &Picture::seconds)
-      .def_property_readonly("stopped", &Picture::stopped)
-      .def_property_readonly("rejected", &Picture::rejected)
-      .def_property_readonly("film", &Picture::film)
-      .def_property_readonly("scene", &Picture::scene)
-      .def("save", &Picture::save, WithoutLock())
-      .def("png", [](const Picture& picture) {
+      .def_property_readonly(
+          "array", &array_of<&Picture::rgb, 3>,
+          "height x width x 3, float32, linear radiance, top row first; a view that cannot be written to.")
+      .def_property_readonly("error_map", &array_of<&Picture::error_map, 1>,
+                             "height x width: the estimated relative error around each pixel.")
+      .def_property_readonly("clean", &array_of<&Picture::clean, 3>,
+                             "height x width x 3: the clean view, if render(clean=True) made one.")
+      .def_property_readonly("_albedo", &array_of<&Picture::albedo, 3>)
+      .def_property_readonly("_normal", &array_of<&Picture::normal, 3>)
+      .def_property_readonly("_depth", &array_of<&Picture::depth, 1>)
+      .def_property_readonly("width", &Picture::width, "Pixels.")
+      .def_property_readonly("height", &Picture::height, "Pixels.")
+      .def_property_readonly("error", &Picture::error,
+                             "Estimated relative error; infinite with fewer than 2 samples a pixel.")
+      .def_property_readonly("error_is_reliable", &Picture::error_is_reliable,
+                             "False where rare bright paths make up most of the error.")
+      .def_property_readonly("clean_error", &Picture::clean_error, "Estimated relative error of the clean view.")
+      .def_property_readonly("hash", &Picture::hash, "16 hexadecimal digits: image_hash of the command's --stats.")
+      .def_property_readonly("clean_hash", &Picture::clean_hash, "The same of the clean view: denoised_hash.")
+      .def_property_readonly("spp", &Picture::spp, "Samples a pixel; where pixels differ, their mean.")
+      .def_property_readonly("seconds", &Picture::seconds, "That rendering took.")
+      .def_property_readonly("stopped", &Picture::stopped, "The progress function stopped it.")
+      .def_property_readonly(
+          "rejected", &Picture::rejected,
+          "Samples that were left out: not finite, or brighter than any light of the scene explains.")
+      .def_property_readonly("film", &Picture::film, "The samples, to save, merge or go on with.")
+      .def_property_readonly("scene", &Picture::scene, "The scene that it shows.")
+      .def("_save", &Picture::save, WithoutLock())
+      .def("_png", [](const Picture& picture) {
         const std::vector<unsigned char> bytes = [&] {
           const py::gil_scoped_release unlocked;
           return picture.png();

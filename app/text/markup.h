@@ -2,14 +2,18 @@
 #include <string>
 #include <string_view>
 
-/// Text in pages and reports that are made of tags: whatever it is, also the name of a file, they stay well-formed.
-/// What neither XML nor HTML can hold, control characters and bytes that are not UTF-8, becomes as printable() writes
-/// it.
+/// Text as other formats quote it. In pages and reports that are made of tags: whatever it is, also the name of a file,
+/// they stay well-formed. What neither XML nor HTML can hold, control characters and bytes that are not UTF-8, becomes
+/// as printable() writes it.
 namespace tyndall {
 
 /// As XML, so JUnit and SVG, holds it, between tags or in quotes: <, >, &, " and ' are references.
 std::string in_xml(std::string_view text);
 /// As HTML holds it, between tags or in quotes: <, &, " and ' are references.
 std::string in_html(std::string_view text);
+/// As one field of CSV: in quotes where it needs them.
+std::string in_csv(const std::string& text);
+/// As one word of a shell's command line, in single quotes.
+std::string in_shell(std::string_view text);
 
 }  // namespace tyndall

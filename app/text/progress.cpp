@@ -55,7 +55,7 @@ std::string progress_text(const RenderProgress& now, const ProgressGoal& goal) {
   return text;
 }
 
-ProgressReport::ProgressReport(ProgressStyle style, ProgressGoal goal) : goal_(goal) {
+ProgressReport::ProgressReport(ProgressStyle style) {
   if (style == ProgressStyle::none) return;
   form_ = style == ProgressStyle::automatic && smart_terminal() ? Form::bar : Form::lines;
   colour_ = form_ == Form::bar && !is_set("NO_COLOR");
@@ -63,10 +63,6 @@ ProgressReport::ProgressReport(ProgressStyle style, ProgressGoal goal) : goal_(g
 }
 
 ProgressReport::~ProgressReport() { clear_bar(); }
-
-void ProgressReport::show(const RenderProgress& now) {
-  show(now.seconds, progress_fraction(now, goal_), progress_text(now, goal_));
-}
 
 void ProgressReport::show(double seconds, double part, const std::string& text) {
   if (form_ == Form::none || seconds < next_) return;

@@ -44,14 +44,13 @@ std::string progress_text(const RenderProgress& now, const ProgressGoal& goal);
 /// rarely. NO_COLOR and TERM=dumb are respected.
 class ProgressReport {
  public:
-  explicit ProgressReport(ProgressStyle style, ProgressGoal goal = {});
+  explicit ProgressReport(ProgressStyle style);
   /// Takes the bar away.
   ~ProgressReport();
   ProgressReport(const ProgressReport&) = delete;
   ProgressReport& operator=(const ProgressReport&) = delete;
 
-  void show(const RenderProgress& now);
-  /// The same for work of other kinds (charts, verify). part: how much of it is done, in [0, 1].
+  /// seconds: since the work began; part: how much of it is done, in [0, 1].
   void show(double seconds, double part, const std::string& text);
   /// Says something else in a line of its own, also where no progress is shown.
   void say(const std::string& text);
@@ -65,7 +64,6 @@ class ProgressReport {
   enum class Form { none, lines, bar } form_ = Form::none;
   bool colour_ = false, drawn_ = false, said_ = false;
   double next_ = 0;  ///< second of rendering at which to show again
-  ProgressGoal goal_;
 };
 
 }  // namespace tyndall

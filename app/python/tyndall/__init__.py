@@ -97,6 +97,18 @@ def _json(place: str, value: Any) -> str:
         raise _fail(place, value, "a value that JSON has: a number, text, a list, a dict, True, False") from None
 
 
+def _adds_to(inner: type) -> Callable[[type], Any]:
+    """Gives a class of the library what a class here has: the library's is the one that is used."""
+
+    def add(mine: type) -> Any:
+        for name, value in vars(mine).items():
+            if name not in ("__dict__", "__weakref__"):
+                setattr(inner, name, value)
+        return inner
+
+    return add
+
+
 def _step(key: Any) -> str:
     return str(key).replace("~", "~0").replace("/", "~1")
 
@@ -180,32 +192,30 @@ class Objects(Sequence):
 
     def append(self, value: Any) -> None:
         """Adds an object, such as {"type": "sphere", "center": [0, 1, 0], "radius": 1, "material": "gold"}."""
-        self._scene._scene.add_json(_json("/objects", value))
+        self._scene._add_json(_json("/objects", value))
 
     def __repr__(self) -> str:
         return repr(self.value)
 
 
+@_adds_to(_tyndall.Scene)
 class Scene:
     """A scene: what a scene file holds. `scene[pointer]` reads and writes values by JSON pointers (RFC 6901)."""
 
-    def __init__(self, inner: Optional[_tyndall.Scene] = None):
-        self._scene = inner if inner is not None else _tyndall.Scene()
-
     def copy(self) -> "Scene":
         """A scene of its own with the same values."""
-        return Scene(_tyndall.Scene(self._scene))
+        return Scene(self)
 
     __copy__ = copy
 
     def __deepcopy__(self, memo: dict) -> "Scene":
-        return self.copy()
+        return Scene(self)
 
     def __reduce__(self) -> tuple:
-        return _parsed, (self.json(), os.path.abspath(self._scene.folder))
+        return _parsed, (self.json(), os.path.abspath(self._folder))
 
     def _value(self, pointer: str) -> Any:
-        return json.loads(self._scene.get_json(pointer))
+        return json.loads(self._get_json(pointer))
 
     def __getitem__(self, pointer: str) -> Any:
         pointer = _text("pointer", pointer, "a JSON pointer, which begins with /")
@@ -214,10 +224,10 @@ class Scene:
 
     def __setitem__(self, pointer: str, value: Any) -> None:
         pointer = _text("pointer", pointer, "a JSON pointer, which begins with /")
-        self._scene.set_json(pointer, _json(pointer, value))
+        self._set_json(pointer, _json(pointer, value))
 
     def __delitem__(self, pointer: str) -> None:
-        self._scene.remove(_text("pointer", pointer, "a JSON pointer, which begins with /"))
+        self._remove(_text("pointer", pointer, "a JSON pointer, which begins with /"))
 
     @property
     def objects(self) -> Objects:
@@ -234,23 +244,9 @@ class Scene:
         """The textures, by name."""
         return Node(self, "/textures")
 
-    @property
-    def width(self) -> int:
-        """Pixels."""
-        return self._scene.width
-
-    @property
-    def height(self) -> int:
-        """Pixels."""
-        return self._scene.height
-
-    def json(self) -> str:
-        """The scene file's text, in normal form."""
-        return self._scene.json()
-
     def save(self, file: Union[str, os.PathLike]) -> None:
         """Writes the scene file, whole or not at all."""
-        self._scene.save(_file("file", file))
+        self._save(_file("file", file))
 
     def render(self, spp: int = 0, *, time: float = 0, target_error: float = 0, clean: bool = False, threads: int = 0,
                isa: str = "", region: Optional[Sequence] = None, first_sample: int = 0, film: Optional["Film"] = None,
@@ -277,10 +273,10 @@ class Scene:
         if film is not None:
             if not isinstance(film, Film):
                 raise _fail("film", film, "a tyndall.Film")
-            options.film = film._film
+            options.film = film
         if progress is not None and not callable(progress):
             raise _fail("progress", progress, "a function")
-        return Picture(_tyndall.render(self._scene, options, progress))
+        return _tyndall.render(self, options, progress)
 
     def progressive(self, seconds: float = 0, spp: int = 0, **options: Any) -> Iterator["Picture"]:
         """Pictures of the scene with 1, 2, 4, 8, … samples a pixel, until the seconds or samples are used up.
@@ -313,7 +309,7 @@ class Scene:
 
 
 def _parsed(text: str, folder: bytes) -> Scene:
-    return Scene(_tyndall.Scene.parse(text, folder))
+    return Scene._parse(text, folder)
 
 
 def _region(region: Any) -> list:
@@ -334,43 +330,21 @@ class Features(NamedTuple):
     depth: numpy.ndarray  # height x width, scene units along the camera's axis; infinite where nothing is seen
 
 
+@_adds_to(_tyndall.Film)
 class Film:
     """Samples gathered so far, as exact sums: they can be saved, loaded, merged and gone on with."""
-
-    def __init__(self, inner: _tyndall.Film):
-        self._film = inner
 
     @staticmethod
     def load(file: Union[str, os.PathLike]) -> "Film":
         """Reads an EXR that Tyndall wrote."""
-        return Film(_tyndall.Film.load(_file("file", file)))
+        return Film._load(_file("file", file))
 
     def save(self, file: Union[str, os.PathLike]) -> None:
         """Writes an EXR with the picture, the film and the scene."""
-        self._film.save(_file("file", file))
-
-    @property
-    def picture(self) -> "Picture":
-        """What these samples show."""
-        return Picture(self._film.picture())
-
-    @property
-    def scene(self) -> Scene:
-        """What it is a film of."""
-        return Scene(self._film.scene)
-
-    @property
-    def spp(self) -> int:
-        """Samples a pixel."""
-        return self._film.spp
-
-    @property
-    def hash(self) -> str:
-        """16 hexadecimal digits: image_hash of the command's --stats."""
-        return self._film.hash
+        self._save(_file("file", file))
 
     def __repr__(self) -> str:
-        return f"<tyndall.Film {self._film.width} x {self._film.height}, {self.spp} samples>"
+        return f"<tyndall.Film {self._width} x {self._height}, {self.spp} samples>"
 
 
 def merge(films: Sequence) -> Film:
@@ -379,112 +353,30 @@ def merge(films: Sequence) -> Film:
     for film in films:
         if not isinstance(film, Film):
             raise _fail("films", film, "a tyndall.Film")
-    return Film(_tyndall.Film.merge([film._film for film in films]))
+    return Film._merge(films)
 
 
+@_adds_to(_tyndall.Picture)
 class Picture:
     """A finished picture. In a notebook it shows itself."""
-
-    def __init__(self, inner: _tyndall.Picture):
-        self._picture = inner
-
-    @property
-    def array(self) -> numpy.ndarray:
-        """height x width x 3, float32, linear radiance, top row first; a view that cannot be written to."""
-        return self._picture.rgb
 
     def __array__(self, dtype: Any = None) -> numpy.ndarray:
         return numpy.asarray(self.array, dtype=dtype)
 
     @property
-    def error(self) -> float:
-        """Estimated relative error; infinite with fewer than 2 samples a pixel."""
-        return self._picture.error
-
-    @property
-    def error_is_reliable(self) -> bool:
-        """False where rare bright paths make up most of the error."""
-        return self._picture.error_is_reliable
-
-    @property
-    def error_map(self) -> numpy.ndarray:
-        """height x width: the estimated relative error around each pixel."""
-        return self._picture.error_map
-
-    @property
-    def clean(self) -> numpy.ndarray:
-        """height x width x 3: the clean view, if render(clean=True) made one."""
-        return self._picture.clean
-
-    @property
-    def clean_error(self) -> float:
-        """Estimated relative error of the clean view."""
-        return self._picture.clean_error
-
-    @property
     def features(self) -> Features:
         """Albedo, normal and depth of what is seen first."""
-        return Features(self._picture.albedo, self._picture.normal, self._picture.depth)
-
-    @property
-    def hash(self) -> str:
-        """16 hexadecimal digits: image_hash of the command's --stats."""
-        return self._picture.hash
-
-    @property
-    def clean_hash(self) -> str:
-        """The same of the clean view: denoised_hash."""
-        return self._picture.clean_hash
-
-    @property
-    def spp(self) -> int:
-        """Samples a pixel; where pixels differ, their mean."""
-        return self._picture.spp
-
-    @property
-    def seconds(self) -> float:
-        """That rendering took."""
-        return self._picture.seconds
-
-    @property
-    def stopped(self) -> bool:
-        """The progress function stopped it."""
-        return self._picture.stopped
-
-    @property
-    def rejected(self) -> int:
-        """Samples that were left out: not finite, or brighter than any light of the scene explains."""
-        return self._picture.rejected
-
-    @property
-    def width(self) -> int:
-        """Pixels."""
-        return self._picture.width
-
-    @property
-    def height(self) -> int:
-        """Pixels."""
-        return self._picture.height
-
-    @property
-    def film(self) -> Film:
-        """The samples, to save, merge or go on with."""
-        return Film(self._picture.film)
-
-    @property
-    def scene(self) -> Scene:
-        """The scene that it shows."""
-        return Scene(self._picture.scene)
+        return Features(self._albedo, self._normal, self._depth)
 
     def save(self, file: Union[str, os.PathLike]) -> None:
         """Writes a .png, .exr, .ppm, .pfm or .hdr file, whole or not at all."""
-        self._picture.save(_file("file", file))
+        self._save(_file("file", file))
 
     def _repr_png_(self) -> bytes:
-        return self._picture.png()
+        return self._png()
 
     def _repr_html_(self) -> str:
-        image = base64.b64encode(self._picture.png()).decode()
+        image = base64.b64encode(self._png()).decode()
         error = f", error {100 * self.error:.2g} %" if math.isfinite(self.error) else ""
         return (f'<img src="data:image/png;base64,{image}" width="{self.width}" height="{self.height}" alt="">'
                 f"<div>{self.width} x {self.height}, {self.spp} samples a pixel{error}</div>")
@@ -516,11 +408,9 @@ class Comparison(NamedTuple):
 def compare(image: Any, reference: Any) -> Comparison:
     """Compares two pictures or films, or two arrays of linear radiance, height x width x 3."""
 
-    def inner(thing: Any) -> Any:
-        return thing._picture if isinstance(thing, Picture) else thing._film.picture()
-
     if isinstance(image, (Picture, Film)) and isinstance(reference, (Picture, Film)):
-        found = _tyndall.compare_pictures(inner(image), inner(reference))
+        found = _tyndall.compare_pictures(*(thing if isinstance(thing, Picture) else thing.picture
+                                            for thing in (image, reference)))
     else:
         a, b = _pixels("image", image), _pixels("reference", reference)
         if a.shape != b.shape:
@@ -548,10 +438,10 @@ def scene(what: Any = None) -> Scene:
     if what is None:
         return Scene()
     if isinstance(what, dict):
-        return Scene(_tyndall.Scene.parse(_json("scene", what), "."))
-    return Scene(_tyndall.Scene.load(_file("scene", what)))
+        return Scene._parse(_json("scene", what), ".")
+    return Scene._load(_file("scene", what))
 
 
 def built_in() -> list:
     """Names of the built-in scenes."""
-    return _tyndall.Scene.built_in()
+    return Scene._built_in()

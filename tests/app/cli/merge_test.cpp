@@ -56,7 +56,7 @@ std::vector<fs::path> write_set(const fs::path& folder, std::mt19937& random) {
 
 /// What merging says; "": it was done.
 std::string problem_of(const std::vector<fs::path>& parts, const fs::path& output) {
-  Request command;
+  CommandRequest command;
   for (const auto& part : parts) command.operands.push_back(part.string());
   command.outputs = {output};
   try {

@@ -13,10 +13,10 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-Request render_request(const Arguments& more) {
+CommandRequest render_request(const Arguments& more) {
   Arguments arguments = {"render", "box.json", "-o", "a.png"};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return std::get<Request>(read_command(arguments));
+  return std::get<CommandRequest>(read_command(arguments));
 }
 
 std::string refusal(const Arguments& arguments) {
@@ -35,38 +35,38 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 }  // namespace
 
 TEST_CASE("without a command: the window") {
-  CHECK(std::get<Request>(read_command({})).scene.what == "showroom");
-  CHECK(std::get<Request>(read_command({"cornell-box"})).scene.what == "cornell-box");
-  CHECK(std::get<Request>(read_command({"view"})).scene.what == "showroom");
-  CHECK(std::get<Request>(read_command({"-"})).scene.what == "-");
-  CHECK(std::get<Request>(read_command({"a.json", "--reference", "b.exr"})).reference == "b.exr");
-  const auto view = std::get<Request>(read_command({"--seed", "7", "a.json", "-t", "2"}));
+  CHECK(std::get<CommandRequest>(read_command({})).scene.what == "showroom");
+  CHECK(std::get<CommandRequest>(read_command({"cornell-box"})).scene.what == "cornell-box");
+  CHECK(std::get<CommandRequest>(read_command({"view"})).scene.what == "showroom");
+  CHECK(std::get<CommandRequest>(read_command({"-"})).scene.what == "-");
+  CHECK(std::get<CommandRequest>(read_command({"a.json", "--reference", "b.exr"})).reference == "b.exr");
+  const auto view = std::get<CommandRequest>(read_command({"--seed", "7", "a.json", "-t", "2"}));
   CHECK(view.scene.what == "a.json");
   CHECK(view.scene.render.values.seed == 7u);
   CHECK(view.threads == 2);
 }
 
 TEST_CASE("programs: more source files and folders of headers, and leave to compile what was named") {
-  const auto render = std::get<Request>(
+  const auto render = std::get<CommandRequest>(
       read_command({"render", "main.cc", "-I", "a", "b.cpp", "c.cxx", "-Id", "--include", "e", "-o", "x.png"}));
   const ProgramParts& parts = render.scene.program;
   CHECK(render.scene.what == "main.cc");
   CHECK(parts.more_files == std::vector<std::filesystem::path>{"b.cpp", "c.cxx"});
   CHECK(parts.include_folders == std::vector<std::filesystem::path>{"a", "d", "e"});
   CHECK(parts.allowed);
-  CHECK(std::get<Request>(read_command({"main.cc"})).scene.program.allowed);
-  CHECK_FALSE(std::get<Request>(read_command({})).scene.program.allowed);
+  CHECK(std::get<CommandRequest>(read_command({"main.cc"})).scene.program.allowed);
+  CHECK_FALSE(std::get<CommandRequest>(read_command({})).scene.program.allowed);
   CHECK_FALSE(parts.trusted);
-  CHECK(std::get<Request>(read_command({"inspect", "main.cc", "--trust"})).scene.program.trusted);
-  CHECK_FALSE(std::get<Request>(read_command({"verify"})).scene.program.allowed);
+  CHECK(std::get<CommandRequest>(read_command({"inspect", "main.cc", "--trust"})).scene.program.trusted);
+  CHECK_FALSE(std::get<CommandRequest>(read_command({"verify"})).scene.program.allowed);
   for (const Arguments& arguments :
        {Arguments{"inspect", "main.cc", "a.json"}, Arguments{"inspect", "a.json", "main.cc"}})
     CHECK(refusal(arguments) == "unexpected argument \"" + arguments[2] + "\" (see tyndall inspect --help)");
 }
 
 TEST_CASE("the window takes limits, at which the picture pauses") {
-  const auto view =
-      std::get<Request>(read_command({"view", "a.json", "--spp", "16", "--time", "2.5", "--target-error", "0.02"}));
+  const auto view = std::get<CommandRequest>(
+      read_command({"view", "a.json", "--spp", "16", "--time", "2.5", "--target-error", "0.02"}));
   CHECK(view.scene.render.values.spp == 16);
   CHECK(view.scene.render.given.contains("spp"));
   CHECK(view.time_limit == 2.5);
@@ -91,7 +91,7 @@ TEST_CASE("the help of view, compare and inspect has examples, which are read") 
 }
 
 TEST_CASE("render: every option arrives") {
-  const Request c = render_request(
+  const CommandRequest c = render_request(
       {"-o",           "b.exr",       "--size",     "64x32",          "--spp",      "16",           "--time",
        "2.5",          "--max-depth", "7",          "--sampler",      "random",     "--integrator", "path",
        "--fresnel",    "schlick",     "--exposure", "-1.5",           "--tone-map", "aces",         "--seed",
@@ -167,7 +167,7 @@ TEST_CASE("every option of every command takes a value of its kind, by each of i
 }
 
 TEST_CASE("render: what is not given stays open") {
-  const Request c = render_request({});
+  const CommandRequest c = render_request({});
   CHECK_FALSE(c.spp);
   CHECK_FALSE(c.samples);
   CHECK_FALSE(c.scene.size);
@@ -180,14 +180,14 @@ TEST_CASE("render: what is not given stays open") {
 }
 
 TEST_CASE("overrides keep their order; the last of a repeated option wins; an output takes one name") {
-  const Request c = render_request({"--set", "/b=1", "--set", "/a=[1,2,3]", "--spp", "1", "--spp", "2"});
+  const CommandRequest c = render_request({"--set", "/b=1", "--set", "/a=[1,2,3]", "--spp", "1", "--spp", "2"});
   REQUIRE(c.scene.overrides.size() == 2);
   CHECK(c.scene.overrides[0].pointer == "/b");
   CHECK(c.scene.overrides[1].value == "[1,2,3]");
   CHECK(c.spp == 2u);
-  CHECK(std::get<Request>(read_command({"render", "-o", "a.png", "box"})).scene.what == "box");
-  CHECK(std::get<Request>(read_command({"render", "-o", "a.png", "--", "-a.json"})).scene.what == "-a.json");
-  CHECK(std::get<Request>(read_command({"render", "render", "--output=[a].png"})).outputs.front() == "[a].png");
+  CHECK(std::get<CommandRequest>(read_command({"render", "-o", "a.png", "box"})).scene.what == "box");
+  CHECK(std::get<CommandRequest>(read_command({"render", "-o", "a.png", "--", "-a.json"})).scene.what == "-a.json");
+  CHECK(std::get<CommandRequest>(read_command({"render", "render", "--output=[a].png"})).outputs.front() == "[a].png");
 }
 
 TEST_CASE("refusals name the option, what was found and what is expected") {
@@ -230,8 +230,8 @@ TEST_CASE("limits that exclude each other are named") {
 TEST_CASE("adaptive sampling: off unless asked for, where pictures are rendered") {
   CHECK_FALSE(render_request({}).scene.render.values.adaptive);
   CHECK(render_request({"--adaptive"}).scene.render.values.adaptive);
-  CHECK(std::get<Request>(read_command({"view", "--adaptive", "box"})).scene.render.values.adaptive);
-  const auto chart = std::get<Request>(
+  CHECK(std::get<CommandRequest>(read_command({"view", "--adaptive", "box"})).scene.render.values.adaptive);
+  const auto chart = std::get<CommandRequest>(
       read_command({"chart", "box", "-o", "a.svg", "--method", "even=", "--method", "adaptive=--adaptive --seed 3"}));
   CHECK_FALSE(chart.methods.at(0).scene.render.values.adaptive);
   CHECK(chart.methods.at(1).scene.render.values.adaptive);
@@ -239,7 +239,7 @@ TEST_CASE("adaptive sampling: off unless asked for, where pictures are rendered"
 }
 
 TEST_CASE("verify: names, method, machine") {
-  const auto command = std::get<Request>(read_command(
+  const auto command = std::get<CommandRequest>(read_command(
       {"verify", "plate", "--json", "milk", "--isa", "scalar", "-t", "2", "--integrator", "nee", "--seed", "7", "-q"}));
   CHECK(command.operands == std::vector<std::string>{"plate", "milk"});
   CHECK(command.json);
@@ -249,18 +249,19 @@ TEST_CASE("verify: names, method, machine") {
   CHECK(command.scene.render.values.integrator == Integrator::nee);
   CHECK(command.scene.render.values.seed == 7u);
   CHECK(command.progress == ProgressStyle::none);
-  CHECK(std::get<Request>(read_command({"verify", "--thorough"})).thorough);
+  CHECK(std::get<CommandRequest>(read_command({"verify", "--thorough"})).thorough);
   CHECK(has(refusal({"verify", "--size", "8x8"}), "unknown option \"--size\""));
 }
 
 TEST_CASE("inspect: an instruction set is only for measuring") {
-  CHECK(std::get<Request>(read_command({"inspect", "box", "--measure", "--isa", "sse4"})).isa == "sse4");
+  CHECK(std::get<CommandRequest>(read_command({"inspect", "box", "--measure", "--isa", "sse4"})).isa == "sse4");
   CHECK(has(refusal({"inspect", "box", "--isa", "sse4"}), "--measure"));
 }
 
 TEST_CASE("chart: methods with flags of their own, reference, budget") {
-  const auto command = std::get<Request>(read_command({"chart", "box", "-o", "a.svg", "--method", "plain=", "--method",
-                                                       "no MIS=--integrator nee --isa scalar", "--budget", "7"}));
+  const auto command =
+      std::get<CommandRequest>(read_command({"chart", "box", "-o", "a.svg", "--method", "plain=", "--method",
+                                             "no MIS=--integrator nee --isa scalar", "--budget", "7"}));
   CHECK(command.scene.what == "box");
   CHECK(command.output == "a.svg");
   CHECK(command.budget == 7);
@@ -270,7 +271,7 @@ TEST_CASE("chart: methods with flags of their own, reference, budget") {
   CHECK(command.methods[1].command == "no MIS");
   CHECK(command.methods[1].scene.render.values.integrator == Integrator::nee);
   CHECK(command.methods[1].isa == "scalar");
-  CHECK(std::get<Request>(read_command({"chart", "all", "-o", "charts"})).output == "charts");
+  CHECK(std::get<CommandRequest>(read_command({"chart", "all", "-o", "charts"})).output == "charts");
   CHECK(has(refusal({"chart", "box"}), "-o FILE.svg"));
   CHECK(has(refusal({"chart", "box", "-o", "a.png"}), ".svg"));
   CHECK(has(refusal({"chart", "box", "-o", "a.svg", "--method", "nee"}), "NAME=FLAGS"));

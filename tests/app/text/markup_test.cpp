@@ -14,4 +14,11 @@ TEST_CASE("markup: what XML cannot hold, not even as a reference, becomes text")
   CHECK(in_html("\xef\xbf\xbe Grüße") == "\\ufffe Grüße");
 }
 
+TEST_CASE("fields of CSV and words of a shell are quoted where these need it") {
+  CHECK(in_csv("gold") == "gold");
+  CHECK(in_csv("a \"b\", c") == "\"a \"\"b\"\", c\"");
+  CHECK(in_csv("two\nlines") == "\"two\nlines\"");
+  CHECK(in_shell("it's") == "'it'\\''s'");
+}
+
 }  // namespace tyndall::test::markup_test
