@@ -4,6 +4,7 @@
 #include "app/text/values.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/system/process.h"
 #include "core/system/signals.h"
 
 #include <fmt/core.h>
@@ -71,6 +72,7 @@ ChildPlan plan_of(const ProgramTask& task, const CompiledProgram& program, const
   if (only_samples) plan.environment.push_back(std::string("TYNDALL_BOOK_ONLY_SAMPLES=") + only_samples);
   plan.keep_last_errors = true;
   plan.max_file = max_file;
+  plan.max_memory = free_memory().bytes / 2;
   return guarded(task, plan);
 }
 

@@ -25,6 +25,7 @@ render="camera c; c.image_width = 8; c.samples_per_pixel = 2; c.render(ball());"
 fails 2 crash 'was ended by SIGSEGV' 'before the colour of its first ray' <<<'int main() { volatile int* volatile p = nullptr; *p = 1; }'
 fails 2 thrown 'was ended by SIGABRT' "an instance of 'int'" <<<'int main() { throw 1; }'
 fails 2 leaves 'ended with exit code 4 before the colour of its first ray' 'its last words: "no model.obj"' <<<'int main() { std::cerr << "reading\nno model.obj\n"; exit(4); }'
+fails 2 memory 'ended with exit code 4' <<<'int main() { for (int k = 0; k < 4096; ++k) if (!malloc(std::size_t(1) << 30)) exit(4); exit(5); }'
 fails 2 nothing 'ended with exit code 0 before the colour of its first ray' <<<'int main() {}'
 fails 2 input 'reads standard input' <<<"$ball int main() { int n = 1; std::cin >> n; $render }"
 if [ -e /proc/self/syscall ]; then
