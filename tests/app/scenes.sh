@@ -10,8 +10,7 @@ done
 same 'a line for each scene' "$(wc -l <out)" "$(find "$source_root/assets/scenes" -name '*.json' | wc -l)"
 
 # inspect
-expect 0 "$tyndall" inspect cornell-smoke
-grep -q 'Volumes' out || fail 'inspect does not show the comments of the file'
+expect 0 "$tyndall" inspect cornell-smoke :out 'Volumes'
 grep -Eq '^media +2' out || fail "inspect: media: $(cat out)"
 expect 0 "$tyndall" inspect showroom --json
 cp out showroom.json
@@ -57,11 +56,5 @@ grep -q '"vfov": 20' narrow.json || fail 'convert --set'
 expect 0 "$tyndall" render showroom --size 16x12 --spp 2 -q -o image.png
 expect 0 "$tyndall" convert image.png -o image.json
 grep -q '"width": 16' image.json || fail 'convert from an image'
-expect 3 "$tyndall" convert showroom -o nowhere/a.json
-complains 'nowhere'
-expect 2 "$tyndall" convert showroom -o a.png
-complains '.json'
-expect 2 "$tyndall" convert hashed.pfm -o a.json
-complains 'hashed.pfm'
 
 finish
