@@ -13,9 +13,8 @@ grep -q '^tyndall: right.ppm: .*gamma 2' err || fail "the way of reading is not 
 # An sRGB picture is right, too; numbers are those of any comparison, and checks work as ever.
 "$tyndall" render metal-spheres --size 64x36 --spp 64 --seed 7 -o right.png -o right.pfm -q || fail 'rendering'
 expect 0 "$tyndall" compare right.png metal-spheres --time 4 --max-flip 0.2 --json
-cp out right.json
-same 'agreement' "$(found right.json agrees)" true
-same 'no explanation' "$(found right.json explanation)" null
+same 'agreement' "$(found out agrees)" true
+same 'no explanation' "$(found out explanation)" null
 expect 1 "$tyndall" compare right.png metal-spheres --time 1 --max-rmse 0.00001 :out '^check  '
 expect 0 "$tyndall" compare right.pfm metal-spheres --time 4 :out 'agree within the noise'
 # From standard input, and a scene's file.
@@ -26,9 +25,8 @@ expect 0 bash -c "cat right.ppm | '$tyndall' compare - scene.json --time 4" :out
 # The same picture with another fault: the sky's colours. Its objects are told, and no mistake that is none.
 "$tyndall" render metal-spheres --size 64x36 --spp 64 --set '/background/top=[1,0.2,0.1]' --gamma2 -o pink.ppm -q
 expect 0 "$tyndall" compare pink.ppm metal-spheres --time 4 --json
-cp out pink.json
-same 'agreement of another sky' "$(found pink.json agrees)" false
-same 'explanation of another sky' "$(found pink.json explanation)" null
+same 'agreement of another sky' "$(found out agrees)" false
+same 'explanation of another sky' "$(found out explanation)" null
 expect 0 "$tyndall" compare pink.ppm metal-spheres --time 4 :out '^object   the sky: '
 
 # Pictures are pictures, also those that carry a scene: two of them are compared as ever.

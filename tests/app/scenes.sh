@@ -21,15 +21,13 @@ same 'background' "$(json showroom.json background)" '"gradient"'
 same 'motion' "$(json showroom.json motion)" false
 same 'splitting' "$(json showroom.json splitting)" true
 expect 0 "$tyndall" inspect bouncing-spheres --json
-cp out bouncing.json
-same 'motion' "$(json bouncing.json motion)" true
-same 'defocus' "$(json bouncing.json defocus)" true
-[ "$(json bouncing.json kernel_features)" != "$(json showroom.json kernel_features)" ] || fail 'the same kernel for all'
+same 'motion' "$(json out motion)" true
+same 'defocus' "$(json out defocus)" true
+[ "$(json out kernel_features)" != "$(json showroom.json kernel_features)" ] || fail 'the same kernel for all'
 expect 0 "$tyndall" inspect cornell-box --json --set /camera/defocus_angle=1
-cp out box.json
-same '--set' "$(json box.json defocus)" true
-same 'splitting' "$(json box.json splitting)" false
-same 'film' "$(json box.json film_bytes)" $(((112 + 48) * 600 * 600)) # 48: emission, for the clean view
+same '--set' "$(json out defocus)" true
+same 'splitting' "$(json out splitting)" false
+same 'film' "$(json out film_bytes)" $(((112 + 48) * 600 * 600)) # 48: emission, for the clean view
 
 # Each scene in which methods fail says what fails there, how, and what is right.
 for file in "$source_root"/assets/scenes/stress-*.json; do

@@ -15,9 +15,8 @@ grep -q '^  plate/reflected-n1.5-60deg  *0.1637675 ' out || fail "no row: $(cat 
 grep -q 'Born & Wolf' out || fail "no source: $(cat out)"
 grep -q 'z-scores of 9 cases: mean square' out || fail "no sum: $(cat out)"
 expect 0 "$tyndall" verify smoke-box plate/reflected-n1.5-60 --json --seed 5
-cp out verify.json
-same passed "$(json verify.json passed)" true
-same count "$(json verify.json cases | tr '{' '\n' | grep -c '"verdict": "ok"')" 9
+same passed "$(json out passed)" true
+same count "$(json out cases | tr '{' '\n' | grep -c '"verdict": "ok"')" 9
 
 # The books' approximation of Fresnel's equations is wrong, and a depth that cuts paths is seen.
 expect 1 "$tyndall" verify plate/reflected-n1.5-60 --fresnel schlick :out 'FAIL'

@@ -1,6 +1,5 @@
 """The program under test, run as users run it, and what tests look at afterwards."""
 
-import json
 import os
 import pathlib
 import shlex
@@ -21,9 +20,9 @@ def files():
 def run(command, code=0, *words, out=(), loud=False, given=b"", by=(), **variables):
     """Runs the command and returns what it printed, or what it said where it was refused (exit code 2 and more).
 
-    Fails unless the exit code is this one, standard error holds the words (texts or patterns) and standard output those of
-    "out". Without words nothing may be said, unless it may be loud. A refusal is one line that begins with "tyndall: ";
-    nothing is printed and no file changes. "by": a command that starts the program; "variables": of the environment.
+    Fails unless the exit code is this one, standard error holds the words (texts or patterns) and standard output those
+    of "out". Without words nothing may be said, unless it may be loud. A refusal is one line that begins with
+    "tyndall: "; nothing is printed and no file changes. "by": a command that starts the program; "variables": of the environment.
     """
     before = files()
     arguments = shlex.split(command) if isinstance(command, str) else command
@@ -51,23 +50,6 @@ def run(command, code=0, *words, out=(), loud=False, given=b"", by=(), **variabl
     return said if code > 1 else printed
 
 
-def read_json(name):
-    """The values of a file, which must be strict JSON."""
-    def refuse(constant):
-        raise ValueError(f"{name}: {constant} is not JSON")
-    return json.loads(pathlib.Path(name).read_text(), parse_constant=refuse)
-
-
-def stats(arguments):
-    """Renders quietly, and returns the figures; the picture is in stats.pfm."""
-    run(f"render {arguments} -q -o stats.pfm --stats stats.json", loud=True)
-    return read_json("stats.json")
-
-
-def image_hash(arguments):
-    return stats(arguments)["image_hash"]
-
-
 def read(name):
     return pathlib.Path(name).read_bytes()
 
@@ -80,12 +62,6 @@ def write(name, content):
 def pfm(name, width, height, *colour):
     """A picture of one colour."""
     write(name, b"PF\n%d %d\n-1.0\n" % (width, height) + struct.pack("<3f", *colour) * (width * height))
-
-
-def light(name):
-    """The numbers of a PFM, its lowest row first."""
-    data = read(name).split(b"\n", 3)[3]
-    return struct.unpack(f"<{len(data) // 4}f", data)
 
 
 with tempfile.TemporaryDirectory() as folder:

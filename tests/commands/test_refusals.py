@@ -8,8 +8,8 @@ import shutil
 import pytest
 from program import HAS_EXR, PROGRAM, ROOT, pfm, run, write
 
-SCENE = """{ "tyndall": 1, "image": { "width": 8, "height": 8 }, "textures": { "t": { "type": "image", "file": "texture.png" } },
-  "materials": { "m": { "type": "lambertian", "albedo": "t" } },
+SCENE = """{ "tyndall": 1, "image": { "width": 8, "height": 8 },
+  "textures": { "t": { "type": "image", "file": "texture.png" } }, "materials": { "m": { "type": "lambertian", "albedo": "t" } },
   "objects": [ { "type": "sphere", "center": [0, 0, -2], "radius": 1, "material": "m" } ] }"""
 FILM = """{ "tyndall": 1, "image": { "width": 24, "height": 16 }, "render": { "seed": 5, "spp": 4 },
   "animation": { "frames": 4, "keys": { "/materials/gold/fuzz": { "0": 0, "3": 0.3 } } },
@@ -29,7 +29,8 @@ def inputs(tmp_path_factory):
     os.chdir(folder)
     run(f"{SMALL} --spp 2 -o texture.png -o reference.pfm -o picture.ppm")
     run(f"{SMALL} --spp 4 --adaptive -o adaptive.png")
-    for name, text in {"scene.json": SCENE, "film.json": FILM, "wide.json": '{ "tyndall": 1, "camera": { "vfov": 400 } }',
+    for name, text in {"scene.json": SCENE, "film.json": FILM,
+                       "wide.json": '{ "tyndall": 1, "camera": { "vfov": 400 } }',
                        "layer.json": SCENE.replace("texture.png", "texture.png:R"), "broken.json": "not a scene\n",
                        "float.json": SCENE.replace("texture.png", "reference.pfm"), "text.png": "text\n",
                        "large.ppm": "P6 99999 99999 255\n", "texts/notes.txt": "text\n", "sub/kept.txt": ""}.items():
@@ -42,7 +43,8 @@ def inputs(tmp_path_factory):
     pfm("grey.pfm", 16, 8, 0.5, 0.5, 0.5)
     pfm("noise.pfm", 16, 8, 0.5, 0.5, 0.5)
     pfm("noise.error.pfm", 16, 7, 0.1, 0.1, 0.1)
-    for number, kept in enumerate(('{"texture.png": {"max_flop": 1}}', '{"texture.png": {"max_flip": -1}}', "[1]", "x")):
+    wrong = ('{"texture.png": {"max_flop": 1}}', '{"texture.png": {"max_flip": -1}}', "[1]", "x")
+    for number, kept in enumerate(wrong):
         write(f"kept{number}/tolerances.json", kept)
         shutil.copy("texture.png", f"kept{number}")
     if HAS_EXR:
@@ -177,9 +179,9 @@ REFUSED = [
         ("showroom -o a.png", ".json"),
         ("showroom -o a.obj", "a.obj"),
         ("reference.pfm -o a.json", "reference.pfm"),
-        *[(f"{arguments} -o a.{ending}", *words, "has no equal") for ending in ("pbrt", "xml", "py") for arguments, *words in (
-            ("metal-spheres", "/fuzz", "expected 0"), ("cornell-box --set /render/fresnel=schlick", "/render/fresnel"),
-            ("perlin-spheres", "/textures", '"noise"'))],
+        *[(f"{arguments} -o a.{ending}", *words, "has no equal") for ending in ("pbrt", "xml", "py")
+          for arguments, *words in (("metal-spheres", "/fuzz", "expected 0"), ("perlin-spheres", "/textures", '"noise"'),
+                                    ("cornell-box --set /render/fresnel=schlick", "/render/fresnel"))],
         ("checkered-spheres -o a.xml", "/textures", "checker", "has no equal"),
     ]),
     ("", 3, [
@@ -243,7 +245,8 @@ REFUSED_FILMS = [
         ("--checkpoint -1 -o a.exr",),
     ]),
     ("", 2, [
-        ("render stress-caustic-glass --size 16x12 --spp 4 --caustics scatter --resume -o chains.exr", "chains.exr", "other settings"),
+        ("render stress-caustic-glass --size 16x12 --spp 4 --caustics scatter --resume -o chains.exr", "chains.exr",
+         "other settings"),
         ("compare left.exr right.exr",
          "left.exr: found pixels in the data window 0,0,4,8 alone, expected some in 4,0,8,8 as in right.exr"),
         ("compare size.exr left.exr", "size.exr: found the display window 0,0,8,9, expected 0,0,8,8 as in left.exr"),
@@ -257,8 +260,8 @@ REFUSED_FILMS = [
         ("compare 0.exr:Albedo 0.exr --max-z 4",),
         ("compare one.exr 0.exr --max-z 4", "one.exr: found pixels with fewer than 2 samples"),
         ("compare one.exr --baseline texts --update --max-z 4", "fewer than 2 samples"),
-        ("chart cornell-box --size 8x8 --budget 1 --reference left.exr -q -o a.svg", "left.exr", "data window 0,0,4,8 alone",
-         "display window 0,0,8,8"),
+        ("chart cornell-box --size 8x8 --budget 1 --reference left.exr -q -o a.svg", "left.exr",
+         "data window 0,0,4,8 alone", "display window 0,0,8,8"),
     ]),
 ]
 

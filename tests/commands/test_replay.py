@@ -11,7 +11,8 @@ from program import read, run
 @pytest.mark.parametrize("scene", ["showroom", "cornell-smoke", "next-week"])
 def test_last_line_is_what_the_scalar_kernel_renders(scene, x, y, sample):
     lines = run(f"render {scene} --size 32x24 --replay {x},{y},{sample}").splitlines()
-    run(f"render {scene} --size 32x24 --region {x},{y},{x + 1},{y + 1} --samples {sample}:{sample + 1} --isa scalar -q -o one.pfm")
+    one = f"--region {x},{y},{x + 1},{y + 1} --samples {sample}:{sample + 1}"
+    run(f"render {scene} --size 32x24 {one} --isa scalar -q -o one.pfm")
     assert lines[0] == "0 camera" and lines[-1].startswith("sample ")
     assert struct.pack("<3f", *map(float, lines[-1].split()[1:])) == read("one.pfm")[-12:]
     assert any(line.startswith("    throughput") for line in lines)

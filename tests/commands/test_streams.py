@@ -61,7 +61,8 @@ def test_limits_of_the_system():
 @pytest.mark.parametrize("command, instead", [
     ("", "tyndall render showroom -o showroom.png"),
     ("view cornell-box --seed 3", "tyndall render cornell-box --seed 3 -o cornell-box.png"),
-    ("view cornell-box --reference a.exr --seed 3 --ui-log=log", "tyndall render cornell-box --seed 3 -o cornell-box.png"),
+    ("view cornell-box --reference a.exr --seed 3 --ui-log=log",
+     "tyndall render cornell-box --seed 3 -o cornell-box.png"),
     ("--seed 3 cornell-box --spp 9", "tyndall render --seed 3 cornell-box --spp 9 -o cornell-box.png"),
 ])
 def test_no_display(command, instead):
@@ -80,7 +81,8 @@ def test_command_instead_of_the_window(name):
         run([f"{name}.json"], 3, "tyndall render 'my quads.json' -o 'my quads.png'")
     said = run([f"{name}.json"], 3, "tyndall render")
     command = said[said.index("tyndall render"):].strip() + " --size 8x8 --spp 1 -q"
-    subprocess.run(["bash", "-c", command], check=True, env=os.environ | {"PATH": f"{os.getcwd()}/bin:{os.environ['PATH']}"})
+    path = f"{os.getcwd()}/bin:{os.environ['PATH']}"
+    subprocess.run(["bash", "-c", command], check=True, env=os.environ | {"PATH": path})
     assert os.path.getsize(f"{name}.png")
 
 
