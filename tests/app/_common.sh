@@ -16,12 +16,28 @@ fail() {
   failures=$((failures + 1))
 }
 
-# expect CODE COMMAND...: runs it with its output in the files out and err, and checks the exit code.
+# expect CODE COMMAND... [:: TEXT...] [:out PATTERN...] [:err PATTERN...] [:quiet]: runs it with its output in the files out
+# and err, and checks the exit code; then that it complains with each TEXT, that lines have these patterns, that err is empty.
 expect() {
-  local code=$1 got=0
-  shift
-  "$@" >out 2>err </dev/null || got=$?
-  [ "$got" -eq "$code" ] || fail "exit code $got instead of $code: ${*/#$tyndall/tyndall}: $(cat err)"
+  local code=$1 got=0 count=0 words=("${@:2}") word where=
+  while [ "$count" -lt "${#words[@]}" ] && [[ ! ${words[count]} =~ ^:(:|out|err|quiet)$ ]]; do count=$((count + 1)); done
+  local command="${words[*]:0:count}"
+  "${words[@]:0:count}" >out 2>err </dev/null || got=$?
+  [ "$got" -eq "$code" ] || fail "exit code $got instead of $code: ${command/#$tyndall/tyndall}: $(cat err)"
+  for word in "${words[@]:count}"; do
+    case $word in
+      ::) where=complaint && complains ;;
+      :out | :err) where=${word#:} ;;
+      :quiet) [ ! -s err ] || fail "standard error is not empty: $command: $(cat err)" ;;
+      *)
+        if [ $where = complaint ]; then
+          grep -qF -- "$word" err || fail "expected '$word' in: $(cat err)"
+        else
+          grep -q -- "$word" $where || fail "expected '$word' in what this says: $command: $(cat $where)"
+        fi
+        ;;
+    esac
+  done
 }
 
 # complains TEXT...: standard error is one line, begins with "tyndall: " and contains each TEXT; nothing on standard output.

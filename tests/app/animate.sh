@@ -30,16 +30,11 @@ same 'render ignores keys' "$(image_hash film.json --spp 4)" \
 expect 0 "$tyndall" "${film[@]}" --seed-per-frame off -o 'off-%d.png'
 same 'one seed' "\"$(hash_in off-2.png)\"" "$(image_hash film.json --spp 4 --set /materials/gold/fuzz=0.2)"
 same 'a frame opens as a scene' "$(image_hash f/0002.png)" "\"$(hash_in f/0002.png)\""
-expect 2 "$tyndall" render film.json --frame 4 -o x.png
-complains --frame 'at most 3'
-expect 2 "$tyndall" render cornell-box --frame 0 -o x.png
-complains --frame animation
 
 # A second run keeps what is there; what is missing comes back to the same bits.
 before=$(stat -c %z f/0001.png)
 cp f/0002.png whole.png && rm f/0002.png
-expect 0 "$tyndall" "${film[@]}" -o 'f/%04d.png'
-complains '3 of 4 frames'
+expect 0 "$tyndall" "${film[@]}" -o 'f/%04d.png' :: '3 of 4 frames'
 same 'a frame that was there' "$(stat -c %z f/0001.png)" "$before"
 cmp -s f/0002.png whole.png || fail 'a frame that was missing has other bytes'
 
@@ -48,8 +43,7 @@ refused() {
   local text=$1
   shift
   rm -f f/0003.png
-  expect 2 "$tyndall" "$@"
-  complains f/000 "$text" --fresh
+  expect 2 "$tyndall" "$@" :: f/000 "$text" --fresh
   [ ! -e f/0003.png ] || fail "rendered although refused: $*"
 }
 refused '4 samples a pixel, expected 5' animate film.json --spp 5 -q -o 'f/%04d.png'
@@ -76,11 +70,9 @@ echo cut >r2.pfm
 expect 0 "$tyndall" "${film[@]}" --frame-range 1:3 -o 'r%d.pfm'
 cmp -s one.pfm r2.pfm || fail 'a frame whose file was not whole is kept'
 [ -s r1.pfm ] || fail 'a frame that was missing is not made'
-expect 2 "$tyndall" "${film[@]}" --frame-range 1:3 --seed 9 -o 'r%d.pfm'
-complains r1.pfm rframes.pfm.list --fresh
+expect 2 "$tyndall" "${film[@]}" --frame-range 1:3 --seed 9 -o 'r%d.pfm' :: r1.pfm rframes.pfm.list --fresh
 rm rframes.pfm.list
-expect 2 "$tyndall" "${film[@]}" --frame-range 1:3 -o 'r%d.pfm'
-complains r1.pfm --fresh
+expect 2 "$tyndall" "${film[@]}" --frame-range 1:3 -o 'r%d.pfm' :: r1.pfm --fresh
 expect 0 "$tyndall" animate metal-spheres --size 16x9 --spp 1 --turntable --frames 3 -q -o 't%d.png'
 [ "$(hash_in t0.png)" != "$(hash_in t1.png)" ] || fail 'the turntable does not turn'
 
@@ -95,31 +87,9 @@ for size in 0 50 1000 1300 3000; do
 done
 "$tyndall" "${film[@]}" -o - >piped.y4m || fail 'a video on standard output'
 cmp -s piped.y4m whole.y4m || fail 'a video on standard output has other bytes'
-expect 2 "$tyndall" "${film[@]}" --seed 1 -o film.y4m
-complains film.y4m --fresh
+expect 2 "$tyndall" "${film[@]}" --seed 1 -o film.y4m :: film.y4m --fresh
 cmp -s film.y4m whole.y4m || fail 'a refused video was changed'
-expect 2 "$tyndall" "${film[@]}" --frame-range 0:2 -o film.y4m
-complains film.y4m '4 frames'
-
-# Usage.
-expect 2 "$tyndall" "${film[@]}" -o frame.png
-complains --output 'frame.png' '%04d'
-expect 2 "$tyndall" "${film[@]}" -o '%d-%d.png'
-complains --output
-expect 2 "$tyndall" "${film[@]}" -o 'g%d.gif'
-complains --output .png
-expect 2 "$tyndall" animate cornell-box -q -o 'c%d.png'
-complains --frames
-expect 2 "$tyndall" "${film[@]}" --frame-range 2:9 -o 'c%d.png'
-complains --frame-range 4
-expect 2 "$tyndall" "${film[@]}" --frame-range 2:2 -o 'c%d.png'
-expect 2 "$tyndall" "${film[@]}" --set '/animation/keys/~1materials~1gold~1fuzz/3=1.5' -o 'c%d.png'
-complains 'fuzz/3' 1.5
-expect 2 "$tyndall" "${film[@]}" --seed 4294967294 -o 'c%d.png'
-complains 'frame 2' seed
-expect 3 "$tyndall" "${film[@]}" -o 'missing/%04d.png'
-complains missing
-[ ! -e c0.png ] || fail 'refused commands wrote frames'
+expect 2 "$tyndall" "${film[@]}" --frame-range 0:2 -o film.y4m :: film.y4m '4 frames'
 
 # A film in EXR gives its frames to a video without rendering them again.
 if has_exr; then

@@ -4,7 +4,6 @@
 . "$source_root/tests/app/_pfm.sh"
 pfm grey.pfm 16 8 0.5 0.5 0.5
 pfm red.pfm 16 8 0.6 0.5 0.5
-pfm large.pfm 16 9 0.5 0.5 0.5
 pfm broken.pfm 16 8 nan 0.5 0.5
 
 expect 0 "$tyndall" compare red.pfm grey.pfm --json
@@ -25,31 +24,18 @@ for name in MSE RMSE relMSE PSNR FLIP red green blue; do grep -q "$name" out || 
 head -c 8 heat.png | grep -q PNG || fail 'no heat map'
 
 expect 0 "$tyndall" compare grey.pfm grey.pfm --json --max-rmse 0 --max-relmse 0 --max-flip 0
-cp out equal.json
-same 'psnr of equal images' "$(json equal.json psnr)" null
-same 'flip of equal images' "$(json equal.json flip)" 0.0
+same 'psnr of equal images' "$(json out psnr)" null
+same 'flip of equal images' "$(json out flip)" 0.0
 
 # A check that fails gives exit code 1, and the table is printed all the same.
 expect 0 "$tyndall" compare red.pfm grey.pfm --max-rmse 0.058
-expect 1 "$tyndall" compare red.pfm grey.pfm --max-rmse 0.057
-grep -q RMSE out || fail 'no table with a failed check'
-grep -q '^tyndall: check failed: RMSE' err || fail "the failed check is not named: $(cat err)"
+expect 1 "$tyndall" compare red.pfm grey.pfm --max-rmse 0.057 :out RMSE :err '^tyndall: check failed: RMSE'
 expect 1 "$tyndall" compare red.pfm grey.pfm --max-relmse 0.0128
 expect 1 "$tyndall" compare red.pfm grey.pfm --max-flip 0.001
 expect 1 "$tyndall" compare broken.pfm grey.pfm --max-rmse 1000
 # What is not finite is equal to nothing: that needs no --max-....
 expect 1 "$tyndall" compare broken.pfm grey.pfm --json
-cp out broken.json
-same 'mse with a NaN' "$(json broken.json mse)" null
-
-# Images of different sizes give exit code 2, files that are no images 3.
-expect 2 "$tyndall" compare large.pfm grey.pfm
-complains 'large.pfm' '16x9' '16x8'
-echo text >text.png
-expect 3 "$tyndall" compare text.png grey.pfm
-complains 'text.png'
-expect 3 "$tyndall" compare red.pfm grey.pfm --heatmap nowhere/heat.png
-complains 'nowhere'
+same 'mse with a NaN' "$(json out mse)" null
 
 has_exr || finish
 
@@ -65,43 +51,24 @@ done
 expect 0 "$tyndall" compare part.exr whole.exr
 grep -qx 'pixels   340 that both have, of 340 in the image and 768 in the reference' out || fail "no number of pixels: $(cat out)"
 expect 0 "$tyndall" compare part.exr whole.exr --json
-cp out part.json
-same 'pixels' '{"compared": 340, "image": 340, "reference": 768}' "$(json part.json pixels)"
-same 'width' 20 "$(json part.json width)"
+same 'pixels' '{"compared": 340, "image": 340, "reference": 768}' "$(json out pixels)"
+same 'width' 20 "$(json out width)"
 expect 0 "$tyndall" compare whole.exr whole.exr
 ! grep -q '^pixels' out || fail "a number of pixels where all were compared: $(cat out)"
-render --region 0,0,5,24 -o left.exr
-expect 2 "$tyndall" compare left.exr part.exr
-complains 'left.exr: found pixels in the data window 0,0,5,24 alone, expected some in 5,3,25,20 as in part.exr'
-"$tyndall" render cornell-box --size 33x24 --region 5,3,25,20 --spp 2 -q -o other.exr
-expect 2 "$tyndall" compare other.exr part.exr
-complains 'other.exr: found the display window 0,0,33,24, expected 0,0,32,24 as in part.exr'
-expect 2 "$tyndall" compare part.pfm whole.exr
-complains 'part.pfm: found 20x17 pixels, expected 32x24 as in whole.exr'
 expect 0 "$tyndall" compare part.exr --baseline kept --update
 cp part.exr kept/whole.exr
-expect 0 "$tyndall" compare whole.exr --baseline kept
-grep -q 'ok .*pixels: 340 that both have' out || fail "the baseline's line: $(cat out)"
-expect 2 "$tyndall" chart cornell-box --size 32x24 --budget 1 --reference part.exr -q -o chart.svg
-complains 'part.exr' 'data window 5,3,25,20 alone' 'display window 0,0,32,24'
+expect 0 "$tyndall" compare whole.exr --baseline kept :out 'ok .*pixels: 340 that both have'
 
 # One layer of an EXR, wherever a picture is named.
 expect 0 "$tyndall" compare whole.exr:Albedo whole.exr --json
-cp out albedo.json
-same 'blocks of a layer' '{"compared": 768, "image": 768, "reference": 768}' "$(json albedo.json pixels)"
-! grep -q blocks albedo.json || fail 'the noise of a film is not that of a layer'
+same 'blocks of a layer' '{"compared": 768, "image": 768, "reference": 768}' "$(json out pixels)"
+! grep -q blocks out || fail 'the noise of a film is not that of a layer'
 expect 0 "$tyndall" compare whole.exr:Albedo.R part.exr:Albedo.R --max-rmse 0
-expect 2 "$tyndall" compare whole.exr:Albdo whole.exr
-complains 'whole.exr: cannot read: found no layer "Albdo" (did you mean "Albedo"?), expected one of "Albedo", "Depth", "Ns"'
-expect 2 "$tyndall" compare whole.pfm:R whole.exr
-complains 'whole.pfm:R: found a layer'
 cp whole.exr 'a:b.exr'
 expect 0 "$tyndall" compare a:b.exr whole.exr --max-rmse 0
 expect 0 "$tyndall" compare a:b.exr:Albedo whole.exr:Albedo --max-rmse 0 --heatmap layer.png
 expect 0 "$tyndall" chart cornell-box --size 32x24 --budget 0.2 --reference whole.exr:Albedo -q -o layer.svg
-expect 2 "$tyndall" compare whole.exr:Albedo whole.exr --heatmap whole.exr
 expect 0 "$tyndall" compare whole.exr:Albedo --baseline kept --update
-expect 0 "$tyndall" compare whole.exr:Albedo --baseline kept
-grep -q '^ok *whole.exr:Albedo' out || fail "the baseline of a layer: $(cat out)"
+expect 0 "$tyndall" compare whole.exr:Albedo --baseline kept :out '^ok *whole.exr:Albedo'
 
 finish

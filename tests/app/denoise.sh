@@ -21,11 +21,6 @@ grep -aq '"denoised": *true' clean.png || fail 'the PNG does not say that it is 
 expect 0 "$tyndall" render clean.png -q -o again.pfm
 cmp -s raw.pfm again.pfm || fail 'a filtered PNG rendered again is filtered'
 
-expect 2 "$tyndall" render "${scene[@]}" --samples 0:4 --denoise -o no.png
-complains '--samples' '--denoise'
-expect 2 "$tyndall" render "${scene[@]}" --spp 1 --denoise -o no.png
-complains '--denoise' 'at least 2'
-[ ! -e no.png ] || fail 'no.png was written'
 expect 0 "$tyndall" render cornell-box --size 192x160 --target-error 0.1 --denoise -q -o target.png --stats target.json
 python3 -c 'import sys; sys.exit(not float(sys.argv[1]) <= 0.1 < float(sys.argv[2]))' \
   "$(json target.json denoised_relative_error_estimate)" "$(json target.json relative_error_estimate)" ||
@@ -46,11 +41,4 @@ done
 for part in 0:2 2:4; do expect 0 "$tyndall" render "${scene[@]}" --samples $part -q -o "part-${part%:*}.exr"; done
 expect 0 "$tyndall" merge part-2.exr part-0.exr --denoise -o merged.pfm
 cmp -s merged.pfm clean.pfm || fail 'merged parts are filtered to another picture'
-expect 0 "$tyndall" render "${scene[@]}" --samples 0:1 -q -o one.exr
-expect 2 "$tyndall" denoise one.exr -o no.png
-complains one.exr 'fewer than 2 samples'
-expect 2 "$tyndall" denoise whole.exr -o whole.exr
-complains whole.exr
-expect 2 "$tyndall" denoise raw.pfm -o no.png
-complains raw.pfm 'no film'
 finish

@@ -35,8 +35,7 @@ echo precious >big.pfm
 # A real full disk, where one can be mounted.
 if mkdir disk && mount -t tmpfs -o size=1m tmpfs disk 2>/dev/null; then
   trap 'umount disk' EXIT
-  expect 3 "$tyndall" "${render[@]}" -o disk/big.pfm -o kept.png
-  complains 'disk/big.pfm' 'space' "it is in $TMPDIR/tyndall-"
+  expect 3 "$tyndall" "${render[@]}" -o disk/big.pfm -o kept.png :: 'disk/big.pfm' 'space' "it is in $TMPDIR/tyndall-"
   cmp -s "$TMPDIR"/tyndall-*/big.pfm <("$tyndall" "${render[@]}" -o - --format pfm) || fail 'the picture is lost'
   [ -s kept.png ] || fail 'the image that fits elsewhere was not written'
   [ -z "$(ls disk)" ] || fail "left on the disk: $(ls disk)"

@@ -5,23 +5,12 @@
 pfm a.pfm 32 16 0.5 0.5 0.5
 pfm b.pfm 32 16 0.5 0.51 0.5
 pfm a.error.pfm 32 16 0.05 0.05 0.05
-expect 2 "$tyndall" compare a.pfm b.pfm --max-z 4
-complains '--max-z: b.pfm: found no b.error.pfm beside it, expected an EXR'
-pfm b.error.pfm 32 15 0.05 0.05 0.05
-expect 2 "$tyndall" compare a.pfm b.pfm --max-z 4
-complains 'b.error.pfm: found 32x15 pixels, expected 32x16 as in b.pfm'
 # The difference of 0.01 has an error of 0.05 sqrt(2 / 512) = 0.0031: 3.2 of them, and more with less noise.
 pfm b.error.pfm 32 16 0.05 0.05 0.05
 expect 0 "$tyndall" compare a.pfm b.pfm --max-z 4
 for file in a b; do pfm $file.error.pfm 32 16 0.02 0.02 0.02; done
 expect 1 "$tyndall" compare a.pfm b.pfm --max-z 4
 grep -q '^tyndall: check failed: the mean of green differs by -0.01 +- 0.0012: ' err || fail "the mean: $(cat err)"
-for value in 0 -1 x; do
-  expect 2 "$tyndall" compare a.pfm b.pfm --max-z "$value"
-  complains '--max-z: found'
-done
-expect 2 "$tyndall" compare a.pfm cornell-box --max-z 4
-complains '--max-z needs two pictures'
 has_exr || finish
 
 mkdir new other
@@ -38,12 +27,6 @@ assert noise["z"] == max(*noise["mean_z"], noise["block_z"], noise["outlier_z"])
 assert noise["cannot_tell"] == 0 and all(0 < e < 0.01 for e in noise["error"])
 PY
 expect 0 "$tyndall" compare new/cover.exr new/cover.exr --max-z 0.001
-expect 2 "$tyndall" compare new/cover.png new/cover.exr --max-z 4
-complains '--max-z: new/cover.png: found a picture that does not say its noise' 'tyndall render writes'
-expect 2 "$tyndall" compare new/cover.exr:Albedo new/cover.exr --max-z 4
-render --seed 3 --spp 1 -o one.exr
-expect 2 "$tyndall" compare one.exr new/cover.exr --max-z 4
-complains 'one.exr: found pixels with fewer than 2 samples'
 
 # A change; also against more samples, a part, and a picture without its film.
 render --seed 4 --set /camera/vfov=21 -o changed.exr
@@ -52,8 +35,7 @@ render --seed 6 --exr-film no -o bare.exr
 render --seed 7 --region 20,10,70,50 -o part.exr
 for file in better bare part; do expect 0 "$tyndall" compare "$file.exr" new/cover.exr --max-z 4; done
 for file in better bare part; do
-  expect 1 "$tyndall" compare "$file.exr" changed.exr --max-z 4
-  grep -q '^tyndall: check failed: .* standard errors' err || fail "$file: $(cat err)"
+  expect 1 "$tyndall" compare "$file.exr" changed.exr --max-z 4 :err '^tyndall: check failed: .* standard errors'
 done
 
 # A lamp three times as bright that few paths meet, and one that is off.
@@ -63,21 +45,16 @@ lamp --seed 2 --set /materials/lamp/radiance=[45,45,45] -o brighter.exr
 expect 1 "$tyndall" compare lamp.exr brighter.exr --max-z 4
 grep -q 'too few samples to tell: no block with light, of 4, has .*; about [0-9]* a pixel would do' err || fail "$(cat err)"
 lamp --set /materials/lamp/radiance=[0,0,0] -o off.exr
-expect 0 "$tyndall" compare off.exr off.exr --max-z 4
-grep -q 'nothing is lit in either' out || fail "off: $(cat out)"
+expect 0 "$tyndall" compare off.exr off.exr --max-z 4 :out 'nothing is lit in either'
 
 # Baselines: what FLIP calls a failure is noise.
 rm new/cover.png
 expect 0 "$tyndall" compare new --baseline kept --update --max-z 4
 grep -q '"max_z": 4.0' kept/tolerances.json || fail "tolerances: $(cat kept/tolerances.json)"
 expect 1 "$tyndall" compare other/cover.exr --baseline kept --max-flip 0.02
-expect 0 "$tyndall" compare other --baseline kept --report report.html --junit junit.xml
-grep -q '^ok .*noise: means ' out || fail "the line: $(cat out)"
+expect 0 "$tyndall" compare other --baseline kept --report report.html --junit junit.xml :out '^ok .*noise: means '
 grep -q 'z of the blocks' report.html || fail 'no noise in the report'
 cp changed.exr other/cover.exr
 expect 1 "$tyndall" compare other --baseline kept --report report.html --junit junit.xml
 grep -q 'standard errors' report.html && grep -q 'failures="1"' junit.xml || fail 'the reports do not say it'
-cp one.exr other/cover.exr
-expect 2 "$tyndall" compare other --baseline kept --update --max-z 4
-complains 'fewer than 2 samples'
 finish

@@ -11,8 +11,7 @@ needs() {
   local percent=$1 said
   shift
   rm -f m.*
-  expect 2 bash -c 'ulimit -v "$1"; shift; exec "$@"' - $limit "$tyndall" "$@"
-  complains 'ulimit -v' 'bytes'
+  expect 2 bash -c 'ulimit -v "$1"; shift; exec "$@"' - $limit "$tyndall" "$@" :: 'ulimit -v' 'bytes'
   [ -z "$(find . -name 'm.*')" ] || fail 'a refused command wrote something'
   said=$(sed 's/.* takes \([0-9]*\) bytes .*/\1/' err)
   python3 -c '
@@ -45,24 +44,12 @@ if has_exr; then
   rm p0.exr p2.exr
 fi
 
-# What image files cannot hold is refused, too, whatever memory there is.
-expect 2 "$tyndall" render quads --size 20000x13500 --spp 1 -o big.png
-complains 'quads: /image: found 20000x13500' '2^28'
-expect 2 "$tyndall" render quads --size 1x268435456 --spp 1 -o big.png
-[ ! -e big.png ] || fail 'an image was written'
-
 # A lean EXR has no film, so nothing can go on from it.
 if has_exr; then
   expect 0 "$tyndall" render quads --size 128x96 --spp 2 -q -o lean.exr --exr-film no
   expect 0 "$tyndall" render quads --size 128x96 --spp 2 -q -o full.exr -o full.pfm
   expect 0 "$tyndall" compare lean.exr full.pfm --max-rmse 0
   [ "$(wc -c <lean.exr)" -lt $(($(wc -c <full.exr) * 2 / 3)) ] || fail 'without its film an EXR is not smaller'
-  expect 2 "$tyndall" merge lean.exr -o none.png
-  complains 'lean.exr' 'no film'
-  expect 2 "$tyndall" render quads --size 32x24 --spp 4 -q -o lean.exr --exr-film no --resume
-  complains '--exr-film'
-  expect 2 "$tyndall" render quads --size 32x24 --spp 4 -q -o lean.exr --exr-film no --checkpoint 5
-  complains '--exr-film'
 fi
 
 # PNG is dithered, unless that is switched off; nothing else is.

@@ -71,8 +71,7 @@ expect 0 "$tyndall" render odd.json --replay 4,4,0
 python3 -c 'import json
 text = open("odd.json").read().replace("solid", "sol\\u0001\\nid")
 open("bad.json", "w").write(text)'
-expect 2 "$tyndall" render bad.json -o bad.png
-complains bad.json
+expect 2 "$tyndall" render bad.json -o bad.png :: bad.json
 
 python3 -c 'import json
 scene = json.load(open("odd.json")); del scene["name"]; json.dump(scene, open("unnamed.json", "w"))'
@@ -85,8 +84,7 @@ scene["textures"][texture] = {"type": "image", "file": "t.png"}
 json.dump(scene, open(b"folder\xff/scene.json", "w"))'
 expect 0 "$tyndall" convert $'folder\xff/scene.json' -o outside.json
 well_formed outside.json
-expect 2 "$tyndall" inspect outside.json
-complains outside.json /textures/ 'xff/t.png'
+expect 2 "$tyndall" inspect outside.json :: outside.json /textures/ 'xff/t.png'
 
 # Charts, of scenes with and without a name, of methods with names.
 pfm r.pfm 8 8 0.5 0.5 0.5
@@ -101,17 +99,11 @@ done
 
 # Messages about files of such names are one line.
 for name in "${names[@]}"; do
-  expect 2 "$tyndall" render "./$name.nothing" -o a.png
-  complains found
-  expect 2 "$tyndall" render odd.json -o "./$name.png" -o "./$name.png"
-  complains twice
-  expect 3 "$tyndall" compare "./$name.pfm" odd.png
-  complains 'cannot read'
-  expect 3 "$tyndall" render odd.json -o "./$name/a.png"
-  complains 'there is no folder'
-  expect 2 "$tyndall" render odd.json -o a.png --set "/name$name=1"
-  complains found
-  expect 2 "$tyndall" "x$name"
-  complains found
+  expect 2 "$tyndall" render "./$name.nothing" -o a.png :: found
+  expect 2 "$tyndall" render odd.json -o "./$name.png" -o "./$name.png" :: twice
+  expect 3 "$tyndall" compare "./$name.pfm" odd.png :: 'cannot read'
+  expect 3 "$tyndall" render odd.json -o "./$name/a.png" :: 'there is no folder'
+  expect 2 "$tyndall" render odd.json -o a.png --set "/name$name=1" :: found
+  expect 2 "$tyndall" "x$name" :: found
 done
 finish

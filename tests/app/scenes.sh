@@ -10,8 +10,7 @@ done
 same 'a line for each scene' "$(wc -l <out)" "$(find "$source_root/assets/scenes" -name '*.json' | wc -l)"
 
 # inspect
-expect 0 "$tyndall" inspect cornell-smoke
-grep -q 'Volumes' out || fail 'inspect does not show the comments of the file'
+expect 0 "$tyndall" inspect cornell-smoke :out 'Volumes'
 grep -Eq '^media +2' out || fail "inspect: media: $(cat out)"
 expect 0 "$tyndall" inspect showroom --json
 cp out showroom.json
@@ -22,15 +21,13 @@ same 'background' "$(json showroom.json background)" '"gradient"'
 same 'motion' "$(json showroom.json motion)" false
 same 'splitting' "$(json showroom.json splitting)" true
 expect 0 "$tyndall" inspect bouncing-spheres --json
-cp out bouncing.json
-same 'motion' "$(json bouncing.json motion)" true
-same 'defocus' "$(json bouncing.json defocus)" true
-[ "$(json bouncing.json kernel_features)" != "$(json showroom.json kernel_features)" ] || fail 'the same kernel for all'
+same 'motion' "$(json out motion)" true
+same 'defocus' "$(json out defocus)" true
+[ "$(json out kernel_features)" != "$(json showroom.json kernel_features)" ] || fail 'the same kernel for all'
 expect 0 "$tyndall" inspect cornell-box --json --set /camera/defocus_angle=1
-cp out box.json
-same '--set' "$(json box.json defocus)" true
-same 'splitting' "$(json box.json splitting)" false
-same 'film' "$(json box.json film_bytes)" $(((112 + 48) * 600 * 600)) # 48: emission, for the clean view
+same '--set' "$(json out defocus)" true
+same 'splitting' "$(json out splitting)" false
+same 'film' "$(json out film_bytes)" $(((112 + 48) * 600 * 600)) # 48: emission, for the clean view
 
 # Each scene in which methods fail says what fails there, how, and what is right.
 for file in "$source_root"/assets/scenes/stress-*.json; do
@@ -57,11 +54,5 @@ grep -q '"vfov": 20' narrow.json || fail 'convert --set'
 expect 0 "$tyndall" render showroom --size 16x12 --spp 2 -q -o image.png
 expect 0 "$tyndall" convert image.png -o image.json
 grep -q '"width": 16' image.json || fail 'convert from an image'
-expect 3 "$tyndall" convert showroom -o nowhere/a.json
-complains 'nowhere'
-expect 2 "$tyndall" convert showroom -o a.png
-complains '.json'
-expect 2 "$tyndall" convert hashed.pfm -o a.json
-complains 'hashed.pfm'
 
 finish

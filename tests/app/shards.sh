@@ -2,11 +2,7 @@
 # Shards of samples, merged in any order, give the picture of one render; so does a render that goes on.
 . "$(dirname "$0")/_common.sh"
 
-if ! has_exr; then
-  expect 2 "$tyndall" render cornell-box -o a.exr
-  complains 'a.exr' 'OpenEXR'
-  finish
-fi
+has_exr || finish
 
 scene=(cornell-smoke --size 32x24)
 whole=$(image_hash "${scene[@]}" --spp 13)
@@ -26,28 +22,12 @@ same 'its samples' "$(json again.json spp)" 13
 if "$tyndall" render "${scene[@]}" --spp 1 --isa sse4 -q -o probe.pfm 2>probe.err; then
   expect 0 "$tyndall" render "${scene[@]}" --samples 0:4 --isa scalar -q -o scalar.exr
   expect 0 "$tyndall" render "${scene[@]}" --samples 4:9 --isa sse4 -q -o sse4.exr
-  expect 0 "$tyndall" merge sse4.exr scalar.exr -o several.exr
-  complains 'several: scalar, sse4'
+  expect 0 "$tyndall" merge sse4.exr scalar.exr -o several.exr :: 'several: scalar, sse4'
   expect 0 "$tyndall" render "${scene[@]}" --samples 9:13 --isa scalar -q -o rest.exr
-  expect 0 "$tyndall" merge several.exr rest.exr -o several.exr.exr
-  complains 'several: scalar, sse4'
+  expect 0 "$tyndall" merge several.exr rest.exr -o several.exr.exr :: 'several: scalar, sse4'
   expect 2 "$tyndall" render "${scene[@]}" --spp 20 --isa scalar --resume -q -o several.exr
   complains several.exr 'instruction set several: scalar, sse4' 'expected scalar'
 fi
-
-# Parts that do not fit are refused.
-expect 2 "$tyndall" merge a.exr c.exr -o gap.png
-complains 'c.exr' 'missing'
-expect 2 "$tyndall" merge a.exr a.exr -o twice.png
-complains 'overlap'
-expect 0 "$tyndall" render "${scene[@]}" --samples 4:9 --seed 3 -q -o other.exr
-expect 2 "$tyndall" merge a.exr other.exr -o other.png
-complains 'other.exr'
-expect 0 "$tyndall" render cornell-smoke --size 24x24 --samples 4:9 -q -o size.exr
-expect 2 "$tyndall" merge a.exr size.exr -o size.png
-expect 2 "$tyndall" merge a.exr all.png -o png.png
-complains 'all.png' 'film'
-for file in gap.png twice.png other.png size.png png.png; do [ ! -e "$file" ] || fail "$file was written"; done
 
 # A render that is continued.
 expect 0 "$tyndall" render "${scene[@]}" --spp 5 -q -o going.exr
@@ -60,19 +40,10 @@ python3 -c 'import sys; sys.exit(not 0 < int(sys.argv[1]) < int(sys.argv[2]))' "
 expect 0 "$tyndall" render "${scene[@]}" --spp 2 --resume -q -o going.exr --stats going.json
 complains '--resume' '13 samples a pixel' 'more than the 2 asked for'
 same 'enough samples already' "$(json going.json image_hash)" "$whole"
-expect 2 "$tyndall" render "${scene[@]}" --seed 9 --spp 20 --resume -q -o going.exr
-complains 'going.exr'
-expect 2 "$tyndall" render "${scene[@]}" --samples 4:20 --resume -q -o going.exr
-complains 'going.exr'
 
 # In scenes with chains, films made with and without chains must not be mixed: each film file says how it was made.
 balls=(stress-caustic-glass --size 16x12 -q)
 expect 0 "$tyndall" render "${balls[@]}" --samples 0:2 -o chains.exr
-expect 0 "$tyndall" render "${balls[@]}" --samples 2:4 --caustics scatter -o scatter.exr
-expect 2 "$tyndall" merge chains.exr scatter.exr -o mixed.png
-complains 'scatter.exr' 'other settings'
-expect 2 "$tyndall" render "${balls[@]}" --spp 4 --caustics scatter --resume -o chains.exr
-complains 'chains.exr' 'other settings'
 expect 0 "$tyndall" render "${balls[@]}" --spp 4 --resume -o chains.exr
 expect 0 "$tyndall" render "${scene[@]}" --samples 0:9 --caustics scatter -q -o plain.exr
 expect 0 "$tyndall" merge plain.exr c.exr -o plain.pfm # no chains here either way
@@ -81,8 +52,7 @@ cmp -s plain.pfm one.pfm || fail 'a scene without chains differs by --caustics'
 # Chains are a part of mis: asked for with another integrator they are ignored, and that is said.
 expect 0 "$tyndall" render "${balls[@]}" --spp 1 --integrator path --caustics chains -o path.pfm
 complains '--caustics chains' 'ignored' 'path'
-expect 0 "$tyndall" render "${balls[@]}" --spp 1 --integrator path -o same.pfm
-[ ! -s err ] || fail "without --caustics it says: $(cat err)"
+expect 0 "$tyndall" render "${balls[@]}" --spp 1 --integrator path -o same.pfm :quiet
 cmp -s path.pfm same.pfm || fail '--caustics chains changes what integrator path renders'
 
 finish

@@ -42,32 +42,6 @@ import csv
 total = sum(float(row["seconds"]) for row in csv.DictReader(open("t.csv")))
 assert 0.2 < total < 4, total' || fail "the total time: $(cat t.csv)"
 
-# Every failure is found before the first sample, and says where.
-expect 2 "$tyndall" sweep showroom --vary /materials/gold/fuzz=0:2:3 "${small[@]}" -o x.png
-complains 'step 3' '/materials/gold/fuzz=2' 'found 2'
-expect 2 "$tyndall" sweep showroom --vary /materials/gild/fuzz=0:1:3 "${small[@]}" -o x.png
-complains gold
-expect 2 "$tyndall" sweep showroom --vary /materials/gold/fuz=0:1:3 "${small[@]}" -o x.png
-complains fuzz
-expect 2 "$tyndall" sweep showroom --vary /materials/gold/fuzz=0:1 "${small[@]}" -o x.png
-complains --vary FROM:TO:STEPS
-expect 2 "$tyndall" sweep showroom --vary /image/width=10:20:3 "${small[@]}" -o x.png
-complains --vary size
-expect 2 "$tyndall" sweep showroom --vary /camera/vfov=30:40:3 "${small[@]}" -o x.exr
-complains --output .png
-expect 2 "$tyndall" sweep showroom --vary /camera/vfov=30:40:3 "${small[@]}" --each x.pfm
-complains --each %v
-expect 2 "$tyndall" sweep showroom --vary /camera/vfov=30:40:3 "${small[@]}"
-complains SHEET.png
-expect 2 "$tyndall" sweep showroom "${small[@]}" -o x.png
-complains --vary
-four=(--vary /camera/vfov=30,40 --vary /render/seed=1,2 --vary /camera/focus_distance=1,2 --vary /camera/defocus_angle=1,2)
-expect 2 "$tyndall" sweep showroom "${four[@]}" "${small[@]}" -o x.png
-complains --vary 'found it 4 times'
-expect 3 "$tyndall" sweep showroom --vary /camera/vfov=30:40:3 "${small[@]}" -o missing/x.png
-complains missing
-[ ! -e x.png ] || fail 'a refused sweep wrote a sheet'
-
 # Pictures in EXR are kept, and refused if they are of something else.
 if has_exr; then
   again=(sweep showroom --vary /materials/gold/fuzz=0:0.4:3 "${small[@]}" --each 'k%v.exr' --csv)

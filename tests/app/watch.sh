@@ -71,8 +71,7 @@ fi
 
 # What fails is told once, with its pixel and sample, and left out.
 told() { # HOW TEXT...
-  expect 1 ./probe "$1" failed.pfm
-  complains "pixel (3, 4), sample 2: " "${@:2}"
+  expect 1 ./probe "$1" failed.pfm :: "pixel (3, 4), sample 2: " "${@:2}"
   rm failed.pfm || fail 'no picture'
 }
 told throws 'no mesh\nhere'
@@ -88,28 +87,18 @@ expect 0 ./probe process p.pfm
 same 'process' 'rounds still signals C' "$(cat out)"
 
 # What is wrong is one line.
-expect 2 ./probe size x.png 0 10
-complains 'found a picture of 0x10 pixels, expected 1 to 65536'
+expect 2 ./probe size x.png 0 10 :: 'found a picture of 0x10 pixels, expected 1 to 65536'
 for size in '-3 10' '10 70000' '2147483647 2147483647'; do
   # shellcheck disable=SC2086
-  expect 2 ./probe size x.png $size
-  complains 'expected 1 to 65536'
+  expect 2 ./probe size x.png $size :: 'expected 1 to 65536'
 done
-expect 2 ./probe size x.png 65536 65536
-complains '65536x65536 pixels'
-expect 2 ./probe null
-complains 'found no function'
-expect 2 ./probe wrong-size
-complains 'size of the options: found 0'
-expect 2 ./probe wrong-threads x.png
-complains 'threads: found -1'
-expect 2 ./probe wrong-reference x.png
-complains 'reference: found "cover", expected none beside output'
-expect 2 ./probe place x.jpg
-complains "found \"x.jpg\", expected a name that ends in .png"
-expect 3 ./probe place nowhere/x.png
-complains 'nowhere/x.png: cannot write: there is no folder nowhere'
-expect 3 ./probe place -
-complains 'no display' 'option output'
+expect 2 ./probe size x.png 65536 65536 :: '65536x65536 pixels'
+expect 2 ./probe null :: 'found no function'
+expect 2 ./probe wrong-size :: 'size of the options: found 0'
+expect 2 ./probe wrong-threads x.png :: 'threads: found -1'
+expect 2 ./probe wrong-reference x.png :: 'reference: found "cover", expected none beside output'
+expect 2 ./probe place x.jpg :: "found \"x.jpg\", expected a name that ends in .png"
+expect 3 ./probe place nowhere/x.png :: 'nowhere/x.png: cannot write: there is no folder nowhere'
+expect 3 ./probe place - :: 'no display' 'option output'
 no_leftovers
 finish
