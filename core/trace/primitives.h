@@ -103,7 +103,8 @@ template <class F, class Q>
     if constexpr (Q::shadow) h.hit = mask_and_not(h.hit, equal(query.aim, element));
     if (!any(h.hit)) continue;
     if constexpr (Q::by_tree)
-      if (f.outline[i].kind == Outline::triangle) h.t = max(h.t, query.near);
+      if (f.outline[i].kind == Outline::triangle)
+        h.t = select(less_equal(query.near, h.t * F(slab_room)), h.t, query.near);
     const Start<F> start = start_on<F>(ray.from, element);
     const auto better = beats(h.t, element, mask_and_not(h.hit, start.here), best, query);
     best.t = select(better, h.t, best.t);

@@ -22,7 +22,8 @@ def run(command, code=0, *words, out=(), loud=False, given=b"", by=(), **variabl
 
     Fails unless the exit code is this one, standard error holds the words (texts or patterns) and standard output those
     of "out". Without words nothing may be said, unless it may be loud. A refusal is one line that begins with
-    "tyndall: "; nothing is printed and no file changes. "by": a command that starts the program; "variables": of the environment.
+    "tyndall: "; nothing is printed and no file changes. "by": a command that starts the program; "variables": of the
+    environment.
     """
     before = files()
     arguments = shlex.split(command) if isinstance(command, str) else command

@@ -9,7 +9,8 @@ import pytest
 from program import HAS_EXR, PROGRAM, ROOT, pfm, run, write
 
 SCENE = """{ "tyndall": 1, "image": { "width": 8, "height": 8 },
-  "textures": { "t": { "type": "image", "file": "texture.png" } }, "materials": { "m": { "type": "lambertian", "albedo": "t" } },
+  "textures": { "t": { "type": "image", "file": "texture.png" } },
+  "materials": { "m": { "type": "lambertian", "albedo": "t" } },
   "objects": [ { "type": "sphere", "center": [0, 0, -2], "radius": 1, "material": "m" } ] }"""
 FILM = """{ "tyndall": 1, "image": { "width": 24, "height": 16 }, "render": { "seed": 5, "spp": 4 },
   "animation": { "frames": 4, "keys": { "/materials/gold/fuzz": { "0": 0, "3": 0.3 } } },
