@@ -240,14 +240,15 @@ Affine quad_map(const Quad<>& quad, const Placement& placement, Vec3d origin) {
 }
 
 Outline outline_in_scene(const Triangle<>& t, const Placement& placement, Vec3d origin) {
-  // hit_outlined() rounds a dozen times, each by at most 2^-24 of the coordinates or of the distance.
+  // hit_outlined() rounds a dozen times, each by at most 2^-24 of the coordinates or of the distance, which is at most
+  // that of the start from the origin and that of the triangle from there.
   constexpr double rounding = 0x1p-19;
   const Reciprocal r = reciprocal_edges(t.u, t.v);
   const double per_distance = rounding * 2 * (length(r.a) + length(r.b));
   double reach = 0;
   for (const Vec3d& corner : {t.corner, t.corner + t.u, t.corner + t.v})
     reach = std::max(reach, length(place(placement, corner) - origin));
-  return {Outline::triangle, 0, static_cast<float>(per_distance * reach), static_cast<float>(per_distance)};
+  return {Outline::triangle, 0, static_cast<float>(per_distance * 2 * reach), static_cast<float>(per_distance)};
 }
 
 Affine box_map(const Box<>& box, const Placement& placement, Vec3d origin) {

@@ -12,8 +12,8 @@ struct Outline {
   enum Kind : std::int32_t { triangle, ring };  ///< triangle: x + y <= 0; ring: inner² <= x² + y² <= 1
   Kind kind = triangle;
   float inner = 0;  ///< of a ring: radius of the hole, in [0, 1); 0: a disk
-  /// Of a triangle that rays are traced against: bound how far rounding moves x, y and x + y where a ray seen head on
-  /// meets it, at distance 0 and for each unit of distance. See hit_outlined().
+  /// Of a triangle that rays are traced against: bound how far rounding moves x, y and x + y where a ray meets it head
+  /// on that starts at the origin, and what each unit of distance of its start from there adds. See hit_outlined().
   float rounding = 0, rounding_per_distance = 0;
 };
 
@@ -56,7 +56,8 @@ TYNDALL_INLINE QuadHit<F> hit_outlined(const Affine& map, const Outline& outline
   const F x = affine_point(map, 0, p), y = affine_point(map, 1, p);
   if (outline.kind != Outline::triangle) return {t, mask_and(hit, within(outline, x, y))};
   const F beyond = max(F(-1.0f) - min(x, y), x + y) * abs(slope);
-  const F room = mul_add(splat<F>(outline.rounding_per_distance), t, splat<F>(outline.rounding));
+  const F from = abs(origin.x) + abs(origin.y) + abs(origin.z);
+  const F room = mul_add(splat<F>(outline.rounding_per_distance), from, splat<F>(outline.rounding));
   return {t, mask_and(hit, less_equal(beyond, room))};
 }
 
