@@ -23,10 +23,9 @@ std::string reason(int error) { return std::generic_category().message(error); }
 ScratchFolder::ScratchFolder() {
   int problem = 0;
   const fs::path made = make_temporary_folder("tyndall-book-", &problem);
-  std::error_code error;
   if (made.empty())
-    throw IoError(printable(fs::temp_directory_path(error).string()) +
-                  ": cannot make a temporary folder: " + reason(problem));
+    throw IoError(printable(temporary_folder().string()) + ": cannot make a temporary folder: " + reason(problem));
+  std::error_code error;
   path_ = fs::canonical(made, error);
   if (error) path_ = made;
 }

@@ -55,11 +55,15 @@ std::size_t longest_name(const fs::path& folder) {
   return longest > 64 ? static_cast<std::size_t>(longest) : 255;
 }
 
+fs::path temporary_folder() {
+  const char* chosen = std::getenv("TMPDIR");
+  return chosen && *chosen ? chosen : "/tmp";
+}
+
 fs::path make_temporary_folder(const std::string& begin, int* error) {
-  std::error_code none;
-  std::string folder = (fs::temp_directory_path(none) / (begin + "XXXXXX")).string();
-  const bool made = !none && mkdtemp(folder.data());
-  if (error) *error = made ? 0 : none ? none.value() : errno;
+  std::string folder = (temporary_folder() / (begin + "XXXXXX")).string();
+  const bool made = mkdtemp(folder.data());
+  if (error) *error = made ? 0 : errno;
   return made ? fs::path(folder) : fs::path();
 }
 

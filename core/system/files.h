@@ -13,6 +13,8 @@ std::vector<std::string> names_in_folder(const std::filesystem::path& folder);
 /// How many bytes a name in the folder may have.
 std::size_t longest_name(const std::filesystem::path& folder);
 
+/// Where temporary files go: $TMPDIR, or /tmp. It need not exist.
+std::filesystem::path temporary_folder();
 /// Makes a new folder among the temporary files, only for this user: BEGIN and six letters. Empty: none can be made.
 /// error: why, if that is asked for.
 std::filesystem::path make_temporary_folder(const std::string& begin, int* error = nullptr);
