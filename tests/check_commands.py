@@ -39,6 +39,7 @@ PLACEHOLDERS = {
     "fog-ball/": "fog-ball/depth1-albedo0.5-b0",
 }
 OTHER_OPTIONS = {"--all", "--nightly", "--preset", "--build", "--target", "--cflags", "--libs",  # of ./test, CMake, pkg-config
+                 "--install", "--no-skip",  # of CMake, doctest
                  "--factory-startup", "--agree", "--longest"}  # of Blender, tests/peers
 
 
@@ -166,7 +167,7 @@ class Commands:
         if "main.cc" in words:
             small = [*small, "--trust"]  # also where the system has no guard
         checks = name == "verify" or any(word.startswith("--max-") for word in words)
-        opens_window = not through_run and (not words or name == "view" or (not name and words[0] != "help" and words[0][0] != "-"))
+        opens_window = not through_run and (not words or name == "view" or (not name and words[0] not in ("help", "version") and words[0][0] != "-"))
         if opens_window or name == "inspect":
             files = (self.folder / word for word in words)
             reads = (*words, *(file.read_bytes() for file in files if file.is_file()))
