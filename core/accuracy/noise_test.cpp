@@ -318,7 +318,8 @@ NoiseScores noise_scores(const NoisyImage& a, const NoisyImage& b) {
   if (scores.compares_outliers) scores.outlier_z = corrected(count_outliers(a, b, r, scores), 1, kinds);
   scores.z = std::max({scores.z, scores.block_z, scores.outlier_z});
   if (!scores.tells())
-    scores.enough_spp = 1.1 * std::min(a.spp, b.spp) * too_few_effective_samples / std::max(scores.effective_samples, 1.0);
+    scores.enough_spp =
+        1.1 * std::min(a.spp, b.spp) * too_few_effective_samples / std::max(scores.effective_samples, 1.0);
   return scores;
 }
 

@@ -56,13 +56,13 @@ struct NoiseScores {
   std::array<double, 3> mean_z{};               ///< of the mean of each channel
   std::array<double, 3> difference{}, error{};  ///< of the means: image minus reference, and its standard error
 
-  int blocks = 0;                 ///< of 16 x 16 pixels; those at the edges may be smaller
-  int lit_blocks = 0;             ///< of them, with a mean above its own noise in some channel of either picture
-  int unclear_blocks = 0;         ///< of those, with too few effective samples: only a large difference would show
-  double effective_samples = 0;   ///< the most that a lit channel of a block has
-  double enough_spp = 0;          ///< samples a pixel that would do where no block can tell; 0: one can, or it is not known
-  double block_z = 0;             ///< the largest of all blocks and channels
-  Region worst_block;             ///< its pixels
+  int blocks = 0;                ///< of 16 x 16 pixels; those at the edges may be smaller
+  int lit_blocks = 0;            ///< of them, with a mean above its own noise in some channel of either picture
+  int unclear_blocks = 0;        ///< of those, with too few effective samples: only a large difference would show
+  double effective_samples = 0;  ///< the most that a lit channel of a block has
+  double enough_spp = 0;  ///< samples a pixel that would do where no block can tell; 0: one can, or it is not known
+  double block_z = 0;     ///< the largest of all blocks and channels
+  Region worst_block;     ///< its pixels
   std::vector<float> z_of_block;  ///< the largest of the channels, row by row
 
   /// Pixels whose difference is above 5 standard errors of the 3 x 3 pixels around, and the number that noise explains:

@@ -273,9 +273,7 @@ constexpr bool solves_specular_paths(KernelSet set) {
 }
 /// Whether a set has a path loop for scenes that reuse paths. The few such scenes of the others are as quick in the
 /// kernel with every model.
-constexpr bool has_reuse_loop(KernelSet set) {
-  return !solves_specular_paths(set) || set == KernelSet::common_models;
-}
+constexpr bool has_reuse_loop(KernelSet set) { return !solves_specular_paths(set) || set == KernelSet::common_models; }
 const char* name_of(KernelSet set);
 
 struct RenderScene {

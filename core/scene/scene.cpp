@@ -20,8 +20,8 @@ SceneChange change_between(const Scene& before, const Scene& after) {
                materials_b, objects_b] = after;
   RenderSettings render = render_b;
   render.spp = render_a.spp;
-  const bool same_things = background_a == background_b && textures_a == textures_b && materials_a == materials_b &&
-                           objects_a == objects_b;
+  const bool same_things =
+      background_a == background_b && textures_a == textures_b && materials_a == materials_b && objects_a == objects_b;
   const bool same = width_a == width_b && height_a == height_b && render_a == render && same_things;
   render.seed = render_a.seed, render.sampler = render_a.sampler;
   const bool same_light = same_things && render_a == render && camera_a.shutter_open == camera_b.shutter_open &&

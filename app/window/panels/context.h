@@ -33,9 +33,10 @@ struct Context {
   bool split = false;
   std::string method, kept_method;  ///< by which the halves of a split view are rendered
   const LiveAccuracy* accuracy = nullptr;
-  bool is_true = false;          ///< errors are against a reference, not estimated
-  const ErrorCurve *run = nullptr, *clean_run = nullptr;  ///< how the error fell, and that of the clean view; null: not known
-  bool can_show_errors = false;  ///< there is something to measure the picture against
+  bool is_true = false;  ///< errors are against a reference, not estimated
+  const ErrorCurve *run = nullptr,
+                   *clean_run = nullptr;  ///< how the error fell, and that of the clean view; null: not known
+  bool can_show_errors = false;           ///< there is something to measure the picture against
   std::vector<BuiltIn> scenes;
   std::vector<std::filesystem::path> recent;  ///< files that were opened before, the newest first
   const SmallPictures* pictures = nullptr;    ///< of scenes; null: there are none

@@ -164,7 +164,8 @@ class sphere : public hittable {
 #endif
   bool hit(const ray& r, RANGE, hit_record& rec) const override {
     const vec3 from = r.origin() - centre_at(r.time());
-    const double a = dot(r.direction(), r.direction()), b = dot(from, r.direction()), d = b * b - a * (dot(from, from) - radius * radius);
+    const double a = dot(r.direction(), r.direction()), b = dot(from, r.direction()),
+                 d = b * b - a * (dot(from, from) - radius * radius);
     for (const double side : {-1.0, 1.0}) {
       const double t = (-b + side * std::sqrt(d)) / a;
       if (!(d > 0 && t > LOW && t < HIGH)) continue;
@@ -216,16 +217,21 @@ class translate : public hittable {
 };
 class rotate_y : public hittable {
  public:
-  rotate_y(pointer<hittable> what, double angle) : object(what), sin_theta(std::sin(angle * pi / 180)), cos_theta(std::cos(angle * pi / 180)) {}
+  rotate_y(pointer<hittable> what, double angle)
+      : object(what), sin_theta(std::sin(angle * pi / 180)), cos_theta(std::cos(angle * pi / 180)) {}
   bool hit(const ray& r, RANGE, hit_record& rec) const override {
-    if (!object->hit(ray(turned(r.origin(), sin_theta), turned(r.direction(), sin_theta), r.time()), PASS(LOW, HIGH), rec)) return false;
+    if (!object->hit(ray(turned(r.origin(), sin_theta), turned(r.direction(), sin_theta), r.time()), PASS(LOW, HIGH),
+                     rec))
+      return false;
     rec.p = turned(rec.p, -sin_theta);
     rec.normal = turned(rec.normal, -sin_theta);
     return true;
   }
 
  private:
-  vec3 turned(const vec3& a, double s) const { return vec3(cos_theta * a[0] - s * a[2], a[1], s * a[0] + cos_theta * a[2]); }
+  vec3 turned(const vec3& a, double s) const {
+    return vec3(cos_theta * a[0] - s * a[2], a[1], s * a[0] + cos_theta * a[2]);
+  }
   pointer<hittable> object;
   double sin_theta, cos_theta;
 };
@@ -234,7 +240,9 @@ class moving_sphere : public sphere {
  public:
   moving_sphere(point3 a, point3 b, double t0, double t1, double r, shared_ptr<material> m)
       : sphere(a, r, m), center0(a), center1(b), time0(t0), time1(t1) {}
-  point3 centre_at(double time) const override { return center0 + (time - time0) / (time1 - time0) * (center1 - center0); }
+  point3 centre_at(double time) const override {
+    return center0 + (time - time0) / (time1 - time0) * (center1 - center0);
+  }
   point3 center0, center1;
   double time0, time1;
 };
@@ -253,7 +261,8 @@ class flip_face : public hittable {
 inline shared_ptr<hittable_list> box(const point3& a, const point3& b, shared_ptr<material> m) {
   auto sides = make_shared<hittable_list>();
   const vec3 x(b[0] - a[0], 0, 0), y(0, b[1] - a[1], 0), z(0, 0, b[2] - a[2]);
-  for (const auto& [q, u, v] : {std::make_tuple(a, x, y), std::make_tuple(a + z, x, y), std::make_tuple(a, y, z), std::make_tuple(a + x, y, z), std::make_tuple(a, x, z), std::make_tuple(a + y, x, z)})
+  for (const auto& [q, u, v] : {std::make_tuple(a, x, y), std::make_tuple(a + z, x, y), std::make_tuple(a, y, z),
+                                std::make_tuple(a + x, y, z), std::make_tuple(a, x, z), std::make_tuple(a + y, x, z)})
     sides->add(make_shared<quad>(q, u, v, m));
   return sides;
 }
@@ -272,7 +281,8 @@ class solid_color : public texture {
 };
 class checker_texture : public texture {
  public:
-  checker_texture(double scale, const color& a, const color& b) : inv_scale(1 / scale), even(make_shared<solid_color>(a)), odd(make_shared<solid_color>(b)) {}
+  checker_texture(double scale, const color& a, const color& b)
+      : inv_scale(1 / scale), even(make_shared<solid_color>(a)), odd(make_shared<solid_color>(b)) {}
   color value(double u, double v, const point3& p) const override {
     int sum = 0;
     for (int k = 0; k < 3; ++k) sum += static_cast<int>(std::floor(inv_scale * p[k]));
@@ -335,7 +345,8 @@ class dielectric : public material {
 #else
     const bool outside = rec.front_face;
 #endif
-    const double ratio = outside ? 1 / ref_idx : ref_idx, cosine = -dot(to, n), sine2 = ratio * ratio * (1 - cosine * cosine);
+    const double ratio = outside ? 1 / ref_idx : ref_idx, cosine = -dot(to, n),
+                 sine2 = ratio * ratio * (1 - cosine * cosine);
     const double r0 = std::pow((1 - ratio) / (1 + ratio), 2);
     const bool mirrors = sine2 > 1 || r0 + (1 - r0) * std::pow(1 - cosine, 5) > random_double();
     out = ray(rec.p, mirrors ? reflect(to, n) : ratio * to + (ratio * cosine - std::sqrt(1 - sine2)) * n, in.time());
@@ -370,10 +381,13 @@ class isotropic : public material {
 };
 class constant_medium : public hittable {
  public:
-  constant_medium(shared_ptr<hittable> b, double d, const color& c) : boundary(b), neg_inv_density(-1 / d), phase_function(make_shared<isotropic>(c)) {}
+  constant_medium(shared_ptr<hittable> b, double d, const color& c)
+      : boundary(b), neg_inv_density(-1 / d), phase_function(make_shared<isotropic>(c)) {}
   bool hit(const ray& r, interval range, hit_record& rec) const override {
     hit_record in, out;
-    if (!boundary->hit(r, interval(-infinity, infinity), in) || !boundary->hit(r, interval(in.t + 0.0001, infinity), out)) return false;
+    if (!boundary->hit(r, interval(-infinity, infinity), in) ||
+        !boundary->hit(r, interval(in.t + 0.0001, infinity), out))
+      return false;
     const double from = std::fmax(in.t, range.min), to = std::fmin(out.t, range.max);
     const double t = std::fmax(from, 0) + neg_inv_density * std::log(random_double()) / r.direction().length();
     if (from >= to || t > to) return false;
@@ -400,7 +414,8 @@ class camera {
       for (int i = 0; i < image_width; ++i) {
         color sum;
         for (int s = 0; s < samples_per_pixel; ++s) sum += ray_color(get_ray(i, j), max_depth, world);
-        for (int k = 0; k < 3; ++k) std::cout << static_cast<int>(256 * std::fmin(std::sqrt(sum[k] / samples_per_pixel), 0.999)) << ' ';
+        for (int k = 0; k < 3; ++k)
+          std::cout << static_cast<int>(256 * std::fmin(std::sqrt(sum[k] / samples_per_pixel), 0.999)) << ' ';
         std::cout << '\n';
       }
   }
@@ -409,11 +424,13 @@ class camera {
   int image_height = 0;
   ray get_ray(int i, int j) const {
     const vec3 w = unit_vector(lookfrom - lookat), u = unit_vector(cross(vup, w)), v = cross(w, u);
-    const double size = 2 * std::tan(vfov * pi / 360) * focus_dist / image_height, lens = focus_dist * std::tan(defocus_angle * pi / 360);
+    const double size = 2 * std::tan(vfov * pi / 360) * focus_dist / image_height,
+                 lens = focus_dist * std::tan(defocus_angle * pi / 360);
     vec3 p = random_in_ball();
     while (p[0] * p[0] + p[1] * p[1] > 1) p = random_in_ball();
     const point3 eye = lookfrom + lens * p[0] * u + lens * p[1] * v;
-    const point3 seen = lookfrom - focus_dist * w + size * (i + random_double() - image_width / 2.0) * u - size * (j + random_double() - image_height / 2.0) * v;
+    const point3 seen = lookfrom - focus_dist * w + size * (i + random_double() - image_width / 2.0) * u -
+                        size * (j + random_double() - image_height / 2.0) * v;
     return ray(eye, seen - eye, random_double());
   }
 #ifndef SKY
@@ -434,7 +451,8 @@ class camera {
 #else
 class camera {
  public:
-  camera(point3 from, point3 at, vec3 vup, double vfov, double aspect, double aperture, double focus, double t0 = 0, double t1 = 0)
+  camera(point3 from, point3 at, vec3 vup, double vfov, double aspect, double aperture, double focus, double t0 = 0,
+         double t1 = 0)
       : origin(from), lens_radius(aperture / 2), time0(t0), time1(t1) {
     const vec3 w = unit_vector(from - at);
     u = unit_vector(cross(vup, w));
@@ -447,7 +465,8 @@ class camera {
     vec3 p = random_in_ball();
     while (p[0] * p[0] + p[1] * p[1] > 1) p = random_in_ball();
     const vec3 offset = lens_radius * p[0] * u + lens_radius * p[1] * v;
-    return ray(origin + offset, lower_left_corner + s * horizontal + t * vertical - origin - offset, random_double(time0, time1));
+    return ray(origin + offset, lower_left_corner + s * horizontal + t * vertical - origin - offset,
+               random_double(time0, time1));
   }
 
  private:
