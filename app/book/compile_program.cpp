@@ -6,6 +6,7 @@
 #include "app/text/values.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/system/open_file.h"
 #include "core/system/signals.h"
 
 #include <algorithm>
@@ -85,8 +86,7 @@ ChildEnd compile_by_any(const ProgramTask& task, const std::vector<std::string>&
     plan.max_errors = max_output;
     ChildEnd end = run_guarded(task, plan, "it was compiled");
     if (end.start_error == ENOENT || end.start_error == EACCES) continue;
-    if (end.start_error != 0)
-      throw IoError(compiler[0] + " cannot be started: " + std::generic_category().message(end.start_error));
+    if (end.start_error != 0) throw IoError(compiler[0] + " cannot be started: " + error_text(end.start_error));
     check_end(task, compiler[0], end);
     return end;
   }

@@ -4,6 +4,7 @@
 #include "app/text/values.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/system/open_file.h"
 #include "core/system/process.h"
 #include "core/system/signals.h"
 
@@ -35,8 +36,7 @@ std::string last_line(std::string text) {
   if (end.start_error == EACCES)
     throw IoError(printable(task.folder.parent_path().string()) +
                   ": programs cannot be run in this temporary folder (is it mounted noexec?); TMPDIR names another");
-  if (end.start_error != 0)
-    throw IoError(name + ": cannot be started: " + std::generic_category().message(end.start_error));
+  if (end.start_error != 0) throw IoError(name + ": cannot be started: " + error_text(end.start_error));
   if (end.given_up)
     throw UsageError(name + ": did not come to the colour of its first ray within " + number_text(request.seconds) +
                      " s, and was ended");

@@ -3,9 +3,9 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/system/files.h"
+#include "core/system/open_file.h"
 
 #include <cerrno>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -14,17 +14,11 @@ namespace tyndall {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-std::string reason(int error) { return std::generic_category().message(error); }
-
-}  // namespace
-
 ScratchFolder::ScratchFolder() {
   int problem = 0;
   const fs::path made = make_temporary_folder("tyndall-book-", &problem);
   if (made.empty())
-    throw IoError(printable(temporary_folder().string()) + ": cannot make a temporary folder: " + reason(problem));
+    throw IoError(printable(temporary_folder().string()) + ": cannot make a temporary folder: " + error_text(problem));
   std::error_code error;
   path_ = fs::canonical(made, error);
   if (error) path_ = made;
@@ -49,7 +43,7 @@ void write_text(const fs::path& file, const std::string& text) {
   out << text << std::flush;
   if (!out || error)
     throw IoError(printable(file.parent_path().string()) +
-                  ": cannot write temporary files: " + reason(error ? error.value() : errno));
+                  ": cannot write temporary files: " + error_text(error ? error.value() : errno));
 }
 
 std::string read_text(const fs::path& file) {
@@ -58,7 +52,7 @@ std::string read_text(const fs::path& file) {
   errno = 0;
   std::ifstream in(file, std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(in)), {});
-  if (!in.is_open() || in.bad()) throw IoError(printable(file.string()) + ": cannot be read: " + reason(errno));
+  if (!in.is_open() || in.bad()) throw IoError(printable(file.string()) + ": cannot be read: " + error_text(errno));
   return text;
 }
 

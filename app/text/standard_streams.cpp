@@ -2,11 +2,11 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/system/open_file.h"
 
 #include <cerrno>
 #include <cstdio>
 #include <new>
-#include <system_error>
 
 namespace tyndall {
 namespace {
@@ -17,7 +17,7 @@ constexpr std::size_t longest_message = 10000;  // bytes: two of the longest nam
 
 void write_standard_output(const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-    throw IoError("standard output: cannot write: " + std::generic_category().message(errno));
+    throw IoError("standard output: cannot write: " + error_text(errno));
 }
 
 void complain(std::string_view text) {

@@ -216,7 +216,7 @@ Context MainWindow::context(double now) {
   context.run = &accuracy.curves(Half::current).current();
   context.clean_run = &accuracy.curves(Half::current, Kind::clean).current();
   context.can_show_errors = session_.can_show_errors();
-  context.scenes = panels_.now.scenes;
+  context.scenes = std::move(panels_.now.scenes);
   context.recent = gallery_.recent();
   context.pictures = &gallery_.pictures();
   return context;
