@@ -36,7 +36,7 @@ void make_small(Scene& scene) {
 
 /// Settings of --method: the scene's own, and what its flags change.
 ChartMethod method_of(const CommandRequest& request, const Scene& scene) {
-  ChartMethod method{request.command, scene.render, request.isa};
+  ChartMethod method{request.curve, scene.render, request.isa};
   find_kernels(request.isa);
   apply(request.scene.render, method.settings);
   return method;

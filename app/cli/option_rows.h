@@ -28,7 +28,7 @@ struct OptionRow {
 /// The row of an option, or of an argument such as "SCENE", of that command. There is one.
 const OptionRow& option_row(std::string_view name, std::string_view command);
 
-/// The curve of a chart that --method describes, NAME=FLAGS; its command is the name.
+/// The curve of a chart that --method describes, NAME=FLAGS.
 CommandRequest read_method(const std::string& text);
 
 /// Refuses options of a render that exclude each other.

@@ -99,7 +99,7 @@ CommandRequest read_method(const std::string& text) {
   if (equals == 0 || equals == std::string::npos)
     throw UsageError("found \"" + text + "\", expected NAME=FLAGS, e.g. 'no MIS=--integrator nee'");
   CommandRequest method;
-  method.command = text.substr(0, equals);
+  method.curve = text.substr(0, equals);
   std::istringstream stream(text.substr(equals + 1));
   std::vector<std::string> arguments;
   for (std::string argument; stream >> argument;) arguments.push_back(argument);

@@ -70,9 +70,9 @@ struct CommandRequest {
 
   // Of chart, verify, inspect and convert.
   std::filesystem::path output;  ///< chart: the SVG, for "all" a folder; convert: the scene, "-": standard output
-  std::vector<CommandRequest>
-      methods;         ///< curves of a chart, by their command's name: settings and what their flags change
-  double budget = 50;  ///< seconds, the reference included; for "all" of each chart
+  std::vector<CommandRequest> methods;  ///< curves of a chart: what their flags change
+  std::string curve;                    ///< of a method: its name
+  double budget = 50;                   ///< seconds, the reference included; for "all" of each chart
   bool json = false;
   bool thorough = false;  ///< standard errors of 1e-4 instead of 1e-3
   bool measure = false;   ///< measure how much faster the chosen kernel and chains are

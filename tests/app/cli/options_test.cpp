@@ -266,9 +266,9 @@ TEST_CASE("chart: methods with flags of their own, reference, budget") {
   CHECK(command.output == "a.svg");
   CHECK(command.budget == 7);
   REQUIRE(command.methods.size() == 2);
-  CHECK(command.methods[0].command == "plain");
+  CHECK(command.methods[0].curve == "plain");
   CHECK_FALSE(command.methods[0].scene.render.given.contains("integrator"));
-  CHECK(command.methods[1].command == "no MIS");
+  CHECK(command.methods[1].curve == "no MIS");
   CHECK(command.methods[1].scene.render.values.integrator == Integrator::nee);
   CHECK(command.methods[1].isa == "scalar");
   CHECK(std::get<CommandRequest>(read_command({"chart", "all", "-o", "charts"})).output == "charts");
