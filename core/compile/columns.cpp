@@ -239,16 +239,22 @@ Affine quad_map(const Quad<>& quad, const Placement& placement, Vec3d origin) {
   return map;
 }
 
-Outline outline_in_scene(const Triangle<>& t, const Placement& placement, Vec3d origin) {
+Affine triangle_map(const Triangle<>& t, const Placement& placement, Vec3d origin) {
   // hit_outlined() rounds a dozen times, each by at most 2^-24 of the coordinates or of the distance, which is at most
   // that of the start from the origin and that of the triangle from there.
   constexpr double rounding = 0x1p-19;
+  Affine map = quad_map(frame_of(t), placement, origin);
   const Reciprocal r = reciprocal_edges(t.u, t.v);
-  const double per_distance = rounding * 2 * (length(r.a) + length(r.b));
+  const auto scale = static_cast<float>(1 / (rounding * 2 * (length(r.a) + length(r.b))));
+  map.row[2] = scale * map.row[2], map.offset[2] *= scale;
+  return map;
+}
+
+Outline outline_in_scene(const Triangle<>& t, const Placement& placement, Vec3d origin) {
   double reach = 0;
   for (const Vec3d& corner : {t.corner, t.corner + t.u, t.corner + t.v})
     reach = std::max(reach, length(place(placement, corner) - origin));
-  return {Outline::triangle, 0, static_cast<float>(per_distance * 2 * reach), static_cast<float>(per_distance)};
+  return {Outline::triangle, static_cast<float>(2 * reach)};
 }
 
 Affine box_map(const Box<>& box, const Placement& placement, Vec3d origin) {

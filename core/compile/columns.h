@@ -26,8 +26,11 @@ struct Reciprocal {
 };
 Reciprocal reciprocal_edges(Vec3d u, Vec3d v);
 
-/// A quad or box as an affine map (see Affine); a triangle's outline with the bounds of rounding.
+/// A quad, triangle or box as an affine map (see Affine). That of a triangle is that of its frame, but row 2 is the
+/// distance from its plane over how far rounding moves a hit in rows 0 and 1, for each unit of the coordinates.
 Affine quad_map(const Quad<>& quad, const Placement& placement, Vec3d origin);
+Affine triangle_map(const Triangle<>& triangle, const Placement& placement, Vec3d origin);
+/// With the size that rays need.
 Outline outline_in_scene(const Triangle<>& triangle, const Placement& placement, Vec3d origin);
 Affine box_map(const Box<>& box, const Placement& placement, Vec3d origin);
 

@@ -94,11 +94,13 @@ struct SlotFiller {
     }
     out.boxes.element.push_back(element);
   }
-  void operator()(const Triangle<>& t) const { add_outlined(frame_of(t), outline_in_scene(t, placement, out.origin)); }
-  void operator()(const Disk<>& d) const { add_outlined(frame_of(d), outline_of(d)); }
+  void operator()(const Triangle<>& t) const {
+    add_outlined(triangle_map(t, placement, out.origin), outline_in_scene(t, placement, out.origin));
+  }
+  void operator()(const Disk<>& d) const { add_outlined(quad_map(frame_of(d), placement, out.origin), outline_of(d)); }
 
-  void add_outlined(const Quad<>& frame, const Outline& outline) const {
-    out.outlined.map.push_back(quad_map(frame, placement, out.origin));
+  void add_outlined(const Affine& map, const Outline& outline) const {
+    out.outlined.map.push_back(map);
     out.outlined.outline.push_back(outline);
     out.outlined.element.push_back(element);
   }

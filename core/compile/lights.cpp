@@ -54,7 +54,7 @@ void give_outline(Lights& out, const Emitter& e, const auto& shape) {
   out.reach2[k] = static_cast<float>(reach2_of(shape));
   out.kind[k] = triangle ? Lights::triangle : Lights::ring;
   out.inner.resize(k + 1);
-  out.inner[k] = outline.inner;
+  out.inner[k] = outline.size;
   const double area = area_fraction(outline) * static_cast<double>(out.area[k]);
   out.area[k] = static_cast<float>(area), out.power[k] = static_cast<float>(area * e.brightness);
 }

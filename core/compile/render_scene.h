@@ -117,7 +117,7 @@ struct Flats {
   std::vector<std::int32_t> element;  ///< a box owns six: its faces x-, x+, y-, y+, z-, z+
   /// Boxes only: the numbers of `map` once more, in columns: x, y, z of the rows, then the offsets.
   std::vector<float> column[affine_numbers];
-  std::vector<Outline> outline;  ///< triangles and disks only, whose `map` is that of their frame
+  std::vector<Outline> outline;  ///< triangles and disks only; `map`: see triangle_map(), or that of the frame
   int bounding = 0;  ///< how many at the end are quads that bound the scene: shadow rays skip them (surroundings.h)
 };
 
@@ -196,7 +196,7 @@ struct Lights {
   std::vector<float> corner[3], edge_u[3], edge_v[3], normal[3];
   std::vector<float> length_u, length_v;  ///< spheres: the radius in length_u
   std::vector<float> area;                ///< of what emits: of a triangle half of its frame's
-  std::vector<float> inner;               ///< rings: Outline::inner; empty without triangles and rings
+  std::vector<float> inner;               ///< rings: Outline::size; empty without triangles and rings
   std::vector<float> center[3];           ///< a point in the middle, for choosing a light
   std::vector<float> power;               ///< area times the largest component of the radiance
   std::vector<float> reach2;              ///< squared radius of a sphere around center that holds the light

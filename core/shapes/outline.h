@@ -11,10 +11,9 @@ namespace tyndall {
 struct Outline {
   enum Kind : std::int32_t { triangle, ring };  ///< triangle: x + y <= 0; ring: inner² <= x² + y² <= 1
   Kind kind = triangle;
-  float inner = 0;  ///< of a ring: radius of the hole, in [0, 1); 0: a disk
-  /// Of a triangle that rays are traced against: bound how far rounding moves x, y and x + y where a ray meets it head
-  /// on that starts at the origin, and what each unit of distance of its start from there adds. See hit_outlined().
-  float rounding = 0, rounding_per_distance = 0;
+  /// Of a ring: radius of the hole, in [0, 1); 0: a disk. Of a triangle that rays are traced against: twice the
+  /// distance of its farthest corner from the origin, see hit_outlined().
+  float size = 0;
 };
 
 /// The parallelogram that a triangle is half of.
@@ -32,7 +31,7 @@ inline constexpr bool has_outline = requires(const T& shape) {
 
 /// Fraction of the frame's area within the outline, in (0, 1).
 inline double area_fraction(const Outline& o) {
-  const double inner = static_cast<double>(o.inner);
+  const double inner = static_cast<double>(o.size);
   return o.kind == Outline::triangle ? 0.5 : 0.25 * pi * (1 - inner * inner);
 }
 
@@ -41,11 +40,12 @@ template <class F>
 TYNDALL_INLINE MaskOf<F> within(const Outline& o, F x, F y) {
   if (o.kind == Outline::triangle) return mask_and(less_equal(max(-x, -y), F(1.0f)), less_equal(x + y, F(0.0f)));
   const F r2 = mul_add(x, x, y * y);
-  return mask_and(less_equal(r2, F(1.0f)), less_equal(splat<F>(o.inner * o.inner), r2));
+  return mask_and(less_equal(r2, F(1.0f)), less_equal(splat<F>(o.size * o.size), r2));
 }
 
-/// hit_quad() for a shape within an outline. map: of its frame. A triangle is as much wider as rounding may have moved
-/// the point, which is more for rays that meet it at a slant, so that none slips between two that share corners.
+/// hit_quad() for a shape within an outline. map: of its frame; of a triangle see triangle_map(). A triangle is as much
+/// wider as rounding may have moved the point, which is more for rays that meet it at a slant, so that none slips
+/// between two that share corners.
 template <class F>
 TYNDALL_INLINE QuadHit<F> hit_outlined(const Affine& map, const Outline& outline, Vec3<F> origin, Vec3<F> direction,
                                        F limit) {
@@ -57,8 +57,7 @@ TYNDALL_INLINE QuadHit<F> hit_outlined(const Affine& map, const Outline& outline
   if (outline.kind != Outline::triangle) return {t, mask_and(hit, within(outline, x, y))};
   const F beyond = max(F(-1.0f) - min(x, y), x + y) * abs(slope);
   const F from = abs(origin.x) + abs(origin.y) + abs(origin.z);
-  const F room = mul_add(splat<F>(outline.rounding_per_distance), from, splat<F>(outline.rounding));
-  return {t, mask_and(hit, less_equal(beyond, room))};
+  return {t, mask_and(hit, less_equal(beyond, from + splat<F>(outline.size)))};
 }
 
 /// A point drawn uniformly from a triangle by u in [0, 1)²: fractions of the frame's edges. The half of the frame

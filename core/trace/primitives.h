@@ -102,11 +102,16 @@ template <class F, class Q>
     QuadHit<F> h = hit_outlined(f.map[i], f.outline[i], ray.origin, ray.direction, best.t);
     if constexpr (Q::shadow) h.hit = mask_and_not(h.hit, equal(query.aim, element));
     if (!any(h.hit)) continue;
-    if constexpr (Q::by_tree)
+    if constexpr (Q::by_tree) {
+      const auto entered = less_equal(query.near, h.t * F(slab_room));
       if (f.outline[i].kind == Outline::triangle)
-        h.t = select(less_equal(query.near, h.t * F(slab_room)), h.t, query.near);
+        h.t = select(entered, h.t, query.near);
+      else
+        h.hit = mask_and(h.hit, entered);
+    }
     const Start<F> start = start_on<F>(ray.from, element);
-    const auto better = beats(h.t, element, mask_and_not(h.hit, start.here), best, query);
+    const RayQuery<F, Q::shadow, false> entered_box{query.near, query.aim, query.common_aim};
+    const auto better = beats(h.t, element, mask_and_not(h.hit, start.here), best, entered_box);
     best.t = select(better, h.t, best.t);
     best.element = select(better, element, best.element);
   }
