@@ -10,7 +10,7 @@ namespace tyndall::test {
 inline bool same(const Affine& a, const Affine& b) {
   return std::equal(a.row, a.row + 3, b.row) && std::equal(a.offset, a.offset + 3, b.offset);
 }
-inline bool same(const Outline& a, const Outline& b) { return a.kind == b.kind && a.inner == b.inner; }
+inline bool same(const Outline& a, const Outline& b) { return a.kind == b.kind && a.size == b.size; }
 inline bool same(const Flats& a, const Flats& b) {
   return a.element == b.element &&
          std::equal(a.outline.begin(), a.outline.end(), b.outline.begin(), b.outline.end(),
