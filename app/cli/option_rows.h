@@ -18,11 +18,15 @@ struct Taker {
 };
 
 struct OptionRow {
+  /// Where memory runs out within a list of rows, GCC 12 destroys members of an aggregate that were not made yet.
+  OptionRow(const char* n, const char* u, Taker t, std::string h, std::string_view c = "")
+      : names(n), unit(u), taker(std::move(t)), help(std::move(h)), commands(c) {}
+
   const char* names;  ///< "-t,--threads"
   const char* unit;   ///< what the help calls the value; "": it takes none
   Taker taker;
   std::string help;
-  std::string_view commands{};  ///< those that it is an option of in this way; "": of all that name it
+  std::string_view commands;  ///< those that it is an option of in this way; "": of all that name it
 };
 
 /// The row of an option, or of an argument such as "SCENE", of that command. There is one.

@@ -103,7 +103,7 @@ class Memory:
         code, text = self.run(command)
         assert code == 0, text
         whole, count = self.contents(outputs), int((self.folder.parent / "requests").read_text())
-        for at in range(1 + random.randrange(every), count + 1, every):
+        for at in range(1 + random.Random(name).randrange(every), count + 1, every):
             self.start(kept)
             code, text = self.run(command, at)
             self.check(f"{name}: request {at}", code, text, self.contents(outputs), old, whole)
