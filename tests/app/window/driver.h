@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -23,35 +24,68 @@ inline constexpr const char* scene_text = R"({ "tyndall": 1,
   "background": { "type": "gradient", "bottom": [0.9, 0.9, 0.9], "top": [0.2, 0.3, 0.5] },
   "render": { "spp": 2, "integrator": "path", "sampler": "random" },
   "materials": { "floor": { "type": "lambertian", "albedo": [0.4, 0.4, 0.4] },
-    "gold": { "type": "metal", "albedo": [0.9, 0.6, 0.3], "fuzz": 0.2 } },
+    "gold": { "type": "metal", "albedo": [0.9, 0.6, 0.3], "fuzz": 0.2 },
+    "lamp": { "type": "light", "radiance": [4, 4, 4] } },
   "objects": [
     { "name": "floor", "type": "sphere", "center": [0, -1000, 0], "radius": 1000, "material": "floor" },
-    { "name": "ball", "type": "sphere", "center": [0, 0.8, 0], "radius": 0.8, "material": "gold" }] })";
+    { "name": "ball", "type": "sphere", "center": [0, 0.8, 0], "radius": 0.8, "material": "gold" },
+    { "name": "fog", "type": "medium", "boundary": { "type": "sphere", "center": [2, 0.6, 0], "radius": 0.6 },
+      "density": 1.1, "albedo": [1, 1, 1] },
+    { "name": "lamp", "type": "quad", "corner": [-2, 4, -1], "u": [4, 0, 0], "v": [0, 0, 2], "material": "lamp" }] })";
 
 /// A window over a scene file, and hands for it.
 class Driver {
  public:
-  /// name: of a folder for this test, which becomes the current one, and has the file scene.json.
-  explicit Driver(const std::string& name);
+  /// name: of a folder for this test, which becomes the current one, and has the file scene.json. adjust(options): what
+  /// the command line would say.
+  explicit Driver(const std::string& name, const std::function<void(WindowOptions&)>& adjust = {});
   ~Driver();
 
   /// Draws what input leads to; after an edit until its picture is finished and nothing will change any more.
   void settle();
   /// Puts the mouse on a control; across and down: from 0 to 1.
   void point(const std::string& name, double across = 0.5, double down = 0.5);
+  /// Moves the mouse by window units.
+  void move(float right, float down);
   void press(int button = 0) { hold(button, true); }
   void release(int button = 0) { hold(button, false); }
-  void click(const std::string& name, double across = 0.5, double down = 0.5, int button = 0);
+  void click(const std::string& name, double across = 0.5, double down = 0.5, int button = 0) {
+    push(name, across, down, button), settle();
+  }
+  /// The same without waiting for a picture.
+  void push(const std::string& name, double across = 0.5, double down = 0.5, int button = 0);
+  /// Presses at one place of the picture and releases at another one.
+  void drag(double from_across, double from_down, double to_across, double to_down, int button = 0);
+  void wheel(float notches);
+  /// What is held while mouse and wheel are used, until it is told otherwise.
+  void hold(Modifiers modifiers) { platform_->modifiers = modifiers; }
+  /// A key that flies the camera.
+  void fly(int code);
   /// A key: GLFW's number, letters by their capital.
-  void key(int code, Modifiers modifiers = {});
-  /// Into the control that has the keyboard, and Enter.
+  void key(int code, Modifiers modifiers = {}) { send_key(code, modifiers), settle(); }
+  void send_key(int code, Modifiers modifiers = {});
+  void escape();
+  void undo() { key('Z', {.control = true}); }
+  /// Characters, as shortcuts get them.
+  void press_characters(const std::string& text);
+  /// Into the control that has the keyboard.
+  void write(const std::string& text);
+  /// The same in place of all that it holds, and Enter.
   void type(const std::string& text);
+  /// A value, into the box of its row.
+  void set(const std::string& row, const std::string& text);
   /// What Ctrl + K finds first is carried out.
   void find(const std::string& words);
+  /// Lets the window go on until that is so.
+  void wait_until(const std::function<bool()>& is_so);
 
   /// Whether a control is on the screen, and its value as the log has it.
   bool has(const std::string& control) const { return widgets_.contains(control); }
   std::string value(const std::string& control) const;
+  double number(const std::string& control) const { return std::stod(value(control)); }
+  /// Its width on the screen.
+  float width(const std::string& control) const { return widgets_.at(control).x1 - left(control); }
+  float left(const std::string& control) const { return widgets_.at(control).x0; }
   /// The newest line of a kind, without its first word; "": there is none.
   std::string last(const std::string& kind) const;
   /// How many edits were sent to the renderer.
@@ -63,8 +97,10 @@ class Driver {
     float x0 = 0, y0 = 0, x1 = 0, y1 = 0;
     std::string value;
   };
+  void pass();
   void step();
   void hold(int button, bool down);
+  void strike(ImGuiKey key);
   void read_log();
 
   std::filesystem::path folder_, before_;
@@ -78,7 +114,7 @@ class Driver {
   int submits_ = 0, settled_ = -1;  ///< now, and when it had settled last
 };
 
-inline Driver::Driver(const std::string& name)
+inline Driver::Driver(const std::string& name, const std::function<void(WindowOptions&)>& adjust)
     : folder_(scratch_folder() / ("window_" + name)), before_(std::filesystem::current_path()) {
   std::filesystem::remove_all(folder_);
   std::filesystem::create_directories(folder_ / "config/tyndall");
@@ -93,6 +129,7 @@ inline Driver::Driver(const std::string& name)
   options.threads = 1;
   options.ui_log = folder_ / "log";
   options.hosted = true;
+  if (adjust) adjust(options);
   auto platform = std::make_unique<NullPlatform>();
   platform_ = platform.get();
   window_ = std::make_unique<MainWindow>(options, nullptr, std::move(platform));
@@ -105,13 +142,17 @@ inline Driver::~Driver() {
   std::filesystem::current_path(before_);
 }
 
+inline void Driver::pass() {
+  skipped_seconds = skipped_seconds + echo_interval;  // drawings keep a distance
+  window_->step();
+  read_log();
+}
+
+/// A drawing, as after input.
 inline void Driver::step() {
   const int before = drawn_;
   platform_->events.any = true;
-  for (int k = 0; k < 100 && drawn_ == before; ++k) {  // drawings keep a distance
-    window_->step();
-    read_log();
-  }
+  for (int k = 0; k < 100 && drawn_ == before; ++k) pass();
 }
 
 inline void Driver::settle() {
@@ -159,31 +200,90 @@ inline void Driver::point(const std::string& name, double across, double down) {
   step();
 }
 
+inline void Driver::move(float right, float down) {
+  const ImVec2 now = ImGui::GetIO().MousePos;
+  compat::mouse_pos(ImGui::GetIO(), now.x + right, now.y + down);
+  step();
+}
+
 inline void Driver::hold(int button, bool down) {
   compat::mouse_button(ImGui::GetIO(), button, down);
   step();
 }
 
-inline void Driver::click(const std::string& name, double across, double down, int button) {
+inline void Driver::push(const std::string& name, double across, double down, int button) {
   point(name, across, down);
   press(button);
+  release(button);
+  for (int k = 0; k < 3; ++k) step();
+}
+
+inline void Driver::send_key(int code, Modifiers modifiers) {
+  platform_->events.keys.push_back({code, modifiers, ImGui::GetIO().WantTextInput});
+  step();
+}
+
+inline void Driver::drag(double from_across, double from_down, double to_across, double to_down, int button) {
+  point("picture", from_across, from_down);
+  press(button);
+  for (const double way : {0.5, 1.0})
+    point("picture", from_across + way * (to_across - from_across), from_down + way * (to_down - from_down));
   release(button);
   settle();
 }
 
-inline void Driver::key(int code, Modifiers modifiers) {
-  platform_->events.keys.push_back({code, modifiers, ImGui::GetIO().WantTextInput});
+inline void Driver::wheel(float notches) {
+  compat::mouse_wheel(ImGui::GetIO(), notches);
   settle();
 }
 
-inline void Driver::type(const std::string& text) {
+inline void Driver::fly(int code) {
+  platform_->held_keys = {code};
+  for (int k = 0; k < 3; ++k) step();
+  platform_->held_keys.clear();
+  settle();
+}
+
+inline void Driver::escape() {
+  strike(ImGuiKey_Escape);  // for a control that has the keyboard
+  key(256);
+}
+
+inline void Driver::press_characters(const std::string& text) {
+  for (const char c : text) platform_->events.keys.push_back({0, {}, false, c});
+  settle();
+}
+
+inline void Driver::write(const std::string& text) {
   for (const char c : text) ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(c));
   step();
+}
+
+inline void Driver::type(const std::string& text) {
+  hold({.control = true});
+  strike(ImGuiKey_A);
+  hold({});
+  write(text);
+  strike(ImGuiKey_Enter);
+  settle();
+}
+
+/// A key of Dear ImGui's own.
+inline void Driver::strike(ImGuiKey key) {
   for (const bool down : {true, false}) {
-    compat::key(ImGui::GetIO(), ImGuiKey_Enter, down);
+    compat::key(ImGui::GetIO(), key, down);
     step();
   }
-  settle();
+}
+
+inline void Driver::set(const std::string& row, const std::string& text) {
+  click(row + ".value");
+  type(text);
+}
+
+inline void Driver::wait_until(const std::function<bool()>& is_so) {
+  for (int k = 0; k < 2000 && !is_so(); ++k) pass();
+  REQUIRE(is_so());
 }
 
 inline void Driver::find(const std::string& words) {

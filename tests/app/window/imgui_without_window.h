@@ -19,6 +19,13 @@ inline void mouse_button(ImGuiIO& io, int button, bool down) {
   io.MouseDown[button] = down;
 #endif
 }
+inline void mouse_wheel(ImGuiIO& io, float notches) {
+#if IMGUI_VERSION_NUM >= 18700
+  io.AddMouseWheelEvent(0, notches);
+#else
+  io.MouseWheel += notches;
+#endif
+}
 inline void control_key(ImGuiIO& io, bool down) {
 #if IMGUI_VERSION_NUM >= 18700
   io.AddKeyEvent(ImGuiMod_Ctrl, down);

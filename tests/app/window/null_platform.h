@@ -40,11 +40,14 @@ class NullPlatform : public Platform {
   bool take_close_wish() override { return false; }
   void hide() override {}
   WindowSize size() const override { return {1280, 2640, 1280, 2640, 1, 1}; }
-  const std::set<int>& held() const override { return held_; }
-  bool shift_held() const override { return false; }
+  const std::set<int>& held() const override { return held_keys; }
+  bool shift_held() const override { return modifiers.shift; }
   void set_title(const std::string&) override {}
   void toggle_full_screen() override {}
-  void begin_frame() override { compat::new_frame(); }
+  void begin_frame() override {
+    compat::modifiers(ImGui::GetIO(), modifiers.control, modifiers.shift, modifiers.alt, false);
+    compat::new_frame();
+  }
   void clear() override {}
   void end_frame() override;
   void drop_frame() override { ImGui::EndFrame(); }
@@ -53,9 +56,10 @@ class NullPlatform : public Platform {
   void wake() override;
 
   InputEvents events;  ///< for the next frame
+  Modifiers modifiers;
+  std::set<int> held_keys;
 
  private:
-  std::set<int> held_;
   std::mutex mutex_;
   std::condition_variable news_;
   bool woken_ = false;

@@ -8,7 +8,7 @@ TEST_CASE("the window: a slider's value goes to the renderer, is undone, and goe
   driver.click("gold.fuzz", 0.75);
   CHECK(driver.submits() == before + 1);
   CHECK(driver.value("gold.fuzz") != "0.2");
-  driver.key('Z', {.control = true});
+  driver.undo();
   CHECK(driver.value("gold.fuzz") == "0.2");
   driver.click("gold.fuzz", 0.25);
   driver.point("gold.fuzz", 0.25);
@@ -17,19 +17,101 @@ TEST_CASE("the window: a slider's value goes to the renderer, is undone, and goe
   CHECK(driver.value("gold.fuzz") == "0.2");
 }
 
-TEST_CASE("the window: Vary and Key are in the menu of a row") {
+/// Vary or Key in the menu of a row. Does not wait until small pictures are finished.
+void choose(Driver& driver, const std::string& row, const std::string& what) {
+  driver.push(row, 0.9, 0.5, 1);
+  driver.push(row + "." + what);
+}
+
+TEST_CASE("the window: small pictures of all values of a row, taken over by a click and by arrow keys") {
   Driver driver("vary");
-  driver.click("gold.fuzz", 0.9, 0.5, 1);
-  driver.click("gold.fuzz.vary");
-  CHECK(driver.has("strip.0"));
-  driver.click("strip.0");
-  CHECK(driver.value("gold.fuzz") == "0");
-  driver.key(256);
-  CHECK_FALSE(driver.has("strip.0"));
-  driver.click("gold.fuzz", 0.9, 0.5, 1);
-  driver.click("gold.fuzz.key");
+  const auto has_fuzz = [&](const char* value) {
+    driver.wait_until([&] { return driver.value("gold.fuzz") == value; });
+  };
+  choose(driver, "gold.fuzz", "vary");
+  CHECK(driver.has("strip.8"));
+  CHECK_FALSE(driver.has("strip.9"));
+  driver.push("strip.4");
+  has_fuzz("0.5");
+  for (const char* expected : {"0.625", "0.75"}) {
+    driver.send_key(262);
+    has_fuzz(expected);
+  }
+  driver.send_key('Z', {.control = true});
+  has_fuzz("0.2");
+  choose(driver, "camera.vfov", "vary");
+  CHECK(driver.has("strip.26"));
+  driver.push("strip.13");
+  has_fuzz("0.5");
+  choose(driver, "camera.vfov", "vary");
+  CHECK_FALSE(driver.has("strip.26"));
+  driver.send_key(256);
+  driver.wait_until([&] { return !driver.has("strip.0"); });
+}
+
+TEST_CASE("the window: keys of a row make a film, which plays and is saved with the scene") {
+  Driver driver("film");
+  choose(driver, "gold.fuzz", "key");
   CHECK(driver.has("film.track"));
   CHECK(driver.last("message") == "key of Fuzz at frame 0");
+  driver.click("film.track", 0.99);
+  CHECK(driver.value("film.track") == "119");
+  driver.set("gold.fuzz", "0.8");
+  choose(driver, "gold.fuzz", "key");
+  driver.click("film.track", 0.5);
+  CHECK(driver.number("gold.fuzz") == doctest::Approx(0.5).epsilon(0.1));
+  driver.undo();
+  CHECK(driver.value("gold.fuzz") == "0.8");
+  driver.point("film.play");
+  const auto push = [&] { driver.press(), driver.release(); };
+  push();
+  driver.wait_until([&] { return driver.value("film.play") == "plays"; });
+  const std::string frame = driver.value("film.track");
+  driver.wait_until([&] { return driver.value("film.track") != frame; });
+  push();
+  driver.settle();
+  CHECK(driver.value("film.play") == "rests");
+  driver.key('S', {.control = true});
+  CHECK(load_scene("scene.json").scene.animation);
+}
+
+TEST_CASE("the window: adaptive sampling is a setting of the render: it starts over, once, and is undone") {
+  Driver driver("adaptive");
+  driver.click("render.adaptive.on");
+  CHECK(driver.value("render.adaptive.on") == "on");
+  driver.click("render.adaptive.on");
+  CHECK(driver.submits() == 2);
+  driver.undo();
+  CHECK(driver.value("render.adaptive.off") == "on");
+  CHECK(driver.submits() == 3);
+}
+
+TEST_CASE("the window: two settings side by side, of which one is kept") {
+  Driver driver("split");
+  driver.click("render.split.on");
+  driver.click("render.integrator.mis");
+  driver.wait_until([&] { return driver.value("split.b").starts_with("mis · random   2 spp"); });
+  CHECK(driver.value("split.a").starts_with("path · random"));
+  driver.wait_until([&] { return driver.last("accuracy").starts_with("B against A: relMSE "); });
+  const int edits = driver.submits();
+  const float divider = driver.left("divider");
+  driver.point("divider", 0.5, 0.3);
+  CHECK(driver.last("cursor") == "divider");
+  driver.press();
+  for (int k = 0; k < 6; ++k) driver.move(-30, 3);
+  driver.release();
+  CHECK(divider - driver.left("divider") == doctest::Approx(180).epsilon(0.05));
+  driver.settle();
+  CHECK(driver.submits() == edits);
+  driver.click("render.split.off");
+  CHECK(driver.has("dialog.a"));
+  driver.escape();
+  CHECK_FALSE(driver.has("dialog.a"));
+  CHECK(driver.has("split.a"));
+  driver.click("render.split.off");
+  driver.click("dialog.a");
+  CHECK_FALSE(driver.has("split.a"));
+  CHECK(driver.value("render.integrator.path") == "on");
 }
 
 }  // namespace tyndall::test::window_rows_test
