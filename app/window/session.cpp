@@ -151,8 +151,9 @@ std::shared_ptr<const Scene> Session::with_kept_settings(const Scene& scene) con
 }
 
 void Session::shown(Half half, const std::shared_ptr<const Frame>& frame) {
-  accuracy.shown(half, frame, method(half), frame->edit == renderers.edit(half));
-  if (half == Half::current) pause_at_limits(*frame);
+  const bool newest = frame->edit == renderers.edit(half);
+  accuracy.shown(half, frame, method(half), newest);
+  if (half == Half::current && newest) pause_at_limits(*frame);
 }
 
 /// Pauses a picture once where the command line said so; another edit, or Space, goes on.

@@ -26,7 +26,7 @@ if [ -z "${IN_XVFB:-}" ]; then
     bash "$script" "$tyndall" "$scratch" "$root"
 fi
 screen=$IN_XVFB
-# The window remembers nothing of other tests, and shows the raw picture; clean.sh begins as a first start does.
+# The window remembers nothing of other tests, and shows the raw picture.
 export XDG_CONFIG_HOME=$scratch/config XDG_STATE_HOME=$scratch/state XDG_CACHE_HOME=${XDG_CACHE_HOME:-$scratch/cache}
 mkdir -p "$XDG_CONFIG_HOME/tyndall"
 echo 'clean off' >"$XDG_CONFIG_HOME/tyndall/window.txt"

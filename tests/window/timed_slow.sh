@@ -21,3 +21,16 @@ for threads in 2 1; do
   echo "$threads threads: first picture after $first ms, halves $lead s apart"
   finish
 done
+
+# When the message has gone, nothing is drawn and nothing computed any more.
+write_scene rest.json 0.3
+start rest.json
+move 6 6
+settle_without_message
+lines=$(wc -l <log)
+busy() { awk '{ print $14 + $15 }' "/proc/$pid/stat"; }
+ticks=$(busy)
+sleep 3
+[ "$(wc -l <log)" = "$lines" ] || fail "an idle window draws"
+[ $(($(busy) - ticks)) -le 2 ] || fail "an idle window uses $(($(busy) - ticks)) ticks of 300"
+finish

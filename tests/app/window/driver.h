@@ -90,6 +90,7 @@ class Driver {
   std::string last(const std::string& kind) const;
   /// How many edits were sent to the renderer.
   int submits() const { return submits_; }
+  NullPlatform& platform() { return *platform_; }
   MainWindow& window() { return *window_; }
 
  private:
@@ -134,7 +135,7 @@ inline Driver::Driver(const std::string& name, const std::function<void(WindowOp
   platform_ = platform.get();
   window_ = std::make_unique<MainWindow>(options, nullptr, std::move(platform));
   log_.open(options.ui_log);
-  settle();
+  wait_until([&] { return !last("frame").empty(); });
 }
 
 inline Driver::~Driver() {

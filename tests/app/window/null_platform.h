@@ -39,12 +39,13 @@ class NullPlatform : public Platform {
   InputEvents take_events() override { return std::exchange(events, {}); }
   bool take_close_wish() override { return false; }
   void hide() override {}
-  WindowSize size() const override { return {1280, 2640, 1280, 2640, 1, 1}; }
+  WindowSize size() const override { return {1280, height, 1280, height, 1, 1}; }
   const std::set<int>& held() const override { return held_keys; }
   bool shift_held() const override { return modifiers.shift; }
-  void set_title(const std::string&) override {}
+  void set_title(const std::string& text) override { title = text; }
   void toggle_full_screen() override {}
   void begin_frame() override {
+    ImGui::GetIO().DisplaySize.y = static_cast<float>(height);
     compat::modifiers(ImGui::GetIO(), modifiers.control, modifiers.shift, modifiers.alt, false);
     compat::new_frame();
   }
@@ -56,6 +57,8 @@ class NullPlatform : public Platform {
   void wake() override;
 
   InputEvents events;  ///< for the next frame
+  int height = 2640;   ///< of the window: so high that all of the column is in it
+  std::string title;
   Modifiers modifiers;
   std::set<int> held_keys;
 
@@ -70,7 +73,7 @@ inline NullPlatform::NullPlatform() {
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = io.LogFilename = nullptr;
-  io.DisplaySize = {1280, 2640};
+  io.DisplaySize = {1280, static_cast<float>(height)};
   io.DeltaTime = 1.0f / 60;
   compat::init_without_window(io);
 }
