@@ -25,7 +25,7 @@ class JsonMemory {
   void* allocate(std::size_t bytes) {
     if (bytes > longest_short) return ::operator new(bytes);
     if (bytes > free_) {
-      blocks_.emplace_back(new std::byte[block]);
+      blocks_.push_back(std::unique_ptr<std::byte[]>(new std::byte[block]));
       free_ = block;
     }
     return blocks_.back().get() + block - std::exchange(free_, free_ - bytes);
