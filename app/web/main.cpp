@@ -50,7 +50,7 @@ void end(const std::string& why) {
   emscripten_cancel_main_loop();
 }
 
-std::string text_of(const std::exception& error) {
+std::string why_of(const std::exception& error) {
   return dynamic_cast<const std::bad_alloc*>(&error)
              ? "There is no memory left for this scene: a browser gives a page 2 GB at most. Reload the page, and "
                "make the picture smaller."
@@ -61,7 +61,7 @@ void on_draw() try {
   fit_canvas();
   if (!window->step()) end("Tyndall is closed. Reload the page to open it again.");
 } catch (const std::exception& error) {
-  end(text_of(error));
+  end(why_of(error));
 }
 
 /// A hidden tab renders nothing.
@@ -103,6 +103,6 @@ int main() try {
   tell_page("");
   emscripten_set_main_loop(tyndall::on_draw, 0, false);
 } catch (const std::exception& error) {
-  tell_page(tyndall::text_of(error).c_str());
+  tell_page(tyndall::why_of(error).c_str());
   return 1;
 }

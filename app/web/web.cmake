@@ -37,8 +37,8 @@ foreach(font IN ITEMS roboto/unhinted/RobotoTTF/Roboto-Regular.ttf roboto/unhint
 endforeach()
 target_link_options(tyndall_page PRIVATE ${web_link} ${preloaded} -sENVIRONMENT=web,worker -sUSE_GLFW=3
                     -sMAX_WEBGL_VERSION=2 -sMIN_WEBGL_VERSION=2 -sPTHREAD_POOL_SIZE=8 -sFORCE_FILESYSTEM=1
-                    "-sEXPORTED_RUNTIME_METHODS=[ENV]" "-sEXPORTED_FUNCTIONS=[_main,_malloc,_free]"
-                    "-sDEFAULT_LIBRARY_FUNCS_TO_INCLUDE=[\$stringToNewUTF8,\$setValue,\$Browser,\$GLFW]")
+                    "-sEXPORTED_FUNCTIONS=[_main,_malloc,_free]"
+                    "-sEXPORTED_RUNTIME_METHODS=[ENV,stringToNewUTF8,setValue]")
 set(TEXTURES "")
 file(GLOB textures CONFIGURE_DEPENDS assets/textures/*)
 foreach(texture IN LISTS textures)
