@@ -1,5 +1,6 @@
-// What emscripten's GLFW lacks, or does in another way than the window expects: screens and their density, names of keys,
-// the wheel, full screen and the clipboard. These functions take the place of those of the same name in its library.
+// What emscripten's GLFW lacks, or does in another way than the window expects: screens and their density, names of
+// keys, the wheel, full screen and the clipboard. These functions take the place of those of the same name in its
+// library.
 #include <emscripten/em_js.h>
 #include <emscripten/html5.h>
 
@@ -11,9 +12,8 @@
 EM_JS(int, page_is_hidden, (), { return document.hidden; });
 EM_JS(int, page_has_focus, (), { return document.hasFocus(); });
 EM_JS(int, is_full_screen, (), { return !!document.fullscreenElement; });
-EM_JS(void, set_full_screen, (int on), {
-  on ? document.documentElement.requestFullscreen() : document.exitFullscreen();
-});
+EM_JS(void, set_full_screen, (int on),
+      { on ? document.documentElement.requestFullscreen() : document.exitFullscreen(); });
 EM_JS(void, set_clipboard, (const char* text), { Module['copy'](UTF8ToString(text)); });
 EM_JS(char*, get_clipboard, (), { return stringToNewUTF8(Module['pasted']); });
 // clang-format on

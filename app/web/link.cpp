@@ -41,9 +41,9 @@ Bytef* bytes_of(std::string& text) { return reinterpret_cast<Bytef*>(text.data()
 }  // namespace
 
 std::string link_of_scene(const std::string& text) {
-  const auto too_long = [](const char* what, std::size_t most) {
+  const auto too_long = [](const char* what, std::size_t limit) {
     return IoError(std::string("no link: the scene's ") + what + " would be longer than " +
-                   std::to_string(most >> 10) + " kB; save the scene, and send the file");
+                   std::to_string(limit >> 10) + " kB; save the scene, and send the file");
   };
   if (text.size() > max_linked_scene) throw too_long("text", max_linked_scene);
   std::string source = text, deflated(compressBound(static_cast<uLong>(text.size())), '\0');

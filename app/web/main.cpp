@@ -25,12 +25,11 @@ EM_JS(void, fit_canvas, (), {
 /// What follows # in the page's address, for std::free().
 EM_JS(char*, scene_of_address, (), { return stringToNewUTF8(Module['scene']()); });
 EM_JS(int, address_has, (const char* word), { return new URLSearchParams(location.search).has(UTF8ToString(word)); });
-EM_JS(int, address_number, (const char* word), {
-  return parseInt(new URLSearchParams(location.search).get(UTF8ToString(word)) || '0');
-});
+EM_JS(int, address_number, (const char* word),
+      { return parseInt(new URLSearchParams(location.search).get(UTF8ToString(word)) || '0'); });
 /// Module.open() opens a file as one that was dropped.
 EM_JS(void, take_files, (), {
-  Module['open'] = path => {
+  Module['open'] = path = > {
     const file = stringToNewUTF8(path), list = _malloc(4);
     setValue(list, file, 'i32');
     getWasmTableEntry(GLFW.active.dropFunc)(GLFW.active.id, 1, list);

@@ -25,7 +25,10 @@ std::string link_to(const Document& document) {
 }  // namespace
 
 std::vector<Command> Commands::table_of_page() {
-  return {{"copy a link", "share, url, address, send the scene", {}, 0,
+  return {{"copy a link",
+           "share, url, address, send the scene",
+           {},
+           0,
            [](Commands& c, auto&) {
              try {
                ImGui::SetClipboardText(link_to(c.session_.editor.document()).c_str());
@@ -34,7 +37,8 @@ std::vector<Command> Commands::table_of_page() {
                c.session_.messages.say(error.what(), true);
              }
            },
-           requires_scene, "to this page, with the edited scene"}};
+           requires_scene,
+           "to this page, with the edited scene"}};
 }
 
 }  // namespace tyndall

@@ -1,11 +1,29 @@
 // A headless Chromium, over its own debugging protocol: opens pages, uses mouse, keys and fingers, and collects what the
 // window writes into the console (see app/window/system/ui_log.h). Wants node 20 with --experimental-websocket.
 import {spawn} from 'node:child_process';
-import {mkdtempSync, rmSync, writeFileSync} from 'node:fs';
+import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {createServer} from 'node:http';
 import {tmpdir} from 'node:os';
 
 export const seconds = s => new Promise(done => setTimeout(done, 1000 * s));
 const now = () => performance.now() / 1000;
+
+// Serves a folder as a host of plain files does. Returns its address.
+export async function serve(folder) {
+  const types = {html: 'text/html', js: 'text/javascript', wasm: 'application/wasm'};
+  const server = createServer((request, answer) => {
+    const path = new URL(request.url, 'http://localhost').pathname.replace(/\/$/, '/index.html');
+    try {
+      const bytes = readFileSync(folder + path);
+      answer.writeHead(200, {'Content-Type': types[path.split('.').pop()] ?? 'application/octet-stream'}).end(bytes);
+    } catch {
+      answer.writeHead(404).end();
+    }
+  });
+  await new Promise(done => server.listen(0, '127.0.0.1', done));
+  server.unref();
+  return `http://127.0.0.1:${server.address().port}/`;
+}
 
 // options: of Chromium, besides those that it needs here.
 export async function startBrowser(...options) {
@@ -15,7 +33,7 @@ export async function startBrowser(...options) {
     '--window-size=1280,800', '--mute-audio', '--disable-background-networking', '--no-first-run',
     `--user-data-dir=${folder}`, ...options, 'about:blank'
   ], {stdio: ['ignore', 'ignore', 'pipe']});
-  process.on('exit', () => (chromium.kill('SIGKILL'), rmSync(folder, {recursive: true, force: true})));
+  process.on('exit', () => chromium.kill());
   const address = await new Promise((done, failed) => {
     let said = '';
     chromium.stderr.on('data', text => {
@@ -25,7 +43,12 @@ export async function startBrowser(...options) {
     });
     chromium.on('exit', () => failed(Error('chromium ended: ' + said.slice(-2000))));
   });
-  return {open: url => Page.open(address, url), folder};
+  const end = async () => {
+    chromium.removeAllListeners('exit'), chromium.kill();
+    await new Promise(done => chromium.on('exit', done));
+    rmSync(folder, {recursive: true, force: true, maxRetries: 10});
+  };
+  return {open: url => Page.open(address, url), end};
 }
 
 export class Page {

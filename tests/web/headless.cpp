@@ -1,5 +1,6 @@
-// node tyndall_headless.js ASSETS ISA WIDTH HEIGHT SPP THREADS SCENE...: renders built-in scenes without a window, for tests of
-// the build for browsers. Prints a line for each: its name, the hash of its picture, and millions of rays a second.
+// node tyndall_headless.js ASSETS ISA WIDTH HEIGHT SPP THREADS SCENE...: renders built-in scenes without a window, for
+// tests of the build for browsers. Prints a line for each: its name, the hash of its picture, and millions of rays a
+// second.
 #include "core/base/fnv1a.h"
 #include "core/files/stats.h"
 #include "core/render/render.h"
