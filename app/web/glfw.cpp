@@ -8,7 +8,6 @@
 
 #include <GLFW/glfw3.h>
 
-// clang-format off: what follows is JavaScript
 EM_JS(int, page_is_hidden, (), { return document.hidden; });
 EM_JS(int, page_has_focus, (), { return document.hasFocus(); });
 EM_JS(int, is_full_screen, (), { return !!document.fullscreenElement; });
@@ -16,7 +15,6 @@ EM_JS(void, set_full_screen, (int on),
       { on ? document.documentElement.requestFullscreen() : document.exitFullscreen(); });
 EM_JS(void, set_clipboard, (const char* text), { Module['copy'](UTF8ToString(text)); });
 EM_JS(char*, get_clipboard, (), { return stringToNewUTF8(Module['pasted']); });
-// clang-format on
 
 namespace {
 

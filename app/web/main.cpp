@@ -14,7 +14,8 @@
 #include <memory>
 #include <string>
 
-// clang-format off: what follows is JavaScript. Module's functions are page.js's.
+// What is in EM_JS is JavaScript; Module's functions are page.js's.
+
 /// The size of the page in the screen's dots becomes that of the canvas, which the style sheet stretches over the page.
 EM_JS(void, fit_canvas, (), {
   const canvas = Module['canvas'], ratio = window.devicePixelRatio || 1;
@@ -29,7 +30,7 @@ EM_JS(int, address_number, (const char* word),
       { return parseInt(new URLSearchParams(location.search).get(UTF8ToString(word)) || '0'); });
 /// Module.open() opens a file as one that was dropped.
 EM_JS(void, take_files, (), {
-  Module['open'] = path = > {
+  Module['open'] = function(path) {
     const file = stringToNewUTF8(path), list = _malloc(4);
     setValue(list, file, 'i32');
     getWasmTableEntry(GLFW.active.dropFunc)(GLFW.active.id, 1, list);
@@ -37,7 +38,6 @@ EM_JS(void, take_files, (), {
   };
 });
 EM_JS(void, tell_page, (const char* what), { Module['tell'](UTF8ToString(what)); });
-// clang-format on
 
 namespace tyndall {
 namespace {

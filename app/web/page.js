@@ -19,7 +19,8 @@ function memory() {
 
 // A sentence; '': the page has all that it needs.
 function missing() {
-  if (!document.createElement('canvas').getContext('webgl2'))
+  // The window's own: emscripten's script gets the same, and a second one would take another second.
+  if (!canvas.getContext('webgl2', {alpha: false, antialias: false, depth: false, stencil: false}))
     return 'Tyndall draws with WebGL 2, which this browser does not offer: allow it to use the graphics card in its ' +
         'settings, or take a newer browser.';
   if (!runs(simd) || !runs(exceptions))
@@ -140,6 +141,7 @@ function offer(name, size) {
 }
 
 // ---- what emscripten's script and main.cpp call --------------------------------------------------------------------
+let compiled = null; // the program, as a promise
 var Module = {
   canvas, pasted: '', tell: say,
   print: text => console.log(text),
@@ -164,6 +166,10 @@ var Module = {
       for (const [name, size] of [@TEXTURES@]) offer(name, size);
     }
   ],
+  instantiateWasm: (imports, done) => {
+    compiled.then(module => WebAssembly.instantiate(module, imports).then(instance => done(instance, module)));
+    return {};
+  },
   onRuntimeInitialized: () => {
     setInterval(() => (store(), giveFiles()), 500);
     addEventListener('pagehide', store);
@@ -189,7 +195,7 @@ addEventListener('drop', event => {
   if (Module.open) openFiles(event.dataTransfer.files);
 }, true);
 
-// One finger is the mouse with its left button. Two pan as the middle button does, and zoom as the wheel.
+// One finger is the mouse with its left button. Two pan as with its middle button, and zoom as its wheel.
 const touch = {fingers: 0, x: 0, y: 0, span: 0, button: -1};
 const mouse = (type, button = 0) =>
     canvas.dispatchEvent(new MouseEvent(type, {clientX: touch.x, clientY: touch.y, button, bubbles: true}));
@@ -214,10 +220,9 @@ function onTouch(event) {
     Object.assign(touch, {fingers: event.touches.length, x, y, span});
     return;
   }
-  if (touch.button < 0 && !b && Math.hypot(x - touch.x, y - touch.y) < 4) return;
-  press(b ? 1 : 0);
-  Object.assign(touch, {x, y});
-  mouse('mousemove');
+  const moves = touch.button >= 0 || Math.hypot(x - touch.x, y - touch.y) >= 4; // else it is a tap, or a zoom alone
+  if (moves) press(b ? 1 : 0), Object.assign(touch, {x, y});
+  if (moves || b) mouse('mousemove');
   if (!b) return;
   const notches = Math.log(touch.span / span) / Math.log(0.9);
   touch.span = span;
@@ -229,6 +234,7 @@ for (const type of ['touchstart', 'touchmove', 'touchend', 'touchcancel'])
 // ---- begin -----------------------------------------------------------------------------------------------------------
 (async () => {
   await isolate();
+  compiled = WebAssembly.compileStreaming?.(fetch('tyndall_page.wasm')); // on other threads, while the rest goes on
   const why = missing();
   if (why) return say(why);
   await takeOver();

@@ -9,9 +9,7 @@
 #include <exception>
 #include <memory>
 
-// clang-format off: what follows is JavaScript
 EM_JS(char*, page_address, (), { return stringToNewUTF8(location.href.split('#')[0]); });
-// clang-format on
 
 namespace tyndall {
 namespace {

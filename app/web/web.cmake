@@ -41,9 +41,11 @@ foreach(font IN ITEMS roboto/unhinted/RobotoTTF/Roboto-Regular.ttf roboto/unhint
   list(APPEND preloaded "SHELL:--preload-file ${PROJECT_BINARY_DIR}/${name}@${fonts}/${font}")
 endforeach()
 target_link_options(tyndall_page PRIVATE ${web_link} ${preloaded} -sENVIRONMENT=web,worker -sUSE_GLFW=3
-                    -sMAX_WEBGL_VERSION=2 -sMIN_WEBGL_VERSION=2 -sPTHREAD_POOL_SIZE=8 -sFORCE_FILESYSTEM=1
+                    -sMAX_WEBGL_VERSION=2 -sMIN_WEBGL_VERSION=2 -sFORCE_FILESYSTEM=1
+                    "-sPTHREAD_POOL_SIZE=Math.min(navigator.hardwareConcurrency, 16) + 6"
                     "-sEXPORTED_FUNCTIONS=[_main,_malloc,_free]"
                     "-sEXPORTED_RUNTIME_METHODS=[ENV,stringToNewUTF8,setValue]")
+add_custom_command(TARGET tyndall_page POST_BUILD COMMAND ${PROJECT_SOURCE_DIR}/app/web/sizes.sh)
 set(TEXTURES "")
 file(GLOB textures CONFIGURE_DEPENDS assets/textures/*)
 foreach(texture IN LISTS textures)

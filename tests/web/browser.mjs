@@ -61,6 +61,7 @@ export class Page {
   static async open(address, url) {
     const page = new Page();
     const made = await (await fetch(`http://${address}/json/new?about:blank`, {method: 'PUT'})).json();
+    page.address = address, page.id = made.id;
     page.socket = new WebSocket(made.webSocketDebuggerUrl);
     await new Promise(done => { page.socket.onopen = done; });
     page.socket.onmessage = ({data}) => page.#take(JSON.parse(data));
@@ -80,8 +81,8 @@ export class Page {
     });
   }
   async close() {
-    await this.call('Page.close').catch(() => {});
     this.socket.close();
+    await fetch(`http://${this.address}/json/close/${this.id}`);
   }
   #take(message) {
     if (message.id) return this.#waiting.get(message.id)(message);
