@@ -51,14 +51,14 @@ void end(const std::string& why) {
 
 std::string why_of(const std::exception& error) {
   return dynamic_cast<const std::bad_alloc*>(&error)
-             ? "There is no memory left for this scene: a browser gives a page 2 GB at most. Reload the page, and "
-               "make the picture smaller."
+             ? "There is no memory left for this scene: a page has 2 GB at most. Load it again, and take a smaller "
+               "picture."
              : error.what();
 }
 
 void on_draw() try {
   fit_canvas();
-  if (!window->step()) end("Tyndall is closed. Reload the page to open it again.");
+  if (!window->step()) end("Tyndall is closed. Load the page again to open it.");
 } catch (const std::exception& error) {
   end(why_of(error));
 }

@@ -3,6 +3,8 @@
 // the next visit is copied into the browser's storage.
 const canvas = document.getElementById('canvas');
 const say = text => { document.getElementById('words').textContent = text; };
+const stop = why => say(`Tyndall has stopped (${why.message ?? why}): load the page again, and take a smaller picture if memory was short.`);
+addEventListener('error', event => stop(event));
 
 // ---- what is missing ---------------------------------------------------------------------------------------------
 const simd = [0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11];
@@ -36,18 +38,31 @@ function missing() {
 
 // The next load of the page goes through the service worker, which makes it an isolated one.
 async function isolate() {
-  if (crossOriginIsolated) return sessionStorage.removeItem('isolating');
-  if (!navigator.serviceWorker || sessionStorage.isolating) return;
-  await navigator.serviceWorker.register('isolate.js');
-  await navigator.serviceWorker.ready;
-  sessionStorage.isolating = 1;
+  const workers = crossOriginIsolated ? null : navigator.serviceWorker;
+  if (!workers || workers.controller || !await workers.register('isolate.js').catch(() => null)) return;
+  await workers.ready;
   location.reload();
   await new Promise(() => {});
+}
+
+// The program, compiled on other threads while the rest goes on.
+async function compile() {
+  const answer = await fetch('tyndall_page.wasm');
+  if (!answer.ok) throw Error(`tyndall_page.wasm: ${answer.status} ${answer.statusText}`);
+  const type = answer.headers.get('Content-Type'), streams = type == 'application/wasm' && WebAssembly.compileStreaming;
+  return streams ? WebAssembly.compileStreaming(answer) : WebAssembly.compile(await answer.arrayBuffer());
 }
 
 // ---- files -------------------------------------------------------------------------------------------------------
 const saved = '/saved', state = '/home/.local/state/tyndall', preferences = '/home/.config/tyndall/window.txt';
 const tab = Date.now().toString(36) + Math.random().toString(36).slice(2);
+const storage = (() => {
+  try {
+    return localStorage;
+  } catch { // the user has forbidden it: nothing is found again
+    return {};
+  }
+})();
 const stored = new Map(); // files of the browser's storage, by name, and their traces when they were copied
 const seen = new Map();   // files in `saved`, and their traces; those that were given to the user have given = true
 
@@ -63,23 +78,23 @@ async function takeOver() {
     await new Promise(held => navigator.locks.request('tyndall ' + tab, () => (held(), new Promise(() => {}))));
     const alive = new Set((await navigator.locks.query()).held.map(lock => lock.name));
     let count = 0;
-    for (const key of Object.keys(localStorage).sort()) {
+    for (const key of Object.keys(storage).sort()) {
       const [ours, owner, name] = key.split(' ');
       if (ours != 'tyndall' || !name || alive.has(`tyndall ${owner}`)) continue;
-      const text = localStorage[key];
-      delete localStorage[key];
-      localStorage[`tyndall ${tab} unsaved-${++count}.json`] = text;
+      const text = storage[key];
+      delete storage[key];
+      storage[`tyndall ${tab} unsaved-${++count}.json`] = text;
     }
   });
 }
 
 function unpackStorage() {
   for (const folder of [saved, state, preferences.replace(/\/[^/]*$/, '')]) FS.mkdirTree(folder);
-  for (const key of Object.keys(localStorage)) {
+  for (const key of Object.keys(storage)) {
     const [ours, owner, name] = key.split(' ');
     const file = owner == 'preferences' ? preferences : owner == tab ? `${state}/${name}` : '';
     if (ours != 'tyndall' || !file) continue;
-    FS.writeFile(file, localStorage[key]);
+    FS.writeFile(file, storage[key]);
     stored.set(key, traceOf(file));
   }
 }
@@ -91,11 +106,15 @@ function store() {
   for (const [key, file] of files) {
     const trace = traceOf(file);
     if (stored.get(key) == trace) continue;
-    localStorage[key] = FS.readFile(file, {encoding: 'utf8'});
     stored.set(key, trace);
+    try {
+      storage[key] = FS.readFile(file, {encoding: 'utf8'});
+    } catch (error) { // the edits are too long for it
+      console.warn(`${file} is not kept: ${error.message}`);
+    }
   }
   for (const key of stored.keys())
-    if (!files.has(key)) delete localStorage[key], stored.delete(key);
+    if (!files.has(key)) delete storage[key], stored.delete(key);
 }
 
 // Gives the user what was saved, once it is no longer written to.
@@ -141,7 +160,7 @@ function offer(name, size) {
 }
 
 // ---- what emscripten's script and main.cpp call --------------------------------------------------------------------
-let compiled = null; // the program, as a promise
+let compiled = null; // a promise
 var Module = {
   canvas, pasted: '', tell: say,
   print: text => console.log(text),
@@ -157,7 +176,7 @@ var Module = {
     Module.pasted = text;
     navigator.clipboard?.writeText(text).catch(error => console.warn('clipboard: ' + error.message));
   },
-  onAbort: why => say(`Tyndall has stopped (${why}): load the page again, and make the picture smaller if memory was short.`),
+  onAbort: stop,
   preRun: [
     () => {
       ENV.HOME = '/home';
@@ -167,7 +186,7 @@ var Module = {
     }
   ],
   instantiateWasm: (imports, done) => {
-    compiled.then(module => WebAssembly.instantiate(module, imports).then(instance => done(instance, module)));
+    compiled.then(async module => done(await WebAssembly.instantiate(module, imports), module)).catch(stop);
     return {};
   },
   onRuntimeInitialized: () => {
@@ -234,7 +253,7 @@ for (const type of ['touchstart', 'touchmove', 'touchend', 'touchcancel'])
 // ---- begin -----------------------------------------------------------------------------------------------------------
 (async () => {
   await isolate();
-  compiled = WebAssembly.compileStreaming?.(fetch('tyndall_page.wasm')); // on other threads, while the rest goes on
+  compiled = compile();
   const why = missing();
   if (why) return say(why);
   await takeOver();
@@ -242,4 +261,4 @@ for (const type of ['touchstart', 'touchmove', 'touchend', 'touchcancel'])
   script.src = 'tyndall_page.js';
   script.onerror = () => say('tyndall_page.js cannot be loaded: the page\'s folder is not whole.');
   document.body.append(script);
-})().catch(error => say(`Tyndall cannot begin: ${error.message}`));
+})().catch(stop);

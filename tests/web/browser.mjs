@@ -103,7 +103,7 @@ export class Page {
   }
   words() { return this.evaluate('document.getElementById("words")?.textContent ?? ""'); }
   async shot(file) {
-    const {data} = await this.call('Page.captureScreenshot', {format: 'png'});
+    const {data} = await this.call('Page.captureScreenshot', file.endsWith('.jpg') ? {format: 'jpeg', quality: 75} : {format: 'png'});
     writeFileSync(file, Buffer.from(data, 'base64'));
   }
   async until(what, test, longest = 60) {

@@ -42,7 +42,7 @@ const tests = {
       console.log(`${scene}: first picture after ${first[0].toFixed(2)} s, a whole one after ${(await page.settled())[0].toFixed(2)} s`);
       expect('isolated', await page.evaluate('crossOriginIsolated'));
       expect('words', await page.words(), '');
-      await seconds(3), await page.shot(`${shots}/${scene}.png`);
+      await seconds(8), await page.shot(`${shots}/${scene}.jpg`);
       await page.close();
     }
   },
@@ -158,6 +158,20 @@ const tests = {
     expect('the storage', /theme light/.test(await later.evaluate('localStorage["tyndall preferences"]')));
     await later.command('dark or light theme');
     await seconds(2), await later.close();
+  },
+
+  async looks_closer() {
+    const page = await browser.open(address('showroom'));
+    await page.settled();
+    await page.click(...centre(await widget(page, 'tab.Scenes')));
+    await page.until('the scenes', () => [...page.widgets.keys()].some(name => name.includes('cornell-box')), 10);
+    await seconds(4), await page.shot(`${shots}/scenes.png`);
+    await page.command('inspect pixels'), await page.mouse('mouseMoved', 450, 350);
+    await seconds(1), await page.shot(`${shots}/inspector.png`);
+    await page.command('split view');
+    await page.until('both halves', () => page.frames().at(-1)[2] > 2);
+    await seconds(2), await page.shot(`${shots}/split.png`);
+    await page.close();
   },
 
   async resizes() {
