@@ -22,7 +22,7 @@ using TraceRays = void (*)(const SceneView& scene, const TraceRay* rays, TraceHi
 using FirstHits = void (*)(const SceneView& scene, const Region& region, FirstHit* hits);
 
 struct Kernels {
-  const char* isa;                 ///< name of the instruction set: "scalar", "sse4", "avx2", "avx512", "neon" or "wasm"
+  const char* isa;                 ///< name of the instruction set, such as "avx2": see Target
   int lanes;                       ///< number of paths that run together
   RenderTile render[kernel_sets];  ///< by KernelSet; a set that was not compiled has the full kernel
   TraceRays trace;
