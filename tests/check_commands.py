@@ -141,7 +141,7 @@ class Commands:
         program, words = words[0], words[1:]
         if program in ("tyndall", "build/release/tyndall"):
             yield from self.check_tyndall([self.tyndall], words)
-        elif program == "./run":
+        elif program == "./run" and words != ["web"]:  # which serves until it is stopped
             yield from self.check_tyndall([self.fake / "run"], words[1:] if words[:1] == ["view"] else words)
         elif program == "./test":
             yield from self.run([self.fake / "test", *words], {0})

@@ -43,14 +43,15 @@ LEVELS = [
     ["app/window/menus", "app/window/rendering", "app/window/variations", "app/window/timeline"],
     ["app/window/inspector"],
     ["app/window"],
-    ["app/cli", "app/watch"],
+    ["app/cli", "app/watch", "app/web"],
     ["app"],
 ]
 LEVEL = {room: level for level, rooms in enumerate(LEVELS) for room in rooms}
 
 # Headers from outside, and the only files that may include them.
 RESERVED = [
-    (r"(GLFW|glad|GL|EGL|X11)/|(backends/)?imgui", r"app/window/"),
+    (r"(GLFW|glad|GL|EGL|X11)/|(backends/)?imgui", r"app/(window|web)/"),
+    (r"emscripten/", r"app/web/"),
     (r"CLI/", r"app/cli/"),
     (r"fmt/", r"app/"),
     (r"hwy/", r"core/base/lanes_simd_arithmetic\.h$"),

@@ -1,6 +1,10 @@
 # Where the libraries of the core and of the command line come from: the system's packages.
 # Required: threads, nlohmann_json, CLI11, {fmt}, stb, libjpeg-turbo, libpng. Optional: Highway (SIMD kernels), OpenEXR,
 # doctest (tests).
+if(EMSCRIPTEN)
+  include(${CMAKE_CURRENT_LIST_DIR}/web_libraries.cmake)
+  return()
+endif()
 find_package(Threads REQUIRED)
 find_package(PkgConfig)
 find_package(nlohmann_json 3.9 CONFIG REQUIRED)

@@ -14,6 +14,10 @@ build_packages=(g++ cmake ninja-build pkg-config libglfw3-dev libgl-dev libimgui
 run_packages=(libgl1-mesa-dri fonts-roboto-unhinted fonts-jetbrains-mono)
 # shellcheck disable=SC2034
 test_packages=(python3-dev pybind11-dev python3-numpy python3-pytest xvfb xauth xdotool libgl1-mesa-dri fonts-roboto-unhinted fonts-jetbrains-mono python3)
+# Only ./run web needs them.
+# shellcheck disable=SC2034
+web_packages=(emscripten node-acorn dpkg-dev cmake ninja-build python3 fonttools libglfw3-dev libstb-dev
+  nlohmann-json3-dev libfmt-dev libhwy-dev fonts-roboto-unhinted fonts-jetbrains-mono)
 # Only ./test --all needs them: large, and all that they check is style. The version is part of the style.
 # shellcheck disable=SC2034
 style_packages=(clang-format-14 clang-tidy-14)

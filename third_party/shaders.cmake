@@ -1,11 +1,19 @@
 # Embeds shaders/*.vert and *.frag in the program: the generated header "shaders.h" holds one string per file, named
 # after it (display.vert: tyndall::display_vert). Included by CMakeLists.txt, and run with -P as the generator.
 if(CMAKE_SCRIPT_MODE_FILE STREQUAL CMAKE_CURRENT_LIST_FILE)
-  # -DOUTPUT=shaders.h -DSHADERS="a.vert b.frag" -DFOLDER=shaders
+  # -DOUTPUT=shaders.h -DSHADERS="a.vert b.frag" -DFOLDER=shaders -DES=: OpenGL, ON: OpenGL ES 3, of browsers
+  set(version "#version 330 core")
+  if(ES)
+    set(version "#version 300 es")
+  endif()
   set(text "// Generated from the folder shaders.\n#pragma once\nnamespace tyndall {\n")
+  string(APPEND text "inline constexpr char glsl_version[] = R\"GLSL(${version})GLSL\";\n")
   separate_arguments(names UNIX_COMMAND "${SHADERS}")
   foreach(name IN LISTS names)
     file(READ "${FOLDER}/${name}" source)
+    if(ES)
+      string(REPLACE "#version 330 core" "${version}\nprecision highp float;" source "${source}")
+    endif()
     string(MAKE_C_IDENTIFIER "${name}" identifier)
     string(APPEND text "inline constexpr char ${identifier}[] = R\"GLSL(${source})GLSL\";\n")
   endforeach()
@@ -24,6 +32,7 @@ set(shader_header ${PROJECT_BINARY_DIR}/generated/shaders.h)
 add_custom_command(
   OUTPUT ${shader_header}
   COMMAND ${CMAKE_COMMAND} "-DOUTPUT=${shader_header}" "-DSHADERS=${shader_names}" "-DFOLDER=${shader_folder}"
+          "-DES=${EMSCRIPTEN}"
           -P ${CMAKE_CURRENT_LIST_DIR}/shaders.cmake
   DEPENDS ${shader_files} ${CMAKE_CURRENT_LIST_DIR}/shaders.cmake
   COMMENT "Embedding shaders" VERBATIM)

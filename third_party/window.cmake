@@ -2,6 +2,9 @@
 # all are there and TYNDALL_WINDOW allows it.
 set(IMGUI_DIR "" CACHE PATH "Dear ImGui source tree to compile; empty: the system's library, found by pkg-config")
 
+if(TARGET tyndall_window_libraries) # those of browsers
+  return()
+endif()
 set(TYNDALL_WINDOW_STATE off)
 if(TYNDALL_WINDOW) # AUTO or ON
   set(missing "")

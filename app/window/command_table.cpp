@@ -229,7 +229,7 @@ std::vector<Command> Commands::unlisted_table() {
 std::vector<Command> Commands::table() {
   std::vector<Command> all;
   for (const auto& part : {table_of_objects(), table_of_picture(), table_of_files(), table_of_views(),
-                           table_of_window(), unlisted_table()})
+                           table_of_window(), table_of_page(), unlisted_table()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

@@ -66,6 +66,7 @@ class Commands {
   static std::vector<Command> table_of_files();
   static std::vector<Command> table_of_views();
   static std::vector<Command> table_of_window();
+  static std::vector<Command> table_of_page();  ///< only in browsers
   static std::vector<Command> unlisted_table();
   // See Command::why_not.
   static const char* requires_scene(const Commands& commands, const std::string& argument);

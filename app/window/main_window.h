@@ -37,6 +37,8 @@ class MainWindow {
   int run();
   /// Waits for something to happen, and draws if there is something new. Returns whether the window stays open.
   bool step();
+  /// Renders nothing from now on, or what it did before: for a window that nobody sees.
+  void rest(bool rests);
   /// Waits until the file of edits that were not saved holds all of them. From any thread.
   std::string flush_edits() { return session_.flush_edits(); }
 
@@ -85,6 +87,7 @@ class MainWindow {
   PictureTools picture_tools_;
   Commands commands_;
   std::shared_ptr<const Origin> noted_;  ///< the file of the recent ones that was noted last
+  bool paused_before_ = false;           ///< see rest()
   std::uint64_t paced_edit_ = 0;         ///< newest edit that pacing_ knows of
   double input_since_ = 0;               ///< when the oldest input came that no drawing has seen; 0: there is none
   bool takes_in_again_ = false;          ///< an edit waits for what came while the picture was put on the screen

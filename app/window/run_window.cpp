@@ -66,6 +66,13 @@ bool MainWindow::step() {
   return true;
 }
 
+void MainWindow::rest(bool rests) {
+  bool& paused = session_.wanted.paused;
+  if (rests) paused_before_ = paused;
+  paused = rests || paused_before_;
+  session_.send(clock_seconds(), false);
+}
+
 /// Says what becomes of edits that no file has, which there are where a signal ends the window. Returns the exit code.
 int MainWindow::end_of_signal() {
   const int signal = signals_ ? signals_->received() : 0;

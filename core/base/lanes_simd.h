@@ -35,20 +35,49 @@ TYNDALL_INLINE hn::Vec<TagF> compress(Floats a, Mask lanes) {
   return {_mm256_castsi256_ps(compress(_mm256_castps_si256(a.v.raw), lanes))};
 }
 TYNDALL_INLINE hn::Vec<TagI> compress(Ints a, Mask lanes) { return {compress(a.v.raw, lanes)}; }
+#elif HWY_TARGET == HWY_WASM
+/// For each set of lanes (as bits): the bytes of its lanes in order.
+struct ByteLists {
+  alignas(16) std::uint8_t of[16][16];
+};
+constexpr ByteLists list_bytes() {
+  ByteLists lists{};
+  for (int lanes = 0; lanes < 16; ++lanes)
+    for (int lane = 0, place = 0; lane < 4; ++lane)
+      for (int byte = 0; (lanes >> lane & 1) != 0 && byte < 4; ++byte, ++place)
+        lists.of[lanes][place] = static_cast<std::uint8_t>(4 * lane + byte);
+  return lists;
+}
+inline constexpr ByteLists byte_lists = list_bytes();
+
+template <class Vector>
+TYNDALL_INLINE hn::Vec<Vector> compress(v128_t values, Mask lanes) {
+  return hn::Vec<Vector>{wasm_i8x16_swizzle(values, wasm_v128_load(byte_lists.of[bits(lanes)]))};
+}
+TYNDALL_INLINE hn::Vec<TagF> compress(Floats a, Mask lanes) { return compress<TagF>(a.v.raw, lanes); }
+TYNDALL_INLINE hn::Vec<TagI> compress(Ints a, Mask lanes) { return compress<TagI>(a.v.raw, lanes); }
 #else
 TYNDALL_INLINE hn::Vec<TagF> compress(Floats a, Mask lanes) { return hn::Compress(a.v, lanes.v); }
 TYNDALL_INLINE hn::Vec<TagI> compress(Ints a, Mask lanes) { return hn::Compress(a.v, hn::RebindMask(TagI(), lanes.v)); }
 #endif
 
+TYNDALL_INLINE int count_of(Mask lanes) {
+#if HWY_TARGET == HWY_WASM
+  return __builtin_popcount(bits(lanes));
+#else
+  return static_cast<int>(hn::CountTrue(TagF(), lanes.v));
+#endif
+}
+
 /// Stores the values of `lanes` next to each other and returns their number. May overwrite the memory of a whole group:
 /// storing compressed lanes alone is slow on AMD's Zen 4, where the instruction is microcode.
 TYNDALL_INLINE int append(float* to, Floats a, Mask lanes) {
   hn::StoreU(compress(a, lanes), TagF(), to);
-  return static_cast<int>(hn::CountTrue(TagF(), lanes.v));
+  return count_of(lanes);
 }
 TYNDALL_INLINE int append(std::int32_t* to, Ints a, Mask lanes) {
   hn::StoreU(compress(a, lanes), TagI(), to);
-  return static_cast<int>(hn::CountTrue(TagF(), lanes.v));
+  return count_of(lanes);
 }
 
 /// The sums of lanes 0 and 1, 2 and 3, … of `a`, then those of `b`. (core/clean/cells.h has it for plain numbers.)
@@ -145,6 +174,10 @@ template <std::same_as<HWY_NAMESPACE::Floats> F>
 TYNDALL_INLINE MaskOf<F> mask_from_bits(std::uint32_t b) {
 #if HWY_TARGET == HWY_AVX3
   return HWY_NAMESPACE::hn::Mask<HWY_NAMESPACE::TagF>{static_cast<__mmask16>(b)};
+#elif HWY_TARGET == HWY_WASM
+  const auto each = wasm_i32x4_make(1, 2, 4, 8);
+  const auto wanted = wasm_v128_and(wasm_i32x4_splat(static_cast<std::int32_t>(b)), each);
+  return HWY_NAMESPACE::hn::Mask<HWY_NAMESPACE::TagF>{wasm_i32x4_eq(wanted, each)};
 #else
   alignas(8) std::uint8_t bytes[8] = {static_cast<std::uint8_t>(b), static_cast<std::uint8_t>(b >> 8)};
   return HWY_NAMESPACE::hn::LoadMaskBits(HWY_NAMESPACE::TagF(), bytes);

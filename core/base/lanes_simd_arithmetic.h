@@ -73,11 +73,19 @@ TYNDALL_INLINE Mask mask_and(Mask a, Mask b) { return hn::And(a.v, b.v); }
 TYNDALL_INLINE Mask mask_or(Mask a, Mask b) { return hn::Or(a.v, b.v); }
 TYNDALL_INLINE Mask mask_not(Mask a) { return hn::Not(a.v); }
 TYNDALL_INLINE Mask mask_and_not(Mask a, Mask b) { return hn::AndNot(b.v, a.v); }
-TYNDALL_INLINE bool any(Mask a) { return !hn::AllFalse(TagF(), a.v); }
+TYNDALL_INLINE bool any(Mask a) {
+#if HWY_TARGET == HWY_WASM  // here and in bits() the library goes by way of memory, as its compilers lacked these
+  return wasm_v128_any_true(a.v.raw);
+#else
+  return !hn::AllFalse(TagF(), a.v);
+#endif
+}
 TYNDALL_INLINE bool all(Mask a) { return hn::AllTrue(TagF(), a.v); }
 TYNDALL_INLINE std::uint32_t bits(Mask a) {
 #if HWY_TARGET == HWY_AVX3
   return a.v.raw;
+#elif HWY_TARGET == HWY_WASM
+  return static_cast<std::uint32_t>(wasm_i32x4_bitmask(a.v.raw));
 #else
   alignas(8) std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(TagF(), a.v, bytes);

@@ -48,6 +48,9 @@ bool runs(Target target) {
 #elif defined(__aarch64__)
     case Target::neon:
       return true;  // every 64-bit ARM processor has it
+#elif defined(__wasm__)
+    case Target::wasm:
+      return true;  // a page without it is not even loaded
 #endif
     default:
       return false;
@@ -59,7 +62,7 @@ constexpr const char* build_all = "; \"TYNDALL_INSTRUCTION_SETS=all ./run versio
 }  // namespace
 
 const char* name_of(Target target) {
-  constexpr const char* names[] = {"scalar", "sse4", "avx2", "avx512", "neon"};
+  constexpr const char* names[] = {"scalar", "sse4", "avx2", "avx512", "neon", "wasm"};
   return names[static_cast<int>(target)];
 }
 

@@ -12,13 +12,14 @@
 /// for every room.
 namespace tyndall {
 
-/// In order of width: those of x86-64, then that of 64-bit ARM.
-enum class Target { scalar, sse4, avx2, avx512, neon };
-inline constexpr Target all_targets[] = {Target::scalar, Target::sse4, Target::avx2, Target::avx512, Target::neon};
+/// In order of width: those of x86-64, then those of 64-bit ARM and of browsers.
+enum class Target { scalar, sse4, avx2, avx512, neon, wasm };
+inline constexpr Target all_targets[] = {Target::scalar, Target::sse4, Target::avx2,
+                                         Target::avx512, Target::neon, Target::wasm};
 
 /// Number of floats that one register of the target holds.
 constexpr int floats_in(Target target) {
-  constexpr int counts[] = {1, 4, 8, 16, 4};
+  constexpr int counts[] = {1, 4, 8, 16, 4, 4};
   return counts[static_cast<int>(target)];
 }
 

@@ -98,5 +98,7 @@ template <>
 FilterSteps filter_for<Target::avx512>();
 template <>
 FilterSteps filter_for<Target::neon>();
+template <>
+FilterSteps filter_for<Target::wasm>();
 
 }  // namespace tyndall::filter

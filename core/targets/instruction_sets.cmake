@@ -4,7 +4,7 @@
 # instruction_sets:      those of them that this build has
 # tyndall_instruction_set_library(NAME SET SOURCE...): an object library with the flags of the set
 set(TYNDALL_INSTRUCTION_SETS all CACHE STRING
-    "kernels beside the scalar one: all; native (the best of this processor); or a list of sse4, avx2, avx512, neon")
+    "kernels beside the scalar one: all; native (the best of this processor); or a list of sse4, avx2, avx512, neon, wasm")
 
 # Highway falls back silently to fewer lanes when one of these flags is missing; core/base/lanes_target.h sees to it.
 set(flags_sse4 -msse4.2 -maes -mpclmul)
@@ -28,7 +28,9 @@ function(tyndall_instruction_set_library name set)
 endfunction()
 
 set(all_instruction_sets "")
-if(TARGET tyndall_simd AND CMAKE_SYSTEM_PROCESSOR MATCHES "${x86_64}")
+if(EMSCRIPTEN)
+  set(all_instruction_sets wasm)
+elseif(TARGET tyndall_simd AND CMAKE_SYSTEM_PROCESSOR MATCHES "${x86_64}")
   set(all_instruction_sets sse4 avx2 avx512)
 elseif(TARGET tyndall_simd)
   set(all_instruction_sets neon)

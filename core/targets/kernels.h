@@ -22,7 +22,7 @@ using TraceRays = void (*)(const SceneView& scene, const TraceRay* rays, TraceHi
 using FirstHits = void (*)(const SceneView& scene, const Region& region, FirstHit* hits);
 
 struct Kernels {
-  const char* isa;                 ///< name of the instruction set: "scalar", "sse4", "avx2", "avx512" or "neon"
+  const char* isa;                 ///< name of the instruction set, such as "avx2": see Target
   int lanes;                       ///< number of paths that run together
   RenderTile render[kernel_sets];  ///< by KernelSet; a set that was not compiled has the full kernel
   TraceRays trace;
@@ -52,6 +52,8 @@ template <>
 Kernels full_kernel<Target::avx512>();
 template <>
 Kernels full_kernel<Target::neon>();
+template <>
+Kernels full_kernel<Target::wasm>();
 /// Gives the table of the full kernel a kernel of its own for each other KernelSet. Targets of 8 lanes and more have
 /// them.
 template <Target>

@@ -4,6 +4,7 @@
 #include "app/window/system/platform_events.h"
 #include "app/window/system/style.h"
 #include "core/base/error.h"
+#include "shaders.h"
 
 #include <glad/gl.h>
 
@@ -105,7 +106,7 @@ GlfwPlatform::GlfwPlatform(int image_width, int image_height) {
   ImGui::GetIO().ConfigInputTrickleEventQueue = false;  // InputQueue says what belongs to a frame
 #endif
   ImGui_ImplGlfw_InitForOpenGL(state_.window, false);
-  ImGui_ImplOpenGL3_Init("#version 330 core");
+  ImGui_ImplOpenGL3_Init(glsl_version);
   install_callbacks(state_.window);
 }
 

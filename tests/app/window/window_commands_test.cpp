@@ -106,6 +106,20 @@ TEST_CASE("the window: exposure needs no new picture") {
   CHECK(driver.submits() == before);
 }
 
+TEST_CASE("the window: nothing is rendered while nobody sees it, and then what was wanted before") {
+  Driver driver("rests");
+  driver.settle();
+  for (const bool pauses : {false, true}) {
+    if (pauses) driver.key(' ');
+    driver.window().rest(true);
+    driver.settle();
+    CHECK(driver.last("state") == "paused");
+    driver.window().rest(false);
+    driver.settle();
+    CHECK(driver.last("state") == (pauses ? "paused" : "finished"));
+  }
+}
+
 TEST_CASE("the window: each view comes by its key, or says what it needs") {
   Driver driver("views");
   for (int k = keyed_views - 1; k >= 0; --k) {
