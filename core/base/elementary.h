@@ -1,0 +1,22 @@
+#pragma once
+
+/// Elementary functions that pictures depend on, by IEEE 754 operations alone, so that a scene is compiled to the same
+/// bits by every C library. Those of libraries differ in the last bit. Errors are below one unit in the last place
+/// (tests/base/elementary_test.cpp).
+namespace tyndall {
+
+/// Of an angle in radians, up to 2^20 on either side of 0. Beyond, the error is larger.
+double sine(double x);
+double cosine(double x);
+double tangent(double x);
+/// Of a number in [-1, 1].
+double arc_cosine(double x);
+/// The angle of the point (x, y), in [-π, π], as std::atan2().
+double arc_tangent(double y, double x);
+/// Of a positive normal number.
+double binary_logarithm(double x);
+/// base >= 0, and what comes out neither overflows nor is smaller than the smallest normal number; 0 for base 0 and a
+/// positive exponent.
+double power(double base, double exponent);
+
+}  // namespace tyndall
