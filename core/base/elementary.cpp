@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace tyndall {
 namespace {
@@ -181,8 +182,9 @@ double arc_tangent(double y, double x) {
 
 double binary_logarithm(double x) { return rounded(binary_logarithm_of(x)); }
 
-double power(double base, double exponent) {
-  if (base == 0) return exponent > 0 ? 0 : 1;
+double to_the_power(double base, double exponent) {
+  if (exponent == 0) return 1;
+  if (base == 0) return exponent > 0 ? 0 : std::numeric_limits<double>::infinity();
   return power_of_2(Pair{exponent} * binary_logarithm_of(base));
 }
 

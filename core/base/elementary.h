@@ -15,8 +15,7 @@ double arc_cosine(double x);
 double arc_tangent(double y, double x);
 /// Of a positive normal number.
 double binary_logarithm(double x);
-/// base >= 0, and what comes out neither overflows nor is smaller than the smallest normal number; 0 for base 0 and a
-/// positive exponent.
-double power(double base, double exponent);
+/// base >= 0; the error is so small where what comes out is a normal number.
+double to_the_power(double base, double exponent);
 
 }  // namespace tyndall

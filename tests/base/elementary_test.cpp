@@ -44,11 +44,11 @@ TEST_CASE("elementary functions are right to less than a unit in the last place"
   for (const double high : {1.0, 2.0, 1e9})
     CHECK(worst_error(1e-9 * high, high, binary_logarithm, [](Long x) { return std::log2(x); }) < 1);
   for (const double exponent : {-4 / 13.0, 1 / 3.0, 1 / 2.4, 2.2, 3.25, 20.0}) {
-    const auto ours = [exponent](double x) { return power(x, exponent); };
+    const auto ours = [exponent](double x) { return to_the_power(x, exponent); };
     CHECK(worst_error(1e-5, 2, ours, [exponent](Long x) { return std::pow(x, static_cast<Long>(exponent)); }) < 1);
   }
   CHECK(worst_error(
-            -300, 300, [](double y) { return power(2, y); }, [](Long y) { return std::exp2(y); }) < 1);
+            -300, 300, [](double y) { return to_the_power(2, y); }, [](Long y) { return std::exp2(y); }) < 1);
 }
 
 TEST_CASE("elementary functions are exact where that is possible") {
@@ -65,10 +65,10 @@ TEST_CASE("elementary functions are exact where that is possible") {
   CHECK(arc_tangent(1, 0) == std::acos(0.0));
   CHECK(binary_logarithm(1) == 0);
   CHECK(binary_logarithm(1024) == 10);
-  CHECK(power(1, 0.3) == 1);
-  CHECK(power(0, 0.3) == 0);
-  CHECK(power(2, -3) == 0.125);
-  CHECK(power(10, 2) == 100);
+  CHECK(to_the_power(1, 0.3) == 1);
+  CHECK(to_the_power(0, 0.3) == 0);
+  CHECK(to_the_power(2, -3) == 0.125);
+  CHECK(to_the_power(10, 2) == 100);
 }
 
 }  // namespace elementary_test
