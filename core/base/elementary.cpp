@@ -94,22 +94,22 @@ Pair small_cosine(Pair x) {
 /// The quarters of a circle in an angle, modulo 4, and the rest. The quarter is subtracted in parts, of which the first
 /// two have 33 bits, so that their products are exact. W. J. Cody and W. Waite, Software Manual for the Elementary
 /// Functions, 1980.
-struct Turned {
+struct Rotated {
   int quarters;
   Pair rest;
 };
-Turned turned(double x) {
+Rotated rotated(double x) {
   constexpr double parts[] = {0x1.921fb54400000p+0, 0x1.0b4611a600000p-34, 0x1.3198a2e037073p-69};
   const double n = std::nearbyint(x / quarter.high);
   const Pair rest = sum_of(x - n * parts[0], -n * parts[1]);
   return {static_cast<int>(std::fmod(n, 4)) & 3, rest + Pair{-n * parts[2]}};
 }
 
-Pair sine_of(const Turned& t) {
+Pair sine_of(const Rotated& t) {
   const Pair value = t.quarters % 2 == 0 ? small_sine(t.rest) : small_cosine(t.rest);
   return t.quarters < 2 ? value : -value;
 }
-Pair cosine_of(const Turned& t) { return sine_of({(t.quarters + 1) & 3, t.rest}); }
+Pair cosine_of(const Rotated& t) { return sine_of({(t.quarters + 1) & 3, t.rest}); }
 
 /// The arc tangent of y / x, 0 <= y <= x: that of the nearest eighth c, and that of what is left, (y - c x) / (x + c
 /// y).
@@ -164,10 +164,10 @@ double power_of_2(Pair x) {
 
 }  // namespace
 
-double sine(double x) { return rounded(sine_of(turned(x))); }
-double cosine(double x) { return rounded(cosine_of(turned(x))); }
+double sine(double x) { return rounded(sine_of(rotated(x))); }
+double cosine(double x) { return rounded(cosine_of(rotated(x))); }
 double tangent(double x) {
-  const Turned t = turned(x);
+  const Rotated t = rotated(x);
   return rounded(sine_of(t) / cosine_of(t));
 }
 

@@ -11,7 +11,7 @@ double cosine(double x);
 double tangent(double x);
 /// Of a number in [-1, 1].
 double arc_cosine(double x);
-/// The angle of the point (x, y), in [-π, π], as std::atan2().
+/// The angle of the point (x, y), in [-π, π], as atan2() of C.
 double arc_tangent(double y, double x);
 /// Of a positive normal number.
 double binary_logarithm(double x);

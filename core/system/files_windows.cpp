@@ -20,8 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr DWORD all_may = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
-
 /// Windows 10 can replace a file that somebody reads, if asked in this way.
 bool replace_open_file(const fs::path& from, const fs::path& to) {
   std::error_code ignored;

@@ -15,8 +15,6 @@
 namespace tyndall {
 namespace {
 
-constexpr DWORD all_may = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
-
 HANDLE handle_of(int file) { return reinterpret_cast<HANDLE>(_get_osfhandle(file)); }
 
 DWORD access_of(OpenFor purpose) {
@@ -74,8 +72,8 @@ int last_error_number(DWORD error) {
   return std::system_category().default_error_condition(static_cast<int>(error)).value();
 }
 
-int open_shared(const std::filesystem::path& file, DWORD access, DWORD disposition, DWORD attributes, int flags,
-                int& error) {
+int open_for_all(const std::filesystem::path& file, DWORD access, DWORD disposition, DWORD attributes, int flags,
+                 int& error) {
   error = EINVAL;
   if (file.native().find(L'\0') != std::wstring::npos) return -1;
   const HANDLE handle = CreateFileW(file.c_str(), access, all_may, nullptr, disposition, attributes, nullptr);
@@ -96,9 +94,9 @@ OpenFile::OpenFile(const std::filesystem::path& file, OpenFor purpose, unsigned)
   const DWORD disposition = disposition_of(purpose), attributes = attributes_of(purpose);
   const int flags = appends ? _O_APPEND : 0;
   // Only who may remove a file can rename it while it is open.
-  descriptor_ = open_shared(file, access_of(purpose) | DELETE, disposition, attributes, flags, error_);
+  descriptor_ = open_for_all(file, access_of(purpose) | DELETE, disposition, attributes, flags, error_);
   if (descriptor_ < 0 && (error_ == EACCES || error_ == EBUSY))
-    descriptor_ = open_shared(file, access_of(purpose), disposition, attributes, flags, error_);
+    descriptor_ = open_for_all(file, access_of(purpose), disposition, attributes, flags, error_);
 }
 
 OpenFile& OpenFile::operator=(OpenFile&& other) noexcept {
@@ -115,8 +113,8 @@ OpenFile OpenFile::copy_of_standard_output() {
 OpenFile OpenFile::unnamed() {
   OpenFile file;
   file.descriptor_ =
-      open_shared(temporary_folder() / (L"tyndall-" + unique_word()), GENERIC_READ | GENERIC_WRITE | DELETE, CREATE_NEW,
-                  FILE_ATTRIBUTE_TEMPORARY | FILE_FLAG_DELETE_ON_CLOSE, 0, file.error_);
+      open_for_all(temporary_folder() / (L"tyndall-" + unique_word()), GENERIC_READ | GENERIC_WRITE | DELETE,
+                   CREATE_NEW, FILE_ATTRIBUTE_TEMPORARY | FILE_FLAG_DELETE_ON_CLOSE, 0, file.error_);
   return file;
 }
 

@@ -113,7 +113,11 @@ std::size_t peak_memory() {
   if (peak != no_limit) return peak;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
+#ifdef __APPLE__
+  return static_cast<std::size_t>(usage.ru_maxrss);  // bytes, there
+#else
   return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+#endif
 }
 
 void lower_priority([[maybe_unused]] int niceness) {

@@ -20,6 +20,8 @@ void begin_process() {
   DWORD mode = 0;
   const HANDLE errors = GetStdHandle(STD_ERROR_HANDLE);
   if (GetConsoleMode(errors, &mode)) SetConsoleMode(errors, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING);
+  DWORD others = 0;  // a console that Windows opened for the program alone, which was double-clicked
+  if (GetConsoleProcessList(&others, 1) == 1) ShowWindow(GetConsoleWindow(), SW_SHOWMINNOACTIVE);
   SetErrorMode(SEM_FAILCRITICALERRORS | SEM_NOGPFAULTERRORBOX);  // no windows that wait for somebody
 }
 

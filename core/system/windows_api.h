@@ -8,12 +8,13 @@
 
 namespace tyndall {
 
+/// What others may do with a file that is open here, as on other systems.
+inline constexpr DWORD all_may = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
 /// The error number of POSIX that is most like an error of Windows: the last one of this thread.
 int last_error_number(DWORD error = GetLastError());
-/// A file as a descriptor of the C library, or -1 and why. Others may read, write, rename and remove it meanwhile, as
-/// on other systems.
-int open_shared(const std::filesystem::path& file, DWORD access, DWORD disposition, DWORD attributes, int flags,
-                int& error);
+/// A file as a descriptor of the C library, or -1 and why.
+int open_for_all(const std::filesystem::path& file, DWORD access, DWORD disposition, DWORD attributes, int flags,
+                 int& error);
 /// Text of Windows as the program has it.
 std::string utf8_of(const wchar_t* text);
 /// A word that no other call of any process gives.
