@@ -8,8 +8,6 @@
 
 #include <exception>
 #include <new>
-#include <string>
-#include <vector>
 
 namespace {
 
@@ -25,8 +23,7 @@ int fail(const std::exception& error, int code) {
 int main(int argc, char** argv) {
   tyndall::begin_process();
   try {
-    const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
-    return tyndall::run(tyndall::read_command(arguments));
+    return tyndall::run(tyndall::read_command(tyndall::program_arguments(argc, argv)));
   } catch (const tyndall::UsageError& error) {
     return fail(error, wrong_usage);
   } catch (const tyndall::SceneError& error) {

@@ -62,6 +62,14 @@ RESERVED = [
     # The system's one door: not even its headers let others see what is behind it.
     (r"(sys|linux|net|netinet|arpa)/|(unistd|fcntl|poll|c?signal|pthread|sched|dlfcn|link|spawn|termios|ifaddrs|netdb|pwd|"
      r"dirent|glob|execinfo|ucontext|time)(\.h)?$", r"core/system/[a-z_]+\.cpp$"),
+    (r"(windows|winsock2|ws2tcpip|io|direct|psapi|shellapi|shlobj)\.h$", r"core/system/([a-z_]+_windows\.cpp|windows_api\.h)$"),
+]
+# Words of the language, and the only files that may use them: the rest is the same for every system, and gives the same
+# bits with every C library. What measures pictures may differ in the last one, and so may references in double.
+WORDS = [
+    (r"#.*\b(_WIN32|WIN32|_WIN64|__MINGW\w*|_MSC_VER|_UCRT)\b", r"core/system/"),
+    (r"std::(a?sin|a?cos|a?tan|atan2|exp2?|log2?|log1p|expm1|pow|hypot|cbrt)\(",
+     r"app/|core/accuracy/|core/base/math\.h$|core/render/measure\.cpp$|core/shapes/specular_deflection\.h$"),
 ]
 GENERATED = {"shaders.h"}
 # Headers for programs of others: no part of the house, and they include nothing of it.
@@ -137,6 +145,10 @@ def check(root):
                     needs.setdefault(unit_of(file), set()).add(unit_of(header))
             if re.match(r'\s*extern "C"', line) and room != "core/system":
                 problems.append(f"{file}: may not declare functions of the system or of libraries; core/system does")
+            for words, allowed in WORDS:
+                found = re.search(words, line)
+                if found and not re.match(allowed, str(file)):
+                    problems.append(f"{file}: may not use {found[0]}; only files that match {allowed} may")
             if other:
                 for headers, allowed in RESERVED:
                     if re.match(headers, other[1]) and not re.match(allowed, str(file)):

@@ -1,6 +1,7 @@
 #include "app/book/book_folder.h"
 
 #include "core/base/error.h"
+#include "core/system/files.h"
 
 #include <cstdlib>
 #include <string>
@@ -12,7 +13,7 @@ namespace fs = std::filesystem;
 
 fs::path book_folder() {
   std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
+  const fs::path program = own_file().parent_path();
   const char* assets = std::getenv("TYNDALL_ASSETS");
   const fs::path chosen = assets && *assets ? fs::path(assets) / "book" : fs::path();
   for (const fs::path& folder : {chosen, program.parent_path() / "share" / "tyndall" / "book", program / "book"})

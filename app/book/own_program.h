@@ -1,6 +1,7 @@
 #pragma once
 #include "app/book/run_guarded.h"
 #include "core/system/connection.h"
+#include "core/system/locks.h"
 
 #include <atomic>
 #include <chrono>
@@ -46,10 +47,10 @@ class OwnProgram {
   std::string name_;
   std::chrono::steady_clock::time_point deadline_;
   std::atomic<bool> stops_ = false;
-  std::mutex wanted_mutex_;
+  Mutex wanted_mutex_;
   std::function<bool()> go_on_;  ///< empty: it lasts
   ChildEnd end_;
-  std::mutex mutex_;  ///< one question at a time
+  Mutex mutex_;  ///< one question at a time
   std::thread thread_;
 };
 

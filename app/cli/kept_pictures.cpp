@@ -24,7 +24,7 @@ int whole_number(const JsonValue* value) {
 
 /// The frame of a film that a picture without a film would have been made from, by the figures that it carries.
 StoredFilm described_film(const std::filesystem::path& file, const JsonValue& stats) {
-  const LoadedScene loaded = load_scene("./" / file);
+  const LoadedScene loaded = load_scene(("./" / file).string());
   StoredFilm film{{file.string(), {}}, loaded.scene, {}, contents_remark(loaded)};
   if (const JsonValue* region = find(&stats, "region"))
     if (const auto* numbers = std::get_if<JsonArray>(&region->value); numbers && numbers->size() == 4)

@@ -6,7 +6,6 @@
 #include "app/files/outputs.h"
 #include "app/text/markup.h"
 #include "app/window/window.h"
-#include "core/base/environment.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/image_io.h"
@@ -80,7 +79,7 @@ void check_memory(const Scene& scene) {
 /// Opens the window; where there is none, says what to do instead. options: made only when it is needed.
 template <class Options>
 int open_window(const std::string& instead, [[maybe_unused]] const Options& options) {
-  if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) fail_without_display("no display for a window", instead);
+  if (!has_display()) fail_without_display("no display for a window", instead);
 #ifdef TYNDALL_WINDOW
   try {
     return run_window(options());

@@ -74,7 +74,7 @@ class ArrivingPicture {
   std::string damage_;  ///< why what follows is not looked at; "": it is
   bool ended_ = false;  ///< nothing follows
   std::function<void()> on_news_;
-  mutable std::mutex mutex_;  ///< guards arrival_
+  mutable Mutex mutex_;  ///< guards arrival_
   Arrival arrival_;
   Bell leave_;
   std::optional<StoppableThread> thread_;

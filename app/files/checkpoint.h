@@ -2,6 +2,7 @@
 #include "core/base/thread_pool.h"
 #include "core/film/film.h"
 #include "core/image/image.h"
+#include "core/system/locks.h"
 
 #include <atomic>
 #include <chrono>
@@ -63,7 +64,7 @@ class Checkpoints {
   std::atomic<double> cost_ = 0;            ///< seconds that the last one took
   std::atomic<double> slowest_ = 0;         ///< seconds that the slowest one took; 0 before the first
   bool slow_ = false;                       ///< whether it was told that they take too long
-  std::mutex mutex_;
+  Mutex mutex_;
   std::string problem_, last_problem_;  ///< guarded by mutex_
 };
 

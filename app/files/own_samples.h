@@ -1,6 +1,7 @@
 #pragma once
 #include "app/book/own_program.h"
 #include "app/files/watched_function.h"
+#include "core/system/locks.h"
 
 #include <memory>
 #include <mutex>
@@ -23,7 +24,7 @@ class OwnSamples {
 
  private:
   struct Held {
-    std::mutex mutex;
+    Mutex mutex;
     std::shared_ptr<OwnProgram> program;
     std::string reason;
     std::uint32_t taken = 0;

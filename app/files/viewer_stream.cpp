@@ -3,11 +3,11 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/system/connection.h"
+#include "core/system/locks.h"
 
 #include <algorithm>
 #include <bit>
 #include <chrono>
-#include <condition_variable>
 #include <cstdint>
 #include <cstring>
 #include <mutex>
@@ -88,8 +88,8 @@ struct ViewerStream::Shared {
   std::string name;
   int width = 0, height = 0;
 
-  mutable std::mutex mutex;
-  std::condition_variable changed;
+  mutable Mutex mutex;
+  Condition changed;
   // Guarded by the mutex:
   std::optional<ViewerFrame> frame;
   bool connected = false, sending = false, stop = false, ended = false;

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/render/sample_source.h"
+#include "core/system/locks.h"
 
 #include <cstdint>
 #include <functional>
@@ -38,7 +39,7 @@ class WatchedFunction {
   Function function_;
   void* user_;
   std::shared_ptr<const SampleSource> source_;
-  mutable std::mutex mutex_;  ///< guards what follows
+  mutable Mutex mutex_;  ///< guards what follows
   std::string first_;
   std::uint64_t problems_ = 0;
   std::function<void()> on_news_;

@@ -1,5 +1,7 @@
 #include "app/text/fonts.h"
 
+#include "core/scene/load.h"
+
 #include <filesystem>
 #include <system_error>
 
@@ -13,8 +15,11 @@ std::string find_font(const std::string& file) {
                                             "/usr/share/fonts/google-roboto/",
                                             "/usr/share/fonts/jetbrains-mono-fonts/",
                                             "/usr/local/share/fonts/",
-                                            "/Library/Fonts/"};
+                                            "/Library/Fonts/",
+                                            "C:/Windows/Fonts/"};
   std::error_code ignored;
+  const std::filesystem::path packed = assets_folder() / "fonts" / file;  // where the system has none of them
+  if (std::filesystem::is_regular_file(packed, ignored)) return packed.string();
   for (const std::string folder : folders)
     if (std::filesystem::is_regular_file(folder + file, ignored)) return folder + file;
   return "";

@@ -10,18 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 
 namespace tyndall {
-namespace {
-
-bool smart_terminal() {
-  const char* term = std::getenv("TERM");
-  return is_terminal(standard_error) && term && std::strcmp(term, "dumb") != 0;
-}
-
-}  // namespace
 
 double progress_fraction(const RenderProgress& now, const ProgressGoal& goal) {
   double part = 0;
@@ -57,7 +47,7 @@ std::string progress_text(const RenderProgress& now, const ProgressGoal& goal) {
 
 ProgressReport::ProgressReport(ProgressStyle style) {
   if (style == ProgressStyle::none) return;
-  form_ = style == ProgressStyle::automatic && smart_terminal() ? Form::bar : Form::lines;
+  form_ = style == ProgressStyle::automatic && has_smart_terminal() ? Form::bar : Form::lines;
   colour_ = form_ == Form::bar && !is_set("NO_COLOR");
   next_ = form_ == Form::bar ? 0.1 : 2;
 }

@@ -2,6 +2,7 @@
 
 #include "app/window/system/imgui_compat.h"
 #include "app/window/system/pacing.h"
+#include "core/system/files.h"
 
 #include <fmt/core.h>
 
@@ -30,8 +31,8 @@ bool draw_name_field(Ui& ui, Dialog& dialog) {
 
 /// The file whose name was typed: "~/" stands for the home folder, as in a shell.
 std::filesystem::path typed_file(const std::string& name) {
-  const char* home = std::getenv("HOME");
-  return home && name.starts_with("~/") ? std::filesystem::path(home) / name.substr(2) : std::filesystem::path(name);
+  const std::filesystem::path home = home_folder();
+  return !home.empty() && name.starts_with("~/") ? home / name.substr(2) : std::filesystem::path(name);
 }
 
 /// A row of buttons. Tab and the arrow keys mark another one, Return and the space bar press the marked one, unless a
@@ -101,7 +102,7 @@ Dialog name_dialog(const std::filesystem::path& suggestion) {
                 {{"dialog.save", "Save", Request{"save named"}}, {"dialog.cancel", "Cancel"}},
                 0,
                 "scene.json"};
-  std::strncpy(dialog.name, suggestion.c_str(), sizeof dialog.name - 1);
+  std::strncpy(dialog.name, suggestion.string().c_str(), sizeof dialog.name - 1);
   return dialog;
 }
 

@@ -3,9 +3,9 @@
 #include "app/text/standard_streams.h"
 #include "app/window/document/open_document.h"
 #include "app/window/system/lost_display.h"
-#include "core/base/environment.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/system/process.h"
 
 #include <memory>
 #include <string>
@@ -88,8 +88,7 @@ int MainWindow::end_of_signal() {
 int run_window(const WindowOptions& options) {
   if (!options.hosted) give_freed_memory_back();
   // GLFW is not touched without a display: its error would say less.
-  if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
-    throw IoError("no display: neither DISPLAY nor WAYLAND_DISPLAY is set");
+  if (!has_display()) throw IoError("no display: neither DISPLAY nor WAYLAND_DISPLAY is set");
   std::shared_ptr<const Reference> reference;
   if (!options.reference.empty())
     reference = std::make_shared<const Reference>(read_reference(options.reference, document_of(options.scene)));

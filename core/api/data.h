@@ -1,5 +1,6 @@
 #pragma once
 #include "core/api/guarded.h"
+#include "core/system/locks.h"
 
 #include <mutex>
 
@@ -20,7 +21,7 @@ struct TYNDALL_HIDDEN Scene::Data {
   std::shared_ptr<const PreparedScene> prepared_already() const;
 
  private:
-  mutable std::mutex mutex_{};
+  mutable Mutex mutex_{};
   mutable std::shared_ptr<const PreparedScene> prepared_{};
 };
 

@@ -1,19 +1,22 @@
 #pragma once
+#include "core/system/locks.h"
+
 #include <condition_variable>
 #include <mutex>
 #include <thread>
-#if !defined(__cpp_lib_jthread)
+#if !defined(__cpp_lib_jthread) || defined(TYNDALL_OWN_LOCKS)
 #include <chrono>
 #include <functional>
 #include <memory>
 #include <utility>
 #endif
 
-/// Threads that are asked to stop and joined when their owner is destroyed: the standard library's where it has them.
-/// libc++ has them from version 20 on; for older versions this file has the parts that the program uses.
+/// Threads that are asked to stop and joined when their owner is destroyed: the standard library's where it has them,
+/// and where the locks are its own. libc++ has them from version 20 on; else this file has the parts that the program
+/// uses.
 namespace tyndall {
 
-#if defined(__cpp_lib_jthread)
+#if defined(__cpp_lib_jthread) && !defined(TYNDALL_OWN_LOCKS)
 
 using StopToken = std::stop_token;
 using StoppableThread = std::jthread;
@@ -33,7 +36,7 @@ class StopToken {
   friend class StoppableThread;
   friend class StoppableCondition;
   struct State {
-    std::mutex mutex;
+    Mutex mutex;
     bool requested = false;
     std::function<void()> wake;  ///< empty: the thread does not sleep
   };
@@ -67,17 +70,17 @@ class StoppableThread {
   std::thread thread_;
 };
 
-class StoppableCondition : public std::condition_variable_any {
+class StoppableCondition : public Condition {
  public:
-  using std::condition_variable_any::wait, std::condition_variable_any::wait_for;
+  using Condition::wait, Condition::wait_for;
   /// Sleeps until the predicate holds or a stop is requested. Returns the predicate's value.
   template <class Predicate>
-  bool wait(std::unique_lock<std::mutex>& lock, const StopToken& stop, Predicate predicate) {
+  bool wait(std::unique_lock<Mutex>& lock, const StopToken& stop, Predicate predicate) {
     return sleep(lock, stop, predicate, [&] { return wait(lock), true; });
   }
   /// The same, for no longer than this.
   template <class Duration, class Predicate>
-  bool wait_for(std::unique_lock<std::mutex>& lock, const StopToken& stop, Duration longest, Predicate predicate) {
+  bool wait_for(std::unique_lock<Mutex>& lock, const StopToken& stop, Duration longest, Predicate predicate) {
     const auto end = std::chrono::steady_clock::now() + longest;
     return sleep(lock, stop, predicate, [&] { return wait_until(lock, end) == std::cv_status::no_timeout; });
   }
@@ -85,7 +88,7 @@ class StoppableCondition : public std::condition_variable_any {
  private:
   /// Sleeps by calling once() until the predicate holds. once(): sleeps until it is woken; false: stop sleeping.
   template <class Predicate, class Once>
-  bool sleep(std::unique_lock<std::mutex>& lock, const StopToken& stop, Predicate predicate, Once once) {
+  bool sleep(std::unique_lock<Mutex>& lock, const StopToken& stop, Predicate predicate, Once once) {
     const auto wake = [this, mutex = lock.mutex()] {
       { const std::lock_guard between_test_and_sleep(*mutex); }
       notify_all();

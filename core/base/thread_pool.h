@@ -32,7 +32,7 @@ class ThreadPool {
  private:
   void work(const StopToken& stop);
 
-  std::mutex mutex_;
+  Mutex mutex_;
   StoppableCondition wake_, done_;
   const std::function<void(int)>* job_ = nullptr;
   int count_ = 0, busy_ = 0;

@@ -1,5 +1,6 @@
 #include "core/compile/columns.h"
 
+#include "core/base/elementary.h"
 #include "core/base/kinds.h"
 #include "core/base/math.h"
 #include "core/base/random.h"
@@ -125,14 +126,14 @@ void push(std::vector<float> (&columns)[3], Vec3d v) {
 }
 
 double lens_radius(const Camera& camera) {
-  return focus_distance(camera) * std::tan(0.5 * camera.defocus_angle * radians);
+  return focus_distance(camera) * tangent(0.5 * camera.defocus_angle * radians);
 }
 
 CameraColumns camera_columns(const Camera& camera, int width, int height, Vec3d origin) {
   const Vec3d w = normalize(camera.look_from - camera.look_at);
   const Vec3d u = normalize(cross(camera.vup, w)), v = cross(w, u);
   const double focus = focus_distance(camera);
-  const double view_height = 2 * std::tan(0.5 * camera.vfov * radians) * focus;
+  const double view_height = 2 * tangent(0.5 * camera.vfov * radians) * focus;
   const double view_width = view_height * width / height;
   const double lens = lens_radius(camera);
   CameraColumns out;
@@ -205,7 +206,7 @@ std::shared_ptr<const std::vector<float>> gradient_table() {
     const double z = 1 - 2 * unit_interval<double>(hash(2 * i + 1)),
                  phi = 2 * pi * unit_interval<double>(hash(2 * i + 2));
     const double r = std::sqrt(1 - z * z);
-    for (const double c : {r * std::cos(phi), r * std::sin(phi), z}) table->push_back(static_cast<float>(c));
+    for (const double c : {r * cosine(phi), r * sine(phi), z}) table->push_back(static_cast<float>(c));
   }
   return table;
 }

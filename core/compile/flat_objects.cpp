@@ -112,7 +112,7 @@ bool spheres_keep_out(const Flattened& flat, const Slab& slab, double slack) {
 
 /// Whether no flat reaches into the slab. Marks the faces that a flat touches as closed.
 bool flats_keep_out(const std::vector<Flat>& flats, Slab& slab, double slack) {
-  const double radius = std::hypot(slab.half[0], slab.half[1], slab.half[2]) + slack;
+  const double radius = length(Vec3d{slab.half[0], slab.half[1], slab.half[2]}) + slack;
   for (const Flat& flat : flats) {
     if (flat.shape == slab.shape || length(flat.block.middle - slab.middle) > flat.radius + radius) continue;
     if (!are_apart(grown(slab, -slack), flat.block)) return false;
@@ -209,7 +209,7 @@ double worth_of(const FlatMirror& m, const Lights& lights, std::size_t k, Vec3d 
   if (std::none_of(receivers.begin(), receivers.end(),
                    [&](const Receiver& r) { return may_light(m, image, reach, r); }))
     return 0;
-  const double fraction = length(cross(m.u, m.v)) * std::abs(height) / std::pow(distance, 3);
+  const double fraction = length(cross(m.u, m.v)) * std::abs(height) / (distance * distance * distance);
   return static_cast<double>(lights.power[k]) * std::min(fraction, 1.0);
 }
 

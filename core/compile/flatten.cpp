@@ -1,5 +1,6 @@
 #include "core/compile/flatten.h"
 
+#include "core/base/elementary.h"
 #include "core/base/kinds.h"
 #include "core/base/math.h"
 #include "core/shapes/outline.h"
@@ -24,7 +25,7 @@ CosSin cos_sin(double degrees) {
     constexpr double values[5] = {1, 0, -1, 0, 1};
     return {values[quarter], values[(quarter + 3) % 4]};
   }
-  return {std::cos(remainder * (pi / 180)), std::sin(remainder * (pi / 180))};
+  return {cosine(remainder * (pi / 180)), sine(remainder * (pi / 180))};
 }
 
 void flatten_list(const std::vector<Object>& objects, const Placement& outer, std::int32_t group, Flattened& out) {
@@ -134,10 +135,10 @@ Extent own_extent(const Triangle<>& t, const Camera&) { return {{t.corner, t.cor
 /// An octagon around the disk, whose sides touch the rim.
 Extent own_extent(const Disk<>& d, const Camera&) {
   Extent extent;
-  const double apothem = std::cos(pi / 8);
+  const double apothem = cosine(pi / 8);
   for (int i = 0; i < 8; ++i) {
     const double angle = (2 * i + 1) * pi / 8;
-    extent.points.push_back(d.center + (1 / apothem) * (std::cos(angle) * d.u + std::sin(angle) * d.v));
+    extent.points.push_back(d.center + (1 / apothem) * (cosine(angle) * d.u + sine(angle) * d.v));
   }
   return extent;
 }

@@ -43,7 +43,7 @@ void add_flat(Lights& out, const Emitter& e, Vec3d corner, Vec3d u, Vec3d v) {
 double reach2_of(const Triangle<>& t) { return 0.25 * std::max(dot(t.u + t.v, t.u + t.v), dot(t.u - t.v, t.u - t.v)); }
 double reach2_of(const Disk<>& d) {  // the square of the longer half axis of the ellipse
   const double a = dot(d.u, d.u), b = dot(d.v, d.v);
-  return 0.5 * (a + b) + std::hypot(0.5 * (a - b), dot(d.u, d.v));
+  return 0.5 * (a + b) + length(Vec3d{0.5 * (a - b), dot(d.u, d.v), 0});
 }
 
 /// Turns the light that was added last, of the frame of a shape, into that of the shape.

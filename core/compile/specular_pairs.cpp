@@ -203,7 +203,7 @@ class Filler {
 
   /// After all mirrors.
   void add_slab(const Slab& slab) {
-    const double radius = std::hypot(slab.half[0], slab.half[1], slab.half[2]);
+    const double radius = length(Vec3d{slab.half[0], slab.half[1], slab.half[2]});
     add_flat(slab.middle, radius, slab.index, first_element_[slab.shape], 6);
     append_numbers(slab, compiled_.origin, out.slabs);
   }

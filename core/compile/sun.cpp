@@ -1,5 +1,7 @@
 #include "core/compile/sun.h"
 
+#include "core/base/elementary.h"
+
 #include <cmath>
 
 namespace tyndall {
@@ -73,7 +75,7 @@ SkySun find_sun(const SkyTexels& texels) {
 
 bool row_has_sun(const SkySun& sun, int row, int rows) {
   // The square's corners are at most atan(sqrt(2) tangent) from its middle.
-  return sun.tangent > 0 && std::abs(std::acos(sun.axis.y) - pi * (row + 0.5) / rows) < 1.5 * sun.tangent;
+  return sun.tangent > 0 && std::abs(arc_cosine(sun.axis.y) - pi * (row + 0.5) / rows) < 1.5 * sun.tangent;
 }
 
 }  // namespace tyndall

@@ -44,10 +44,11 @@ FilePlace find_place(const fs::path& file) {
   place.method = file == "-" ? WriteMethod::stream : WriteMethod::replace;
   place.target = file;
   if (file == "-") return place;
+  if (const std::string problem = problem_of_name(file); !problem.empty()) cannot_write(file, problem);
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
   const bool there = !error;
-  if (!there && error.value() != ENOENT) cannot_write(file, error.message());
+  if (!there && error != std::errc::no_such_file_or_directory) cannot_write(file, error.message());
   place.target = end_of_links(file);
   place.folder = folder_of(place.target);
   if (!place.target.has_filename()) cannot_write(file, error_text(EISDIR));

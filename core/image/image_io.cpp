@@ -45,7 +45,7 @@ std::optional<std::string> embedded_text(const std::filesystem::path& file, cons
 
 PictureName picture_name(const std::filesystem::path& name) {
   std::error_code error;
-  const std::string& text = name.native();
+  const std::string text = name.string();
   if (std::filesystem::exists(name, error)) return {name};
   for (std::size_t colon = text.rfind(':'); colon != text.npos && colon > 0; colon = text.rfind(':', colon - 1)) {
     const std::filesystem::path file = text.substr(0, colon);

@@ -1,5 +1,6 @@
 #include "core/image/image_io_exr.h"
 #include "core/image/image_io_file.h"
+#include "core/system/files.h"
 
 #ifdef TYNDALL_OPENEXR
 
@@ -15,7 +16,7 @@ namespace {
 class ExrBytes {
  public:
   explicit ExrBytes(const std::filesystem::path& file) : file_(file), size_(std::filesystem::file_size(file)) {
-    stream_.reset(std::fopen(file.c_str(), "rb"));
+    stream_.reset(open_stream(file, "rb"));
     if (!stream_) damaged("it cannot be opened");
   }
   [[noreturn]] void damaged(const std::string& what) const { cannot_read(file_, "damaged: " + what); }

@@ -23,7 +23,7 @@ template <class Read>
 auto with_exr(const std::filesystem::path& file, Read read) {
   try {
     check_exr(file);
-    Imf::MultiPartInputFile exr(file.c_str());
+    Imf::MultiPartInputFile exr(file.string().c_str());
     return read(exr);
   } catch (const ImageFileError&) {
     throw;

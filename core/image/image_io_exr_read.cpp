@@ -142,7 +142,7 @@ void read_whole_chroma(const std::filesystem::path& file, Imf::MultiPartInputFil
 
 /// Luminance for each pixel and chroma for every 2 x 2, by OpenEXR's own filter, in its 16 bits a value.
 void read_half_chroma(const std::filesystem::path& file, const ExrLayer& layer, LinearImage& image) {
-  Imf::RgbaInputFile exr(file.c_str(), layer.prefix);
+  Imf::RgbaInputFile exr(file.string().c_str(), layer.prefix);
   const Region& data = image.frame->data;
   std::vector<Imf::Rgba> row(static_cast<std::size_t>(image.width));
   exr.setFrameBuffer(Imf::ComputeBasePointer(row.data(), {data.x0, 0}, image.width), 1, 0);

@@ -1,6 +1,7 @@
 #include "core/image/image_io_file.h"
 
 #include "core/base/text.h"
+#include "core/system/files.h"
 #include "core/system/open_file.h"
 
 #include <algorithm>
@@ -62,7 +63,7 @@ void check_writable(const std::filesystem::path& file, const LinearImage& image)
 }
 
 std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file, std::size_t limit) {
-  const ReadStream stream(std::fopen(file.c_str(), "rb"));
+  const ReadStream stream(open_stream(file, "rb"));
   if (!stream) cannot_read(file, error_text(errno));
   std::vector<std::uint8_t> bytes;
   for (std::size_t size = 0, want = 0; size == want && size < limit;) {

@@ -69,7 +69,7 @@ bool read_jpeg_header(JpegDecoder& decoder, std::span<const std::uint8_t> bytes)
   jpeg_create_decompress(&decoder.info);
   decoder.watch.progress_monitor = watch_scans;
   decoder.info.progress = &decoder.watch;
-  jpeg_mem_src(&decoder.info, bytes.data(), bytes.size());
+  jpeg_mem_src(&decoder.info, bytes.data(), static_cast<unsigned long>(bytes.size()));
   for (const int marker : {exif_marker, profile_marker}) jpeg_save_markers(&decoder.info, marker, 0xffff);
   jpeg_read_header(&decoder.info, TRUE);
   jpeg_read_icc_profile(&decoder.info, &decoder.profile, &decoder.profile_size);

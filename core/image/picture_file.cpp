@@ -1,5 +1,6 @@
 #include "core/image/picture_file.h"
 
+#include "core/base/elementary.h"
 #include "core/base/text.h"
 #include "core/image/tonemap.h"
 
@@ -49,8 +50,8 @@ std::optional<double> by_formula(Profile curve, double x) {
   std::array<double, 7> p{};  // g, a, b, c, d, e, f
   for (std::size_t i = 0; i < counts[formula]; ++i) p[i] = fixed(curve, 12 + 4 * i);
   const auto [g, a, b, c, d, e, f] = p;
-  const auto power = [&, g = g, a = a, b = b] { return std::pow(std::max(a * x + b, 0.0), g); };
-  if (formula == 0) return std::pow(x, g);
+  const auto power = [&, g = g, a = a, b = b] { return to_the_power(std::max(a * x + b, 0.0), g); };
+  if (formula == 0) return to_the_power(x, g);
   if (formula <= 2) return x >= -b / a ? power() + c : c;
   return x >= d ? power() + e : c * x + f;
 }
@@ -61,7 +62,7 @@ std::optional<double> value(Profile curve, double x) {
   const std::size_t count = number(curve, 8, 4);
   if (!says(curve, 0, "curv") || count > (curve.size() - std::min<std::size_t>(curve.size(), 12)) / 2) return {};
   if (count == 0) return x;
-  if (count == 1) return std::pow(x, number(curve, 12, 2) / 256.0);
+  if (count == 1) return to_the_power(x, number(curve, 12, 2) / 256.0);
   const double place = x * static_cast<double>(count - 1);
   const auto before = std::min(static_cast<std::size_t>(place), count - 2);
   const double low = number(curve, 12 + 2 * before, 2), high = number(curve, 14 + 2 * before, 2);
@@ -97,7 +98,7 @@ std::vector<float> light_table(unsigned largest, double power) {
   for (unsigned number = 0; number <= largest; ++number) {
     const float part = static_cast<float>(number) / static_cast<float>(largest);
     light.push_back(power == srgb_curve ? srgb_decode(part)
-                                        : static_cast<float>(std::pow(static_cast<double>(part), power)));
+                                        : static_cast<float>(to_the_power(static_cast<double>(part), power)));
   }
   return light;
 }

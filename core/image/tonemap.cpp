@@ -1,20 +1,27 @@
 #include "core/image/tonemap.h"
 
+#include "core/base/elementary.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 
 namespace tyndall {
+namespace {
+
+float power(float base, float exponent) { return static_cast<float>(to_the_power(base, exponent)); }
+
+}  // namespace
 
 float srgb_encode(float linear) {
   if (linear <= 0.0031308f) return 12.92f * linear;
-  return 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+  return 1.055f * power(linear, 1 / 2.4f) - 0.055f;
 }
 
 float srgb_decode(float encoded) {
   if (encoded <= 0.04045f) return encoded / 12.92f;
-  return std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+  return power((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
 namespace {
@@ -100,14 +107,15 @@ class AgxCurve {
  private:
   static float linear_contrast(float light) {
     constexpr float darkest = -12.473931f, stops = 16.5f;  // log2(0.18) - 10; up to log2(0.18) + 6.5
-    return std::pow(agx_contrast(std::clamp((std::log2(light) - darkest) / stops, 0.0f, 1.0f)), 2.2f);
+    return power(agx_contrast(std::clamp((static_cast<float>(binary_logarithm(light)) - darkest) / stops, 0.0f, 1.0f)),
+                 2.2f);
   }
   static const Pieces& contrast() {
     static const Pieces values(linear_contrast);
     return values;
   }
   static const Pieces& code() {
-    static const Pieces values([](float v) { return 255 * std::pow(std::min(v, 1.0f), 1 / 2.2f); });
+    static const Pieces values([](float v) { return 255 * power(std::min(v, 1.0f), 1 / 2.2f); });
     return values;
   }
   const Pieces &contrast_ = contrast(), &code_ = code();
@@ -167,7 +175,7 @@ struct Pixels {
 template <class Curve>
 void map_pixels(const std::vector<float>& light, double exposure, const Curve& curve, const Offsets& offsets,
                 const Pixels& pixels, std::vector<std::uint8_t>& bytes) {
-  const float gain = std::exp2(static_cast<float>(exposure));
+  const float gain = static_cast<float>(to_the_power(2, exposure));
   bytes.resize(light.size());
   unsigned y = static_cast<unsigned>(pixels.origin.y);
   for (std::size_t row = 0; row < light.size(); row += pixels.channels * pixels.width, ++y) {
@@ -193,8 +201,8 @@ void map_by(ToneMap curve, const std::vector<float>& light, double exposure, con
 float agx_contrast(float x) {
   constexpr float pivot = 20.0f / 33, toe = 59.507875f, shoulder = 69.862789f;
   const float offset = x - pivot;
-  const float bend = offset < 0 ? std::pow(1 + toe * std::pow(-offset, 3.0f), -1 / 3.0f)
-                                : std::pow(1 + shoulder * std::pow(offset, 3.25f), -4 / 13.0f);
+  const float bend = offset < 0 ? power(1 + toe * power(-offset, 3.0f), -1 / 3.0f)
+                                : power(1 + shoulder * power(offset, 3.25f), -4 / 13.0f);
   return 0.5f + 2 * offset * bend;
 }
 

@@ -196,7 +196,7 @@ void WholeFile::commit() {
   if (place_.method == WriteMethod::in_place) return overwrite();
   if (place_.exists) check(bytes_.set_owner(place_.mode, place_.owner.user, place_.owner.group));
   check(bytes_.synchronise());
-  if (std::rename(temporary_.c_str(), place_.target.c_str()) != 0) fail(errno);
+  check(replace_file(temporary_, place_.target));
   temporary_.clear();
   sync_folder();
   if (const int problem = bytes_.close(); problem != EINTR) check(problem);  // last, as closing unlocks

@@ -5,7 +5,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <functional>
 #include <future>
 #include <mutex>
@@ -79,7 +78,7 @@ class Mailbox {
   void post(std::shared_ptr<const PreparedScene> scene);
 
  private:
-  mutable std::mutex mutex_;  ///< guards all but give_up_
+  mutable Mutex mutex_;  ///< guards all but give_up_
   StoppableCondition news_;
   std::atomic<bool> give_up_ = false;
 

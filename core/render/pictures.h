@@ -3,6 +3,7 @@
 #include "core/compile/render_scene.h"
 #include "core/film/film.h"
 #include "core/render/frame.h"
+#include "core/system/locks.h"
 #include "core/targets/kernels.h"
 
 #include <atomic>
@@ -50,7 +51,7 @@ class MemoryOf {
   static constexpr std::size_t max_spare = 2;
   struct Spare {
     Spare() { left.reserve(max_spare); }  // so that returning memory, which must not fail, allocates nothing
-    std::mutex mutex;
+    Mutex mutex;
     std::vector<T> left;  ///< empty except for the kept members
   };
   static void move_kept(T& from, T& to) { ((to.*kept = std::move(from.*kept)), ...); }

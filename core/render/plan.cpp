@@ -1,6 +1,7 @@
 #include "core/render/plan.h"
 
 #include "core/accuracy/estimate.h"
+#include "core/base/elementary.h"
 
 #include <algorithm>
 #include <bit>
@@ -79,7 +80,7 @@ double demand_of(const std::vector<Variance>& variances, const Cells& cells, int
       around.sum += one.sum;
       around.pixels += one.pixels;
     }
-  return around.pixels > 0 ? std::cbrt(around.sum / around.pixels) : 0;
+  return around.pixels > 0 ? to_the_power(around.sum / around.pixels, 1.0 / 3) : 0;
 }
 
 /// The demand of each cell, relative to the mean over all cells; above 0, so that a round can reach its mean.

@@ -1,5 +1,6 @@
 #include "core/scene/frames.h"
 
+#include "core/base/elementary.h"
 #include "core/base/text.h"
 #include "core/scene/check.h"
 #include "core/scene/json_read.h"
@@ -35,11 +36,11 @@ struct AxisFrame {
   Spherical spherical(Vec3d v) const {
     const double height = dot(v, axis), size = length(v);
     const double x = dot(v, a), y = dot(v, b);
-    return {size, x == 0 && y == 0 ? 0 : std::atan2(y, x), std::atan2(std::hypot(x, y), height)};
+    return {size, x == 0 && y == 0 ? 0 : arc_tangent(y, x), arc_tangent(length(Vec3d{x, y, 0}), height)};
   }
   Vec3d vector(const Spherical& s) const {
-    const double flat = s.length * std::sin(s.from_axis);
-    return flat * std::cos(s.around) * a + flat * std::sin(s.around) * b + s.length * std::cos(s.from_axis) * axis;
+    const double flat = s.length * sine(s.from_axis);
+    return flat * cosine(s.around) * a + flat * sine(s.around) * b + s.length * cosine(s.from_axis) * axis;
   }
 };
 

@@ -48,7 +48,7 @@ std::string read_all(std::FILE* file, const std::string& name, std::size_t maxim
 }
 
 std::string read_file(const std::string& name, std::size_t maximum = max_scene_bytes) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(name.c_str(), "rb"), &std::fclose);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(open_stream(name, "rb"), &std::fclose);
   if (!file)
     throw SceneError(name, std::string("a file that cannot be read (") + std::strerror(errno) + ")", expected_scene);
   return read_all(file.get(), name, maximum);

@@ -1,11 +1,9 @@
 #include "core/system/file_watch.h"
 
-#include <sys/stat.h>
+#include "core/system/files.h"
+#include "core/system/locks.h"
 
-#include <array>
 #include <chrono>
-#include <condition_variable>
-#include <cstdint>
 #include <mutex>
 #include <system_error>
 #include <thread>
@@ -17,24 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-/// What changes with a file: which one it is, its size, and when its bytes, name or mode were changed last.
-using Trace = std::array<std::int64_t, 7>;
-
-/// Zeros where there is no file.
-Trace trace_of(const fs::path& file) {
-  struct stat s {};
-  if (stat(file.c_str(), &s) != 0) return {};
-  return {static_cast<std::int64_t>(s.st_dev),
-          static_cast<std::int64_t>(s.st_ino),
-          s.st_size,
-          s.st_mtim.tv_sec,
-          s.st_mtim.tv_nsec,
-          s.st_ctim.tv_sec,
-          s.st_ctim.tv_nsec};
-}
-
-std::vector<Trace> traces_of(const std::vector<fs::path>& files) {
-  std::vector<Trace> traces;
+std::vector<FileTrace> traces_of(const std::vector<fs::path>& files) {
+  std::vector<FileTrace> traces;
   for (const fs::path& file : files) traces.push_back(trace_of(file));
   return traces;
 }
@@ -47,9 +29,9 @@ constexpr int longest_patience = 20;  // moments in which a file is written agai
 struct FileWatch::State {
   std::vector<fs::path> files;
   std::function<void()> on_change;
-  std::vector<Trace> seen;
-  std::mutex mutex;
-  std::condition_variable wake;
+  std::vector<FileTrace> seen;
+  Mutex mutex;
+  Condition wake;
   bool leaves = false;  ///< guarded by the mutex
   std::thread thread;
 
@@ -59,7 +41,7 @@ struct FileWatch::State {
       wake.wait_for(lock, moments > 0 ? settling : look_interval, [this] { return leaves; });
       if (leaves) return;
       lock.unlock();
-      std::vector<Trace> now = traces_of(files);
+      std::vector<FileTrace> now = traces_of(files);
       const bool changed = now != std::exchange(seen, now);
       if (moments > 0 && (!changed || moments >= longest_patience)) {
         moments = 0;

@@ -69,6 +69,26 @@ fs::path make_temporary_folder(const std::string& begin, int* error) {
 
 void remove_file(const fs::path& file) { unlink(file.c_str()); }
 
+int replace_file(const fs::path& from, const fs::path& to) {
+  return std::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+}
+
+std::FILE* open_stream(const fs::path& file, const char* mode) { return std::fopen(file.c_str(), mode); }
+
+std::string problem_of_name(const fs::path&) { return ""; }
+
+FileTrace trace_of(const fs::path& file) {
+  struct stat s {};
+  if (stat(file.c_str(), &s) != 0) return {};
+  return {static_cast<std::int64_t>(s.st_dev),
+          static_cast<std::int64_t>(s.st_ino),
+          s.st_size,
+          s.st_mtim.tv_sec,
+          s.st_mtim.tv_nsec,
+          s.st_ctim.tv_sec,
+          s.st_ctim.tv_nsec};
+}
+
 fs::path own_file() {
   std::error_code error;
 #ifdef __GLIBC__
@@ -80,6 +100,17 @@ fs::path own_file() {
   }
 #endif
   return fs::read_symlink("/proc/self/exe", error);
+}
+
+fs::path home_folder() {
+  const char* home = std::getenv("HOME");
+  const fs::path folder = home ? home : "";
+  return folder.is_absolute() ? folder : fs::path();
+}
+
+fs::path folder_of_user(const std::string& below_home) {
+  const fs::path home = home_folder();
+  return home.empty() ? home : home / below_home;
 }
 
 std::uint64_t process_number() { return static_cast<std::uint64_t>(getpid()); }

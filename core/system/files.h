@@ -1,6 +1,8 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,9 +22,24 @@ std::filesystem::path temporary_folder();
 std::filesystem::path make_temporary_folder(const std::string& begin, int* error = nullptr);
 
 void remove_file(const std::filesystem::path& file);
+/// Gives a file the place of another one, if there is one, at once. Returns 0, or the number of the error.
+int replace_file(const std::filesystem::path& from, const std::filesystem::path& to);
+/// std::fopen() for any name.
+std::FILE* open_stream(const std::filesystem::path& file, const char* mode);
+/// Why the system would take no file of this name, or one of another; "": it takes it.
+std::string problem_of_name(const std::filesystem::path& file);
+
+/// What changes with a file: which one it is, its size, and when its bytes, name or mode were changed last. Zeros where
+/// there is no file.
+using FileTrace = std::array<std::int64_t, 7>;
+FileTrace trace_of(const std::filesystem::path& file);
 
 /// The file that holds this code: the library where another program uses it, else the program.
 std::filesystem::path own_file();
+/// The user's own folder; empty: there is none.
+std::filesystem::path home_folder();
+/// Where programs keep what is one user's: such as ".config" in the home folder, %APPDATA% on Windows; empty: nowhere.
+std::filesystem::path folder_of_user(const std::string& below_home);
 /// A number that no other process of this machine has at the same time.
 std::uint64_t process_number();
 

@@ -44,7 +44,26 @@ void begin_process() {
   if (descriptor >= 0) close(descriptor);
 }
 
+std::vector<std::string> program_arguments(int argc, char** argv) { return {argv + (argc > 0 ? 1 : 0), argv + argc}; }
+
 bool is_terminal(int descriptor) { return isatty(descriptor) != 0; }
+
+bool has_smart_terminal() {
+  const char* term = std::getenv("TERM");
+  return is_terminal(STDERR_FILENO) && term && std::string(term) != "dumb";
+}
+
+bool has_display() {
+#ifdef __APPLE__
+  return true;
+#else
+  const auto is_set = [](const char* variable) {
+    const char* value = std::getenv(variable);
+    return value && *value;
+  };
+  return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
+#endif
+}
 
 int terminal_columns() {
   winsize size{};
@@ -94,7 +113,11 @@ std::size_t peak_memory() {
   if (peak != no_limit) return peak;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
+#ifdef __APPLE__
+  return static_cast<std::size_t>(usage.ru_maxrss);  // bytes, there
+#else
   return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+#endif
 }
 
 void lower_priority([[maybe_unused]] int niceness) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <vector>
 
 /// This process: its standard streams, what it has used, and what it may still take.
 namespace tyndall {
@@ -13,10 +14,17 @@ namespace tyndall {
 /// sizes fails from now on, too, and ends the program no more.
 void begin_process();
 
+/// What main() got, without the program's name, in UTF-8.
+std::vector<std::string> program_arguments(int argc, char** argv);
+
 bool is_terminal(int descriptor);
+/// Whether standard error is a terminal that has colours and can draw a line again.
+bool has_smart_terminal();
 /// Columns of the terminal that standard error is; 80 if it does not say.
 int terminal_columns();
 inline constexpr int standard_error = 2;
+/// Whether there is a display on which a window could be opened.
+bool has_display();
 
 /// Memory that large pages have, on x86-64 and, usually, on ARM.
 inline constexpr std::size_t large_page = std::size_t{2} << 20;

@@ -24,7 +24,7 @@ LIMITS = {
     "lamp": (0, "light"), "lamps": (0, "lights"), "pane": (0, "slab"), "panes": (0, "slabs"),
     "ball": (0, "sphere"), "balls": (0, "spheres"), "fog": (0, "medium"), "smoke": (0, "medium"),
     "chain": (0, "specular_path"), "asked": (0, "query"), "asks": (0, "query, connect_probability"),
-    "share": (0, "fraction, reflectance, reuse"), "shares": (0, "fractions, reuses"),
+    "share": (3, "fraction, reflectance, reuse: only FILE_SHARE_READ and its like"), "shares": (0, "fractions, reuses"),
     "company": (0, "group"), "hull": (0, "enclosing_walls"), "sight": (0, "visibility, view_ray"),
     "companions": (0, "linked_objects"), "grain": (0, "drag_rounding"), "spared": (0, "exempt"), "evenly": (0, "is_diffuse"),
     "orders": (0, "request"), "director": (0, "render_loop"), "wishes": (0, "request"), "facts": (0, "model"),

@@ -47,7 +47,7 @@ struct Autosave::State {
   std::function<void()> on_change;
   KeptSlot slot;  ///< of the thread that writes, once something is to be kept
 
-  mutable std::mutex mutex;  ///< guards what follows
+  mutable Mutex mutex;  ///< guards what follows
   StoppableCondition news, written;
   std::shared_ptr<const Scene> scene;
   std::shared_ptr<const Origin> origin;

@@ -33,7 +33,7 @@ class JobQueue {
   void work(const StopToken& stop);
 
   std::function<void()> on_result_;
-  std::mutex mutex_;
+  Mutex mutex_;
   StoppableCondition wake_;
   std::deque<Job> jobs_;
   std::vector<Result> results_;

@@ -2,6 +2,7 @@
 #include "app/window/accuracy/comparison.h"
 #include "core/render/render_request.h"
 #include "core/render/renderer.h"
+#include "core/system/locks.h"
 
 #include <atomic>
 #include <functional>
@@ -85,7 +86,7 @@ class RendererPair {
 
   std::string isa_;
   std::function<void()> told_;
-  mutable std::mutex mutex_;      ///< guards what follows, and second_
+  mutable Mutex mutex_;           ///< guards what follows, and second_
   RenderRequest current_, kept_;  ///< the newest ones
   ThreadBudget budget_;
   std::atomic<std::uint64_t> edit_ = 0;

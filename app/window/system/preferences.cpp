@@ -88,8 +88,8 @@ std::filesystem::path user_folder(const char* xdg_variable, const char* below) {
     const std::filesystem::path path = value ? value : "";
     return path.is_absolute() ? path : std::filesystem::path();
   };
-  const std::filesystem::path named = folder(xdg_variable), home = folder("HOME");
-  return named.empty() && !home.empty() ? home / below : named;
+  const std::filesystem::path named = folder(xdg_variable);
+  return named.empty() ? folder_of_user(below) : named;
 }
 
 }  // namespace tyndall

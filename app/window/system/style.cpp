@@ -1,6 +1,7 @@
 #include "app/window/system/style.h"
 
 #include "app/text/fonts.h"
+#include "core/system/files.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -63,9 +64,9 @@ std::vector<std::string> further_fonts() {
                                           "FreeSans.ttf",
                                           "unifont.ttf"};
   std::map<std::string, fs::path> installed;
-  for (const char* folder : {"/usr/share/fonts", "/usr/local/share/fonts", "/Library/Fonts"})
+  for (const char* folder : {"/usr/share/fonts", "/usr/local/share/fonts", "/Library/Fonts", "C:/Windows/Fonts"})
     find_fonts(folder, installed);
-  if (const char* home = std::getenv("HOME")) find_fonts(fs::path(home) / ".local/share/fonts", installed);
+  if (const fs::path home = home_folder(); !home.empty()) find_fonts(home / ".local/share/fonts", installed);
   std::vector<std::string> files;
   for (const char* name : names)
     if (const auto found = installed.find(name); found != installed.end()) files.push_back(found->second.string());

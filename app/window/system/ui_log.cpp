@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/system/files.h"
 
 #include <fmt/core.h>
 
@@ -25,7 +26,7 @@ std::string log_name(std::string name) {
 }
 
 UiLog::UiLog(const std::filesystem::path& file) {
-  stream_ = file == "-" ? stdout : std::fopen(file.c_str(), "w");
+  stream_ = file == "-" ? stdout : open_stream(file, "w");
   if (!stream_) throw IoError(file.string() + ": cannot write: " + std::strerror(errno));
 }
 

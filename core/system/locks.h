@@ -1,0 +1,70 @@
+#pragma once
+#include <condition_variable>
+#include <mutex>
+#if defined(_WIN32)
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#endif
+
+/// Locks of threads: the standard library's, but on Windows the system's own. There the library's are those of
+/// winpthreads, whose conditions now and then let a thread sleep that was woken.
+namespace tyndall {
+
+#if defined(_WIN32)
+#define TYNDALL_OWN_LOCKS 1
+
+class Mutex {
+ public:
+  Mutex() = default;
+  Mutex(const Mutex&) = delete;
+  Mutex& operator=(const Mutex&) = delete;
+  void lock();
+  void unlock();
+
+ private:
+  friend class Condition;
+  void* lock_ = nullptr;  // an SRWLOCK, which is a pointer and begins as 0
+};
+
+class Condition {
+ public:
+  Condition() = default;
+  Condition(const Condition&) = delete;
+  Condition& operator=(const Condition&) = delete;
+  void notify_one();
+  void notify_all();
+  void wait(std::unique_lock<Mutex>& lock) { sleep(lock, forever); }
+  template <class Predicate>
+  void wait(std::unique_lock<Mutex>& lock, Predicate predicate) {
+    while (!predicate()) sleep(lock, forever);
+  }
+  template <class Duration, class Predicate>
+  bool wait_for(std::unique_lock<Mutex>& lock, Duration longest, Predicate predicate) {
+    const auto end = std::chrono::steady_clock::now() + longest;
+    while (!predicate())
+      if (wait_until(lock, end) == std::cv_status::timeout) return predicate();
+    return true;
+  }
+  template <class Time>
+  std::cv_status wait_until(std::unique_lock<Mutex>& lock, Time end) {
+    const auto rest = std::chrono::ceil<std::chrono::milliseconds>(end - Time::clock::now()).count();
+    const bool woken = rest > 0 && sleep(lock, static_cast<unsigned>(std::min<long long>(rest, forever - 1)));
+    return woken || Time::clock::now() < end ? std::cv_status::no_timeout : std::cv_status::timeout;
+  }
+
+ private:
+  static constexpr unsigned forever = std::numeric_limits<unsigned>::max();
+  /// false: so many milliseconds have passed.
+  bool sleep(std::unique_lock<Mutex>& lock, unsigned milliseconds);
+  void* condition_ = nullptr;  // a CONDITION_VARIABLE, which is a pointer and begins as 0
+};
+
+#else
+
+using Mutex = std::mutex;
+using Condition = std::condition_variable;
+
+#endif
+
+}  // namespace tyndall

@@ -1,0 +1,216 @@
+#include "core/system/open_file.h"
+
+#include "core/system/files.h"
+#include "core/system/windows_api.h"
+
+#include <fcntl.h>
+#include <io.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <system_error>
+#include <thread>
+
+namespace tyndall {
+namespace {
+
+HANDLE handle_of(int file) { return reinterpret_cast<HANDLE>(_get_osfhandle(file)); }
+
+DWORD access_of(OpenFor purpose) {
+  if (purpose == OpenFor::reading || purpose == OpenFor::folder) return GENERIC_READ;
+  if (purpose == OpenFor::appending || purpose == OpenFor::adding) return FILE_APPEND_DATA | SYNCHRONIZE;
+  if (purpose == OpenFor::writing) return GENERIC_WRITE | FILE_READ_ATTRIBUTES;
+  return GENERIC_READ | GENERIC_WRITE;
+}
+
+DWORD disposition_of(OpenFor purpose) {
+  if (purpose == OpenFor::creating) return CREATE_NEW;
+  return purpose == OpenFor::changing || purpose == OpenFor::adding ? OPEN_ALWAYS : OPEN_EXISTING;
+}
+
+DWORD attributes_of(OpenFor purpose) {
+  if (purpose == OpenFor::folder) return FILE_FLAG_BACKUP_SEMANTICS;
+  return purpose == OpenFor::looking ? FILE_FLAG_OPEN_REPARSE_POINT : FILE_ATTRIBUTE_NORMAL;
+}
+
+int result(long long value) { return value < 0 ? errno : 0; }
+
+unsigned at_once(std::size_t size) { return static_cast<unsigned>(std::min<std::size_t>(size, 1u << 30)); }
+
+/// Far beyond the end of any file: here locks keep others from reading and writing what is locked.
+OVERLAPPED lock_place() {
+  OVERLAPPED place{};
+  place.Offset = 0xfffffffe, place.OffsetHigh = 0x7fffffff;
+  return place;
+}
+
+/// What is no pipe can be read at once.
+bool has_bytes_now(int file) {
+  DWORD bytes = 0;
+  return !PeekNamedPipe(handle_of(file), nullptr, 0, nullptr, &bytes, nullptr) || bytes > 0;
+}
+
+/// Pipes cannot be waited for, so this asks now and then. seconds: < 0: as long as it takes.
+template <class Question>
+bool ask_until(double seconds, const Question& holds) {
+  const auto start = std::chrono::steady_clock::now();
+  while (!holds()) {
+    const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
+    if (seconds >= 0 && waited.count() >= seconds) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return true;
+}
+
+}  // namespace
+
+int last_error_number(DWORD error) {
+  if (error == ERROR_SHARING_VIOLATION || error == ERROR_LOCK_VIOLATION) return EBUSY;
+  if (error == ERROR_FILE_EXISTS || error == ERROR_ALREADY_EXISTS) return EEXIST;
+  if (error == ERROR_INVALID_NAME) return EINVAL;
+  return std::system_category().default_error_condition(static_cast<int>(error)).value();
+}
+
+int open_for_all(const std::filesystem::path& file, DWORD access, DWORD disposition, DWORD attributes, int flags,
+                 int& error) {
+  error = EINVAL;
+  if (file.native().find(L'\0') != std::wstring::npos) return -1;
+  const HANDLE handle = CreateFileW(file.c_str(), access, all_may, nullptr, disposition, attributes, nullptr);
+  error = handle == INVALID_HANDLE_VALUE ? last_error_number() : 0;
+  if (error != 0) return -1;
+  const int number = _open_osfhandle(reinterpret_cast<std::intptr_t>(handle), flags | _O_BINARY | _O_NOINHERIT);
+  if (number < 0) error = EMFILE, CloseHandle(handle);
+  return number;
+}
+
+std::string error_text(int number) {
+  if (number == EBUSY) return "another program holds it open";
+  return number == ENOSYS ? "builds for Windows cannot do that" : std::generic_category().message(number);
+}
+
+OpenFile::OpenFile(const std::filesystem::path& file, OpenFor purpose, unsigned) {
+  const bool appends = purpose == OpenFor::appending || purpose == OpenFor::adding;
+  const DWORD disposition = disposition_of(purpose), attributes = attributes_of(purpose);
+  const int flags = appends ? _O_APPEND : 0;
+  // Only who may remove a file can rename it while it is open.
+  descriptor_ = open_for_all(file, access_of(purpose) | DELETE, disposition, attributes, flags, error_);
+  if (descriptor_ < 0 && (error_ == EACCES || error_ == EBUSY))
+    descriptor_ = open_for_all(file, access_of(purpose), disposition, attributes, flags, error_);
+}
+
+OpenFile& OpenFile::operator=(OpenFile&& other) noexcept {
+  std::swap(descriptor_, other.descriptor_), std::swap(error_, other.error_);
+  return *this;
+}
+
+OpenFile OpenFile::copy_of_standard_output() {
+  OpenFile file(_dup(standard_output));
+  if (!file) file.error_ = errno;
+  return file;
+}
+
+OpenFile OpenFile::unnamed() {
+  OpenFile file;
+  file.descriptor_ =
+      open_for_all(temporary_folder() / (L"tyndall-" + unique_word()), GENERIC_READ | GENERIC_WRITE | DELETE,
+                   CREATE_NEW, FILE_ATTRIBUTE_TEMPORARY | FILE_FLAG_DELETE_ON_CLOSE, 0, file.error_);
+  return file;
+}
+
+int OpenFile::close() { return descriptor_ > 2 ? result(_close(std::exchange(descriptor_, -1))) : 0; }
+
+int read_some(int file, void* to, std::size_t size, std::size_t& got) {
+  const int count = _read(file, to, at_once(size));
+  got = count > 0 ? static_cast<std::size_t>(count) : 0;
+  return count < 0 && errno == EPIPE ? 0 : result(count);
+}
+
+int OpenFile::write(const void* bytes, std::size_t size) const {
+  for (const char* at = static_cast<const char*>(bytes); size > 0;) {
+    const int written = _write(descriptor_, at, at_once(size));
+    if (written <= 0) return written < 0 ? errno : EIO;
+    at += written, size -= static_cast<std::size_t>(written);
+  }
+  return 0;
+}
+
+int OpenFile::seek(std::uint64_t position) const {
+  return result(_lseeki64(descriptor_, static_cast<long long>(position), SEEK_SET));
+}
+
+int OpenFile::size(std::uint64_t& bytes) const {
+  const long long length = _filelengthi64(descriptor_);
+  bytes = static_cast<std::uint64_t>(length);
+  return result(length);
+}
+
+int OpenFile::truncate(std::uint64_t size) const { return _chsize_s(descriptor_, static_cast<long long>(size)); }
+
+/// NTFS writes the names in a folder down by itself; pipes and devices have nothing to be written.
+int OpenFile::synchronise() const {
+  BY_HANDLE_FILE_INFORMATION info{};
+  const bool known = GetFileInformationByHandle(handle_of(descriptor_), &info) != 0;
+  if (known && (info.dwFileAttributes & FILE_ATTRIBUTE_DIRECTORY) != 0) return 0;
+  if (FlushFileBuffers(handle_of(descriptor_))) return 0;
+  return GetLastError() == ERROR_INVALID_FUNCTION ? 0 : last_error_number();
+}
+
+int OpenFile::reserve(std::uint64_t) const { return 0; }
+
+int OpenFile::try_lock() const {
+  OVERLAPPED place = lock_place();
+  const DWORD flags = LOCKFILE_EXCLUSIVE_LOCK | LOCKFILE_FAIL_IMMEDIATELY;
+  if (LockFileEx(handle_of(descriptor_), flags, 0, 1, 0, &place)) return 0;
+  const DWORD error = GetLastError();
+  return error == ERROR_LOCK_VIOLATION || error == ERROR_IO_PENDING ? EWOULDBLOCK : last_error_number(error);
+}
+
+void OpenFile::wait_for_lock() const {
+  OVERLAPPED place = lock_place();
+  LockFileEx(handle_of(descriptor_), LOCKFILE_EXCLUSIVE_LOCK, 0, 1, 0, &place);
+}
+
+bool OpenFile::has_name() const {
+  FILE_STANDARD_INFO info{};
+  return !GetFileInformationByHandleEx(handle_of(descriptor_), FileStandardInfo, &info, sizeof info) ||
+         (!info.DeletePending && info.NumberOfLinks > 0);
+}
+
+/// A file gets what its folder says; it has no mode.
+int OpenFile::set_owner(unsigned, unsigned, unsigned) const { return 0; }
+
+Bell::Bell() {
+  int ends[2];
+  if (_pipe(ends, 64, _O_BINARY | _O_NOINHERIT) != 0) return;
+  heard_ = OpenFile(ends[0]), rung_ = OpenFile(ends[1]);
+}
+
+void Bell::ring() const {
+  constexpr char byte = 0;
+  [[maybe_unused]] const auto written = _write(rung_.descriptor(), &byte, 1);
+}
+
+void Bell::wait() const {
+  char byte = 0;
+  std::size_t got = 0;
+  heard_.read(&byte, 1, got);
+}
+
+Bell::Woken Bell::wait_for(int file, double seconds) const {
+  Woken woken = Woken::by_time;
+  ask_until(seconds, [&] {
+    if (has_bytes_now(heard_.descriptor()))
+      woken = Woken::by_bell;
+    else if (has_bytes_now(file))
+      woken = Woken::by_bytes;
+    return woken != Woken::by_time;
+  });
+  return woken;
+}
+
+bool has_bytes(int file, int milliseconds) {
+  return ask_until(1e-3 * milliseconds, [file] { return has_bytes_now(file); });
+}
+
+}  // namespace tyndall

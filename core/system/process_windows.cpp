@@ -1,0 +1,89 @@
+#include "core/system/process.h"
+
+#include "core/system/windows_api.h"
+
+#include <fcntl.h>
+#include <io.h>
+#include <psapi.h>
+#include <shellapi.h>
+
+#include <clocale>
+#include <cstdlib>
+
+namespace tyndall {
+
+void begin_process() {
+  _fmode = _O_BINARY;
+  for (const int stream : {0, 1, 2}) _setmode(stream, _O_BINARY);  // fails for those that are closed, as it should
+  std::setlocale(LC_CTYPE, ".UTF8");                               // UCRT's; see names_windows.cpp for msvcrt's
+  SetConsoleOutputCP(CP_UTF8);
+  DWORD mode = 0;
+  const HANDLE errors = GetStdHandle(STD_ERROR_HANDLE);
+  if (GetConsoleMode(errors, &mode)) SetConsoleMode(errors, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING);
+  DWORD others = 0;  // a console that Windows opened for the program alone, which was double-clicked
+  if (GetConsoleProcessList(&others, 1) == 1) ShowWindow(GetConsoleWindow(), SW_SHOWMINNOACTIVE);
+  SetErrorMode(SEM_FAILCRITICALERRORS | SEM_NOGPFAULTERRORBOX);  // no windows that wait for somebody
+}
+
+/// The C library's own arguments would be in the letters of one country, with stars replaced by names of files.
+std::vector<std::string> program_arguments(int, char**) {
+  int count = 0;
+  wchar_t** words = CommandLineToArgvW(GetCommandLineW(), &count);
+  std::vector<std::string> arguments;
+  for (int k = 1; words && k < count; ++k) arguments.push_back(utf8_of(words[k]));
+  LocalFree(words);
+  return arguments;
+}
+
+/// The null device is a "terminal" of the C library, too.
+bool is_terminal(int descriptor) {
+  DWORD mode = 0;
+  return GetConsoleMode(reinterpret_cast<HANDLE>(_get_osfhandle(descriptor)), &mode) != 0;
+}
+
+bool has_smart_terminal() {
+  DWORD mode = 0;
+  return GetConsoleMode(GetStdHandle(STD_ERROR_HANDLE), &mode) != 0 && (mode & ENABLE_VIRTUAL_TERMINAL_PROCESSING) != 0;
+}
+
+int terminal_columns() {
+  CONSOLE_SCREEN_BUFFER_INFO info{};
+  if (!GetConsoleScreenBufferInfo(GetStdHandle(STD_ERROR_HANDLE), &info)) return 80;
+  return info.srWindow.Right - info.srWindow.Left + 1;
+}
+
+bool has_display() { return true; }
+
+void ask_for_large_pages(void*, std::size_t) {}  // only for accounts with a privilege
+
+std::uint64_t limit_of(Limit) { return no_limit; }
+
+/// What may still be committed: more than that is refused at once, not when it is touched.
+FreeMemory free_memory(const std::filesystem::path&) {
+  MEMORYSTATUSEX status{};
+  status.dwLength = sizeof status;
+  return {GlobalMemoryStatusEx(&status) ? status.ullAvailPageFile : no_limit, "free on this machine"};
+}
+
+std::size_t peak_memory() {
+  PROCESS_MEMORY_COUNTERS counters{};
+  return GetProcessMemoryInfo(GetCurrentProcess(), &counters, sizeof counters) ? counters.PeakWorkingSetSize : 0;
+}
+
+void lower_priority(int niceness) {
+  SetThreadPriority(GetCurrentThread(), niceness >= 15 ? THREAD_PRIORITY_LOWEST : THREAD_PRIORITY_BELOW_NORMAL);
+}
+
+/// In steps of some 16 ms, which is how Windows counts.
+double thread_cpu_seconds() {
+  FILETIME start, end, kernel, user;
+  if (!GetThreadTimes(GetCurrentThread(), &start, &end, &kernel, &user)) return 0;
+  const auto ticks = [](const FILETIME& time) {
+    return static_cast<double>(std::uint64_t{time.dwHighDateTime} << 32 | time.dwLowDateTime);
+  };
+  return 1e-7 * (ticks(kernel) + ticks(user));
+}
+
+void* loaded_function(const char*, const char*) { return nullptr; }  // none is asked for that Windows has
+
+}  // namespace tyndall

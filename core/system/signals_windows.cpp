@@ -1,0 +1,78 @@
+#include "core/system/signals.h"
+
+#include "core/system/open_file.h"
+#include "core/system/windows_api.h"
+
+#include <atomic>
+#include <csignal>
+#include <cstdlib>
+#include <utility>
+
+namespace tyndall {
+namespace {
+
+std::atomic<int> received_signal{0};
+std::atomic<ULONGLONG> received_at{0};  ///< milliseconds
+std::atomic<const Bell*> bell{nullptr};
+std::atomic<int> watches{0}, patient_watches{0};  ///< that live; those of them that no second event ends
+
+/// What comes within this time is the same request.
+constexpr ULONGLONG same_request_ms = 200;
+
+/// The process ends when this returns for an end of the console, so it waits for the program's own end, as long as
+/// Windows lets it.
+BOOL WINAPI take_event(DWORD event) {
+  if (watches == 0) return FALSE;
+  const bool key = event == CTRL_C_EVENT || event == CTRL_BREAK_EVENT;
+  const int number = key ? SIGINT : SIGTERM;
+  int none = 0;
+  if (received_signal.compare_exchange_strong(none, number)) {
+    received_at = GetTickCount64();
+    if (const Bell* one = bell) one->ring();
+  } else if (patient_watches == 0 && GetTickCount64() - received_at > same_request_ms) {
+    std::_Exit(128 + number);
+  }
+  for (int k = 0; !key && watches > 0 && k < 100; ++k) Sleep(50);
+  return TRUE;
+}
+
+}  // namespace
+
+struct SignalWatch::Before {
+  Bell bell;
+};
+
+SignalWatch::SignalWatch(WatchedSignals signals, std::function<void()> on_end)
+    : signals_(signals), before_(std::make_unique<Before>()) {
+  if (signals_ == WatchedSignals::none) return;
+  if (watches == 0) received_signal = 0;
+  if (on_end) {
+    bell = &before_->bell;
+    thread_ = std::thread([this, call = std::move(on_end)] {
+      before_->bell.wait();
+      if (received_signal != 0) call();
+    });
+  }
+  if (signals_ == WatchedSignals::end) ++patient_watches;
+  if (watches++ == 0) SetConsoleCtrlHandler(take_event, TRUE);
+}
+
+SignalWatch::~SignalWatch() {
+  if (signals_ == WatchedSignals::none) return;
+  if (signals_ == WatchedSignals::end) --patient_watches;
+  if (thread_.joinable()) {
+    bell = nullptr;
+    before_->bell.ring();
+    thread_.join();
+  }
+  if (--watches == 0) SetConsoleCtrlHandler(take_event, FALSE);
+}
+
+int SignalWatch::received() const { return signals_ == WatchedSignals::none ? 0 : received_signal.load(); }
+bool SignalWatch::take_save_request() const { return false; }
+
+void ignore_lost_pipes() {}  // they end no program here
+
+std::string signal_name(int signal) { return "signal " + std::to_string(signal); }
+
+}  // namespace tyndall

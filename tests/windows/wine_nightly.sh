@@ -1,0 +1,104 @@
+#!/usr/bin/env bash
+# The program for Windows, cross compiled and run by wine: the hashes of all scenes and instruction sets are those of this
+# build, threads never hang, names and files are what Windows expects, outputs are whole or not there, the window opens and
+# keeps its edits, and "tyndall verify" passes. TYNDALL_TRIALS: short renders by 2 and by 4 threads; all of it takes hours.
+. "$(dirname "$0")/../app/_common.sh"
+scratch=$PWD
+skip() { echo "skipped: $*"; exit 77; }
+command -v x86_64-w64-mingw32-g++-posix >probe || skip 'the cross compiler is missing (g++-mingw-w64-x86-64-posix)'
+command -v wine >probe || skip 'wine is missing'
+cd "$source_root" || exit 1
+third_party/mingw_libraries.sh "$PWD/build/mingw-libraries" || skip 'the libraries cannot be fetched'
+cmake --preset windows >"$scratch/cmake.log" 2>&1 || { cat "$scratch/cmake.log"; fail 'cmake'; finish; }
+cmake --build build/windows --target tyndall core_tests app_tests >"$scratch/build.log" 2>&1 ||
+  { tail -50 "$scratch/build.log"; fail 'building'; finish; }
+cd "$scratch" || exit 1
+export WINEPREFIX=$scratch/prefix WINEDEBUG=-all WINEARCH=win64
+wine wineboot -i >boot.log 2>&1
+program=$source_root/build/windows/tyndall.exe
+windows() { timeout -s KILL 300 wine "$program" "$@"; }
+
+echo '# hashes'
+hash() { # SCENE ISA COMMAND...
+  local scene=$1 isa=$2
+  shift 2
+  "$@" render "$scene" --size 32x24 --spp 2 --isa "$isa" -q -o picture.pfm --stats picture.json </dev/null || fail "$scene, $isa"
+  json picture.json image_hash
+}
+sets=$("$tyndall" version | sed -n 's/^kernels  *\(.*\); this CPU.*/\1/p')
+pictures=0
+for isa in $sets; do
+  for scene in $("$tyndall" scenes | awk '{ print $1 }'); do
+    same "$scene, $isa" "$(hash "$scene" "$isa" windows)" "$(hash "$scene" "$isa" "$tyndall")"
+    pictures=$((pictures + 1))
+  done
+done
+echo "$pictures pictures compared ($sets)"
+[ "$pictures" -gt 50 ] || fail 'too few scenes'
+
+echo '# threads'
+for threads in 2 4; do
+  for ((k = 0; k < ${TYNDALL_TRIALS:-2000}; ++k)); do
+    timeout -s KILL 60 wine "$program" render cornell-box --size 16x16 --spp 1 -t "$threads" -q -o hang.pfm </dev/null ||
+      fail "render $k with $threads threads did not end"
+  done
+done
+
+echo '# names'
+folder='Ördner mit 水'
+mkdir "$folder"
+for name in "$folder/Bild ü 😀.png" "$folder\\zwei.exr" "Z:$(echo "$PWD" | tr / '\\')\\drei.png"; do
+  expect 0 windows render cornell-box --size 16x16 --spp 1 -o "$name" :quiet
+done
+ls "$folder/Bild ü 😀.png" "$folder/zwei.exr" drei.png >listed || fail 'a file has another name'
+expect 0 windows convert "$folder/Bild ü 😀.png" -o scene.json :quiet
+grep -q $'\r' scene.json && fail 'a scene was written with CR LF'
+sed 's/$/\r/' scene.json >crlf.json
+expect 0 windows render '.\crlf.json' --size 16x16 --spp 1 -o crlf.png :quiet
+cmp -s crlf.png "$folder/Bild ü 😀.png" || echo 'the scene with CR LF has its own name inside'
+expect 3 windows render cornell-box --size 8x8 --spp 1 -o NUL.png :: 'NUL.png: cannot write: "NUL.png" is a device of Windows'
+expect 3 windows render cornell-box --size 8x8 --spp 1 -o a.exr:b.exr :: "found ':' in its name"
+echo old >kept.png
+chmod 444 kept.png
+expect 3 windows render cornell-box --size 8x8 --spp 1 -o kept.png :: 'kept.png: cannot write: it may only be read'
+[ "$(cat kept.png)" = old ] || fail 'a read-only file was replaced'
+expect 2 windows render nope :: nope
+
+echo '# ends'
+wine "$program" render cornell-box --size 64x64 --spp 1000000 -t 2 -q -o ended.png >out 2>err </dev/null &
+sleep 8
+kill -INT $! || fail 'nothing to interrupt'
+wait $!
+[ -s ended.png ] || fail "Ctrl-C left no picture: $(cat err)"
+torn=0 lost=0
+windows render cornell-box --size 32x32 --spp 1 -q -o whole.png </dev/null
+for ((k = 0; k < ${TYNDALL_KILLS:-200}; ++k)); do
+  timeout -s KILL "$(awk "BEGIN { print 0.2 + $k * 0.004 }")" wine "$program" render cornell-box --size 32x32 --spp 1 -q -o whole.png </dev/null 2>killed.err
+  [ -s whole.png ] || lost=$((lost + 1))
+  "$tyndall" inspect whole.png >out 2>err || torn=$((torn + 1))
+done
+echo "$torn torn, $lost lost"
+[ "$torn$lost" = 00 ] || fail 'an output was torn or lost'
+
+echo '# window'
+display=99
+if command -v Xvfb >probe && Xvfb :$display -screen 0 1280x800x24 >xvfb.log 2>&1 & then
+  server=$!
+  sleep 2
+  mkdir -p data
+  env DISPLAY=:$display XDG_STATE_HOME="Z:$PWD/data" wine "$program" view showroom --ui-log ui.txt >out 2>err </dev/null &
+  viewer=$!
+  for ((k = 0; k < 60; ++k)); do grep -q '^frame' ui.txt 2>/dev/null && break; sleep 1; done
+  grep -q '^frame' ui.txt || fail "the window shows nothing: $(cat err)"
+  kill -KILL $viewer
+  wait $viewer 2>/dev/null
+  kill $server
+fi
+
+echo '# tests'
+for tests in core_tests app_tests; do
+  timeout 3600 wine "$source_root/build/windows/tests/$tests.exe" >"$tests.log" 2>&1 || { tail -40 "$tests.log"; fail "$tests"; }
+done
+timeout 14400 wine "$program" verify -t 2 -q >verify.log 2>&1 || { tail -20 verify.log; fail 'verify'; }
+tail -1 verify.log
+finish
