@@ -34,6 +34,7 @@ export async function startBrowser(...options) {
     `--user-data-dir=${folder}`, ...options, 'about:blank'
   ], {stdio: ['ignore', 'ignore', 'pipe']});
   process.on('exit', () => chromium.kill());
+  for (const signal of ['SIGINT', 'SIGTERM']) process.on(signal, () => process.exit(1));
   const address = await new Promise((done, failed) => {
     let said = '';
     chromium.stderr.on('data', text => {
