@@ -198,7 +198,7 @@ var Module = {
 // ---- keys, fingers, and files that are dropped -----------------------------------------------------------------------
 addEventListener('keydown', event => { // those that browsers do something else with
   const chord = (event.ctrlKey || event.metaKey) && /^[abdkopqsyz+=0-]$/i.test(event.key);
-  if (chord || /^F[12]$/.test(event.key)) event.preventDefault();
+  if (chord || /^F([12]|11)$/.test(event.key)) event.preventDefault();
 }, true);
 addEventListener('paste', event => { Module.pasted = event.clipboardData.getData('text'); });
 addEventListener('hashchange', () => location.reload());

@@ -34,6 +34,7 @@ export async function startBrowser(...options) {
     `--user-data-dir=${folder}`, ...options, 'about:blank'
   ], {stdio: ['ignore', 'ignore', 'pipe']});
   process.on('exit', () => chromium.kill());
+  for (const signal of ['SIGINT', 'SIGTERM']) process.on(signal, () => process.exit(1));
   const address = await new Promise((done, failed) => {
     let said = '';
     chromium.stderr.on('data', text => {
@@ -46,7 +47,13 @@ export async function startBrowser(...options) {
   const end = async () => {
     chromium.removeAllListeners('exit'), chromium.kill();
     await new Promise(done => chromium.on('exit', done));
-    rmSync(folder, {recursive: true, force: true, maxRetries: 10});
+    for (let k = 0; k < 20; ++k) { // its children end a moment later
+      try {
+        return rmSync(folder, {recursive: true, force: true});
+      } catch {
+        await seconds(0.2);
+      }
+    }
   };
   return {open: url => Page.open(address, url), end};
 }

@@ -243,11 +243,12 @@ const tests = {
     const hide = hidden => page.evaluate(`Object.defineProperty(document, 'hidden', {value: ${hidden}, configurable: true});
         document.dispatchEvent(new Event('visibilitychange'))`);
     await hide(true), await seconds(1);
-    const before = page.frames().at(-1);
-    await seconds(3);
-    expect('samples of a hidden tab', page.frames().at(-1)[2], before[2]);
-    await hide(false);
-    await page.until('more samples', () => page.frames().at(-1)[2] > before[2], 10);
+    const from = page.lines.length, before = page.frames().at(-1)[2];
+    await seconds(8), await hide(false);
+    const after = (await page.picture(from))[2];
+    console.log(`a tab with ${before} samples a pixel has ${after} when it is seen again`);
+    expect('a hidden tab takes no samples', after <= before + 4);
+    await page.until('more samples', () => page.frames().at(-1)[2] > after, 10);
     await page.close();
   },
 
