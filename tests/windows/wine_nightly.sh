@@ -82,7 +82,8 @@ echo "$torn torn, $lost lost"
 
 echo '# window'
 display=99
-if command -v Xvfb >probe && Xvfb :$display -screen 0 1280x800x24 >xvfb.log 2>&1 & then
+if command -v Xvfb >probe; then
+  Xvfb :$display -screen 0 1280x800x24 >xvfb.log 2>&1 &
   server=$!
   sleep 2
   mkdir -p data
