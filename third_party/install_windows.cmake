@@ -1,5 +1,5 @@
 # "cmake --install" and, by CPack, a zip that runs from any folder: the program, and beside it what it reads in
-# share/tyndall. Included by CMakeLists.txt.
+# the folder assets. Included by CMakeLists.txt.
 enable_language(RC)
 target_sources(tyndall PRIVATE assets/desktop/windows/tyndall.rc)
 set(fonts /usr/share/fonts/truetype)
@@ -8,7 +8,7 @@ set(TYNDALL_FONTS "${fonts}/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf;${fonts
 set(TYNDALL_NOTICES "${TYNDALL_MINGW_LIBRARIES}/licenses" CACHE PATH
     "a folder with the notices of the libraries and fonts that are packed with the program")
 
-set(share share/tyndall)
+set(share assets) # where a program finds them that was not installed
 install(TARGETS tyndall RUNTIME DESTINATION .)
 install(FILES assets/scene.schema.json DESTINATION ${share})
 install(DIRECTORY assets/scenes assets/templates assets/textures assets/verify DESTINATION ${share}

@@ -9,6 +9,12 @@
 #include <chrono>
 #include <memory>
 
+#ifndef SOCK_CLOEXEC  // macOS says these things by further calls
+#define SOCK_CLOEXEC 0
+#define SOCK_NONBLOCK 0
+#define MSG_NOSIGNAL 0
+#endif
+
 namespace tyndall {
 namespace {
 
@@ -29,6 +35,12 @@ OpenFile connect_to(const addrinfo& to, const std::function<bool()>& go_on, std:
   OpenFile made(socket(to.ai_family, to.ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, to.ai_protocol));
   int error = 0, buffer = send_buffer;
   setsockopt(made.descriptor(), SOL_SOCKET, SO_SNDBUF, &buffer, sizeof buffer);
+#ifdef SO_NOSIGPIPE
+  const int yes = 1;
+  setsockopt(made.descriptor(), SOL_SOCKET, SO_NOSIGPIPE, &yes, sizeof yes);
+  fcntl(made.descriptor(), F_SETFL, O_NONBLOCK);
+  fcntl(made.descriptor(), F_SETFD, FD_CLOEXEC);
+#endif
   if (!made || (connect(made.descriptor(), to.ai_addr, to.ai_addrlen) != 0 && errno != EINPROGRESS)) {
     why = error_text(errno);
     return {};

@@ -8,8 +8,10 @@
 #include <linux/magic.h>
 #include <sys/statfs.h>
 #endif
-#ifdef __GLIBC__
+#if defined(__GLIBC__) || defined(__APPLE__)
 #include <dlfcn.h>
+#endif
+#ifdef __GLIBC__
 #include <link.h>
 #endif
 
@@ -80,13 +82,18 @@ std::string problem_of_name(const fs::path&) { return ""; }
 FileTrace trace_of(const fs::path& file) {
   struct stat s {};
   if (stat(file.c_str(), &s) != 0) return {};
+#ifdef __APPLE__
+  const timespec changed = s.st_mtimespec, altered = s.st_ctimespec;
+#else
+  const timespec changed = s.st_mtim, altered = s.st_ctim;
+#endif
   return {static_cast<std::int64_t>(s.st_dev),
           static_cast<std::int64_t>(s.st_ino),
           s.st_size,
-          s.st_mtim.tv_sec,
-          s.st_mtim.tv_nsec,
-          s.st_ctim.tv_sec,
-          s.st_ctim.tv_nsec};
+          changed.tv_sec,
+          changed.tv_nsec,
+          altered.tv_sec,
+          altered.tv_nsec};
 }
 
 fs::path own_file() {
@@ -98,6 +105,9 @@ fs::path own_file() {
     const char* library = static_cast<const link_map*>(map)->l_name;  // "" of the program itself
     if (library && *library) return fs::canonical(library, error);
   }
+#elif defined(__APPLE__)
+  Dl_info found{};
+  if (dladdr(reinterpret_cast<void*>(&own_file), &found) != 0) return fs::canonical(found.dli_fname, error);
 #endif
   return fs::read_symlink("/proc/self/exe", error);
 }

@@ -58,10 +58,12 @@ expect 0 windows render '.\crlf.json' --size 16x16 --spp 1 -o crlf.png :quiet
 cmp -s crlf.png "$folder/Bild ü 😀.png" || echo 'the scene with CR LF has its own name inside'
 expect 3 windows render cornell-box --size 8x8 --spp 1 -o NUL.png :: 'NUL.png: cannot write: "NUL.png" is a device of Windows'
 expect 3 windows render cornell-box --size 8x8 --spp 1 -o a.exr:b.exr :: "found ':' in its name"
-echo old >kept.png
-chmod 444 kept.png
-expect 3 windows render cornell-box --size 8x8 --spp 1 -o kept.png :: 'kept.png: cannot write: it may only be read'
-[ "$(cat kept.png)" = old ] || fail 'a read-only file was replaced'
+if [ "$(id -u)" != 0 ]; then # root may write into everything
+  echo old >kept.png
+  chmod 444 kept.png
+  expect 3 windows render cornell-box --size 8x8 --spp 1 -o kept.png :: 'kept.png: cannot write: it may only be read'
+  [ "$(cat kept.png)" = old ] || fail 'a read-only file was replaced'
+fi
 expect 2 windows render nope :: nope
 
 echo '# ends'
@@ -82,7 +84,8 @@ echo "$torn torn, $lost lost"
 
 echo '# window'
 display=99
-if command -v Xvfb >probe && Xvfb :$display -screen 0 1280x800x24 >xvfb.log 2>&1 & then
+if command -v Xvfb >probe; then
+  Xvfb :$display -screen 0 1280x800x24 >xvfb.log 2>&1 &
   server=$!
   sleep 2
   mkdir -p data
