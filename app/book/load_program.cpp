@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/system/open_file.h"
+#include "core/system/child.h"
 #include "core/system/process.h"
 #include "core/system/signals.h"
 
@@ -108,6 +109,9 @@ bool is_program(const std::string& name) {
 
 ProgramScene load_program(const ProgramRequest& request) {
   const fs::path& main = request.sources.files.front();
+  if (!runs_children())
+    throw UsageError(printable(main.string()) +
+                     ": is not run: builds for Windows run no programs, which need a compiler");
   const auto scratch = std::make_shared<ScratchFolder>();
   const ProgramTask task{printable(main.string()), scratch->path(), request.go_on,
                          request.watch_signals,    request.trusted, request.compiler};

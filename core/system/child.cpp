@@ -263,6 +263,8 @@ class Child {
 
 }  // namespace
 
+bool runs_children() { return true; }
+
 ChildEnd run_child(const ChildPlan& plan) {
   ChildEnd end;
   Pipe input, errors, reports;

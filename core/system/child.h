@@ -39,6 +39,9 @@ struct ChildEnd {
   bool ended() const { return timed_out || awaited_input || given_up; }
 };
 
+/// Whether programs can be run at all.
+bool runs_children();
+
 /// Runs it to its end, or ends it. In any case all that it has started is gone when this returns, or ends with this
 /// process if that is killed; without a guard only what has not left its process group. Standard output goes nowhere.
 ChildEnd run_child(const ChildPlan& plan);

@@ -4,6 +4,8 @@
 
 namespace tyndall {
 
+bool runs_children() { return false; }
+
 ChildEnd run_child(const ChildPlan&) {
   ChildEnd end;
   end.start_error = ENOSYS;
