@@ -36,7 +36,7 @@ refuses 3 "$tyndall" chart showroom --reference folder/main.cc --budget 1 -o cha
 refuses 2 "$tyndall" merge folder/main.cc -o out.exr
 refuses 2 "$tyndall" denoise folder/main.cc -o out.png
 refuses 2 "$tyndall" render showroom --set /textures/t='{"type":"image","file":"folder/main.cc"}' -o out.png
-grep -rlE '\.(cc|cpp|cxx)|c\+\+' "$source_root/assets/desktop" && fail 'the desktop opens C++ files by the program'
+grep -rlE --exclude=README.md '\.(cc|cpp|cxx)|c\+\+' "$source_root/assets/desktop" && fail 'the desktop opens C++ files by the program'
 
 # Named as the scene it is compiled.
 expect 2 "$tyndall" inspect folder/main.cc
