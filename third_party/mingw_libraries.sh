@@ -12,34 +12,10 @@ log=$folder/log
 quietly() { "$@" >"$log" 2>&1 || { cat "$log" >&2 && exit 1; }; }
 
 # ---- sources
-apt=$folder/apt
-mkdir -p "$apt"/lists/partial "$apt"/cache/archives/partial "$apt"/parts "$folder"/{include,lib/pkgconfig,lib/cmake/fmt,licenses}
-for file in /etc/apt/sources.list.d/*.sources; do
-  [ ! -e "$file" ] || { sed 's/^Types:.*/Types: deb-src/' "$file" && echo; } >>"$apt/parts/debian.sources"
-done
-[ ! -e /etc/apt/sources.list ] || sed -n 's/^deb /deb-src /p' /etc/apt/sources.list >"$apt/parts/debian.list"
-cat >"$apt/conf" <<CONF
-APT::Sandbox::User "";
-Dir::Etc::sourcelist "/dev/null";
-Dir::Etc::sourceparts "$apt/parts";
-Dir::State "$apt";
-Dir::State::status "/var/lib/dpkg/status";
-Dir::Cache "$apt/cache";
-Acquire::Retries "3";
-Acquire::Languages "none";
-CONF
-export APT_CONFIG=$apt/conf
-packages=(libpng1.6 libjpeg-turbo imath openexr glfw3 highway imgui)
-mkdir -p "$folder/sources" && cd "$folder/sources"
-quietly apt-get -q update
-for package in "${packages[@]}"; do
-  # The newest version whose files the servers have: lists may be newer than they are.
-  for version in $(apt-cache showsrc "$package" | sed -n 's/^Version: //p' | sort -rV); do
-    compgen -G "$package-*/" >/dev/null || apt-get -q source "$package=$version" >"$log" 2>&1 || continue
-    continue 2
-  done
-  cat "$log" >&2 && exit 1
-done
+mkdir -p "$folder"/{include,lib/pkgconfig,lib/cmake/fmt,licenses,sources} && cd "$folder/sources"
+# shellcheck source=third_party/sources.sh
+. "$here/sources.sh"
+get_sources "$folder/apt" libpng1.6 libjpeg-turbo imath openexr glfw3 highway imgui || { cat "$folder/apt/log" >&2 && exit 1; }
 
 # ---- headers alone, and zlib
 cp -r /usr/include/{hwy,nlohmann,CLI,fmt,doctest,stb} "$folder/include/"
@@ -93,5 +69,5 @@ for package in libz-mingw-w64-dev libfmt-dev nlohmann-json3-dev libcli11-dev lib
   fonts-roboto-unhinted fonts-jetbrains-mono; do
   [ ! -e "/usr/share/doc/$package/copyright" ] || cp -L "/usr/share/doc/$package/copyright" "$folder/licenses/$package"
 done
-rm -rf "$folder/build" "$apt"
+rm -rf "$folder/build" "$folder/apt"
 touch "$folder/complete"

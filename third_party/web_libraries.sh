@@ -5,42 +5,19 @@
 # that web_packages of third_party/packages.sh names.
 set -euo pipefail
 folder=$(mkdir -p "${1:?usage: web_libraries.sh FOLDER}" && cd "$1" && pwd -P)
+here=$(cd "$(dirname "$0")" && pwd -P)
 [ -e "$folder/complete" ] && exit 0
 export NODE_PATH=/usr/share/nodejs # Debian's acorn, also where node is not Debian's
 flags=(-O2 -pthread -msimd128 -mnontrapping-fptoint -fwasm-exceptions -sSUPPORT_LONGJMP=wasm)
 apt=$folder/apt log=$folder/log
-mkdir -p "$apt"/{lists,cache/archives}/partial "$apt/parts" "$folder"/{include,lib,sources,objects}
-
-# get_sources PLACES...: unpacks the sources, with Debian's patches, from the servers that these files name.
-get_sources() {
-  local place
-  rm -f "$apt"/parts/*
-  for place in "$@"; do
-    [ ! -e "$place" ] || sed 's/^Types:.*/Types: deb-src/; s/^deb /deb-src /' "$place" >"$apt/parts/${place##*/}"
-  done
-  cat >"$apt/conf" <<CONF
-Dir::Etc::SourceList "/dev/null";
-Dir::Etc::SourceParts "$apt/parts";
-Dir::State::Lists "$apt/lists";
-Dir::Cache "$apt/cache";
-APT::Sandbox::User "";
-Acquire::Retries "3";
-CONF
-  export APT_CONFIG=$apt/conf
-  apt-get -q update && apt-get -q source zlib libpng1.6 libjpeg-turbo imgui
-}
-
+mkdir -p "$folder"/{include,lib,sources,objects}
+# shellcheck source=third_party/sources.sh
+. "$here/sources.sh"
 cd "$folder/sources"
-places=(/etc/apt/sources.list /etc/apt/sources.list.d/*.list /etc/apt/sources.list.d/*.sources)
-if ! get_sources "${places[@]}" >"$log" 2>&1; then
-  # Some mirrors have no sources of security updates: the release's own are taken then.
-  printf 'Types: deb-src\nURIs: http://deb.debian.org/debian\nSuites: %s\nComponents: main\n' \
-    "$(. /etc/os-release && echo "$VERSION_CODENAME")" >"$apt/release.sources"
-  get_sources "$apt/release.sources" >>"$log" 2>&1 || {
-    echo "web_libraries: apt-get cannot get the sources of zlib, libpng, libjpeg-turbo and Dear ImGui (see $log); try again where Debian's servers can be reached" >&2
-    exit 1
-  }
-fi
+get_sources "$apt" zlib libpng1.6 libjpeg-turbo imgui || {
+  echo "web_libraries: apt-get cannot get the sources of zlib, libpng, libjpeg-turbo and Dear ImGui (see $apt/log); try again where Debian's servers can be reached" >&2
+  exit 1
+}
 
 # compile LIBRARY OPTION... -- FILE...
 compile() {
