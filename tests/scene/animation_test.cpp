@@ -72,9 +72,9 @@ TEST_CASE("animation: a frame has the values of its keys, and no keys") {
 }
 
 TEST_CASE("animation: an orbit keeps its distance from look_at and goes the shorter way") {
-  const char* keys =
+  const std::string keys =
       R"("curve": "linear", "keys": { "/camera/look_from": { "0": [0, 0, 5], "10": [5, 0, 0], "20": [0, 3, -5] } })";
-  const Scene straight = scene_with(keys), orbit = scene_with(std::string(R"("orbit": true, )") + keys);
+  const Scene straight = scene_with(keys), orbit = scene_with(R"("orbit": true, )" + keys);
   CHECK(length(scene_at(straight, 5).camera.look_from) == doctest::Approx(5 / std::sqrt(2)));
   CHECK(length(scene_at(orbit, 5).camera.look_from) == doctest::Approx(5));
   CHECK(scene_at(orbit, 5).camera.look_from.x == doctest::Approx(5 / std::sqrt(2)));
