@@ -20,6 +20,7 @@ get_sources "$folder/apt" libpng1.6 libjpeg-turbo imath openexr glfw3 highway im
 # ---- headers alone, and zlib
 cp -r /usr/include/{hwy,nlohmann,CLI,fmt,doctest,stb} "$folder/include/"
 cp -r /usr/share/cmake/{nlohmann_json,CLI11} /usr/lib/cmake/doctest "$folder/lib/cmake/"
+sed -i "s|\"/usr\"|\"$folder\"|" "$folder/lib/cmake/doctest/doctestTargets.cmake"
 mkdir -p "$folder/share" && cp -r /usr/share/cmake "$folder/share/"
 cp /usr/x86_64-w64-mingw32/include/z{lib,conf}.h "$folder/include/" && cp /usr/x86_64-w64-mingw32/lib/libz.a "$folder/lib/"
 fmt=$(dpkg-query -W -f='${source:Upstream-Version}' libfmt-dev | sed 's/+.*//')

@@ -9,7 +9,7 @@ command -v x86_64-w64-mingw32-g++-posix >probe || skip 'the cross compiler is mi
 command -v wine >probe || skip 'wine is missing'
 cd "$source_root" || exit 1
 third_party/mingw_libraries.sh "$PWD/build/mingw-libraries" || skip 'the libraries cannot be fetched'
-cmake --preset windows >"$scratch/cmake.log" 2>&1 || { cat "$scratch/cmake.log"; fail 'cmake'; finish; }
+cmake --preset windows -DTYNDALL_TESTS=ON >"$scratch/cmake.log" 2>&1 || { cat "$scratch/cmake.log"; fail 'cmake'; finish; }
 cmake --build build/windows --target tyndall core_tests app_tests >"$scratch/build.log" 2>&1 ||
   { tail -50 "$scratch/build.log"; fail 'building'; finish; }
 cd "$scratch" || exit 1
