@@ -4,8 +4,8 @@
 #include "app/text/values.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/system/open_file.h"
 #include "core/system/child.h"
+#include "core/system/open_file.h"
 #include "core/system/process.h"
 #include "core/system/signals.h"
 
