@@ -72,11 +72,11 @@ TEST_CASE("the window: rendered at the window's size, the file keeps its own") {
   driver.key('I');
   driver.click("render.at.window");
   driver.point("picture", 0.99, 0.99);
-  driver.settle();
-  CHECK(driver.value("inspector").find("pixel    89") != std::string::npos);
+  driver.wait_until([&] { return driver.value("inspector").find("pixel    89") != std::string::npos; });
   driver.click("picture", 0.5, 0.45);
   CHECK(driver.value("picture") == "Ball");
   driver.key('S', {.control = true});
+  driver.wait_until([&] { return driver.last("saved") == "scene.json"; });
   CHECK(load_scene("scene.json").scene.width == 32);
 }
 

@@ -45,7 +45,7 @@ TEST_CASE("the window: saving asks before a file loses its comments") {
     driver.set("gold.fuzz", "0.25");
     driver.key('S', {.control = true});
     driver.click(saves ? "dialog.save" : "dialog.cancel");
-    CHECK(has_comment() != saves);
+    driver.wait_until([&] { return has_comment() != saves; });
   }
   CHECK(driver.last("saved") == "scene.json");
 }

@@ -23,9 +23,8 @@ TEST_CASE("the window: the path of a noisy pixel follows the camera, until an ed
   Driver driver("path");
   driver.point("picture", 0.5, 0.45);
   driver.key('I', {.shift = true});
-  driver.wait_until([&] { return driver.has("path.1"); });
-  CHECK(says(driver, "path.1", "ball"));
-  CHECK(says(driver, "inspector", "the brightest of 2 samples: "));
+  driver.wait_until([&] { return says(driver, "path.1", "ball"); });
+  driver.wait_until([&] { return says(driver, "inspector", "the brightest of 2 samples: "); });
   const float before = driver.left("path.1");
   driver.drag(0.4, 0.8, 0.45, 0.8);
   CHECK(driver.left("path.1") != before);
@@ -67,7 +66,7 @@ TEST_CASE("the window: legends tell what colours mean") {
   CHECK(driver.value("image.view.object") == "on");
   driver.wait_until([&] { return !driver.has("legend"); });
   driver.click("section.Histogram");
-  CHECK(says(driver, "histogram", "white, clipped: "));
+  driver.wait_until([&] { return says(driver, "histogram", "white, clipped: "); });
 }
 
 TEST_CASE("the window: a rectangle is refined first, and later the rest") {
@@ -85,7 +84,7 @@ TEST_CASE("the window: the raw and the clean picture side by side, with both err
   CHECK(driver.value("image.clean.on") == "on");
   driver.key('N', {.shift = true});
   driver.wait_until([&] { return says(driver, "split.b", "clean   2 spp   est. error"); });
-  CHECK(driver.value("split.a").starts_with("raw   2 spp   est. error"));
+  driver.wait_until([&] { return driver.value("split.a").starts_with("raw   2 spp   est. error"); });
   driver.click("image.clean.off");
   CHECK_FALSE(driver.has("divider"));
   CHECK(driver.submits() == 1);

@@ -67,7 +67,7 @@ TEST_CASE("the window: objects are added, selected by a click, named, duplicated
   driver.type("sun");
   CHECK(driver.value("picture") == "Sun");
   driver.key('S', {.control = true});
-  CHECK(driver.last("saved") == "scene.json");
+  driver.wait_until([&] { return driver.last("saved") == "scene.json"; });
   const std::vector<Object> saved = load_scene("scene.json").scene.objects;
   REQUIRE(saved.size() == 5);
   CHECK(saved[1].name == "ball");

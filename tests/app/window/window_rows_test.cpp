@@ -72,6 +72,7 @@ TEST_CASE("the window: keys of a row make a film, which plays and is saved with 
   driver.settle();
   CHECK(driver.value("film.play") == "rests");
   driver.key('S', {.control = true});
+  driver.wait_until([&] { return driver.last("saved") == "scene.json"; });
   CHECK(load_scene("scene.json").scene.animation);
 }
 
