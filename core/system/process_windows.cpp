@@ -6,11 +6,31 @@
 #include <io.h>
 #include <psapi.h>
 #include <shellapi.h>
+#include <shlobj.h>
 
+#include <algorithm>
 #include <clocale>
 #include <cstdlib>
 
 namespace tyndall {
+namespace {
+
+/// Whether Windows opened the console for the program alone, which was double-clicked.
+bool has_own_console() {
+  DWORD first = 0;
+  return GetConsoleProcessList(&first, 1) == 1;
+}
+
+bool is_absolute(const std::string& path) { return std::filesystem::path(path).is_absolute(); }
+
+/// A double click starts the program in its own folder, which is no place for what the user saves.
+void go_to_documents() {
+  wchar_t folder[MAX_PATH];
+  if (SHGetFolderPathW(nullptr, CSIDL_PERSONAL, nullptr, SHGFP_TYPE_CURRENT, folder) == S_OK)
+    SetCurrentDirectoryW(folder);
+}
+
+}  // namespace
 
 void begin_process() {
   _fmode = _O_BINARY;
@@ -20,8 +40,7 @@ void begin_process() {
   DWORD mode = 0;
   const HANDLE errors = GetStdHandle(STD_ERROR_HANDLE);
   if (GetConsoleMode(errors, &mode)) SetConsoleMode(errors, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING);
-  DWORD others = 0;  // a console that Windows opened for the program alone, which was double-clicked
-  if (GetConsoleProcessList(&others, 1) == 1) ShowWindow(GetConsoleWindow(), SW_SHOWMINNOACTIVE);
+  if (has_own_console()) ShowWindow(GetConsoleWindow(), SW_SHOWMINNOACTIVE);
   SetErrorMode(SEM_FAILCRITICALERRORS | SEM_NOGPFAULTERRORBOX);  // no windows that wait for somebody
 }
 
@@ -32,6 +51,7 @@ std::vector<std::string> program_arguments(int, char**) {
   std::vector<std::string> arguments;
   for (int k = 1; words && k < count; ++k) arguments.push_back(utf8_of(words[k]));
   LocalFree(words);
+  if (has_own_console() && std::all_of(arguments.begin(), arguments.end(), is_absolute)) go_to_documents();
   return arguments;
 }
 
