@@ -13,7 +13,7 @@ TEST_CASE("builders: the library's structs are what the lists of fields say") {
   const std::filesystem::path file = tests_folder().parent_path() / "core/api/tyndall/builders.h";
   const std::string made = test::builders_text();
   if (is_on("TYNDALL_WRITE_BUILDERS")) std::ofstream(file, std::ios::binary) << made;
-  CHECK_MESSAGE(text_of(file) == made, "tests/api/builders_text.h says how to write it anew");
+  CHECK_MESSAGE(test::read_text(file) == made, "tests/api/builders_text.h says how to write it anew");
 }
 
 }  // namespace tyndall::test::builders_test

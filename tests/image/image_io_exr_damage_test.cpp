@@ -20,7 +20,7 @@ namespace {
 /// What OpenEXR itself reads of the channels R, G, B; nothing where it refuses.
 std::optional<std::vector<float>> read_by_library(const fs::path& file) {
   try {
-    Imf::InputFile exr(file.c_str());
+    Imf::InputFile exr(file.string().c_str());
     const Imath::Box2i window = exr.header().dataWindow();
     std::vector<float> rgb(
         static_cast<std::size_t>(3 * (window.max.x - window.min.x + 1) * (window.max.y - window.min.y + 1)));

@@ -15,7 +15,7 @@ const std::filesystem::path folder = tests_folder() / "bad_scenes";
 std::string message(const std::filesystem::path& file) {
   std::string what = "read without complaint";
   try {
-    read_scene(text_of(file), file.filename().string(), folder);
+    read_scene(test::read_text(file), file.filename().string(), folder);
   } catch (const SceneError& error) {
     what = error.what();
   }
@@ -35,7 +35,7 @@ TEST_CASE("bad scenes: each is refused with the line that it carries") {
   const auto files = json_files(folder);
   CHECK(files.size() > 150);
   for (const auto& file : files) {
-    const std::string text = text_of(file), name = file.filename().string();
+    const std::string text = test::read_text(file), name = file.filename().string();
     REQUIRE(text.starts_with("// "));
     std::string expected = name + ": " + text.substr(3, text.find('\n') - 3), found = message(file);
     CHECK_FALSE(has_control_character(found));

@@ -1,23 +1,14 @@
 #pragma once
 #include "core/scene/json.h"
-#include "tests/support/paths.h"
+#include "tests/support/scratch.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
 /// Helpers of the scene's tests.
 namespace tyndall {
-
-inline std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 /// The scene files of a folder, by name.
 inline std::vector<std::filesystem::path> json_files(const std::filesystem::path& folder) {
@@ -28,14 +19,14 @@ inline std::vector<std::filesystem::path> json_files(const std::filesystem::path
   return files;
 }
 
-inline Scene read_text(const std::string& text, const std::vector<Override>& overrides = {}) {
+inline Scene parsed(const std::string& text, const std::vector<Override>& overrides = {}) {
   return read_scene(text, "x.json", assets_folder() / "scenes", overrides);
 }
 
 /// What reading a text says, without "x.json: "; empty if it is a scene.
 inline std::string complaint(const std::string& text, const std::vector<Override>& overrides = {}) {
   try {
-    read_text(text, overrides);
+    parsed(text, overrides);
     return "";
   } catch (const SceneError& error) {
     const std::string what = error.what(), name = "x.json: ";

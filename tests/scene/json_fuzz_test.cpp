@@ -17,7 +17,7 @@ const std::filesystem::path scenes = assets_folder() / "scenes";
 TEST_CASE("read_scene: a scene file with random damage is a scene or one clear line, and nothing else") {
   std::vector<std::string> originals;
   for (const auto& file : json_files(scenes))
-    if (std::string text = text_of(file); text.size() < 4000) originals.push_back(std::move(text));
+    if (std::string text = test::read_text(file); text.size() < 4000) originals.push_back(std::move(text));
   REQUIRE(originals.size() > 10);
   std::mt19937 random(20240607);
   int scenes_read = 0, errors = 0;

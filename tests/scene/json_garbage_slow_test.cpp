@@ -12,7 +12,7 @@ TEST_CASE("garbage: 200,000 scene files with random damage; what is read renders
   const std::filesystem::path scenes = assets_folder() / "scenes";
   std::vector<std::string> originals;
   for (const auto& file : json_files(scenes))
-    if (std::string text = text_of(file); text.size() < 4000) originals.push_back(std::move(text));
+    if (std::string text = test::read_text(file); text.size() < 4000) originals.push_back(std::move(text));
   RenderOptions options;
   options.threads = 1;
   options.isa = "scalar";

@@ -40,7 +40,7 @@ TEST_CASE("load_scene: built-in scenes by name") {
   CHECK(earth.source.empty());
   CHECK(earth.folder == assets / "scenes");
   CHECK(earth.scene.camera.vfov == 30);
-  CHECK(earth.text == text_of(assets / "scenes" / "earth.json"));
+  CHECK(earth.text == test::read_text(assets / "scenes" / "earth.json"));
   const auto scenes = built_in_scenes();
   CHECK(scenes.size() >= 18);
   CHECK(std::is_sorted(scenes.begin(), scenes.end(), [](const auto& a, const auto& b) { return a.name < b.name; }));

@@ -13,7 +13,7 @@ const std::string text = R"({
   "objects": [{ "type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "gold" }]
 })";
 
-Scene with(const std::string& pointer, const std::string& value) { return read_text(text, {{pointer, value}}); }
+Scene with(const std::string& pointer, const std::string& value) { return parsed(text, {{pointer, value}}); }
 std::string complaint_with(const std::string& pointer, const std::string& value = "1") {
   return complaint(text, {{pointer, value}});
 }
@@ -38,7 +38,7 @@ TEST_CASE("overrides: values are replaced and added, as JSON or else as text") {
 
 TEST_CASE("overrides: in order, the later on top of the earlier") {
   const std::vector<Override> overrides{{"/render", "{}"}, {"/render/spp", "5"}, {"/render/spp", "6"}};
-  CHECK(read_text(text, overrides).render.spp == 6);
+  CHECK(parsed(text, overrides).render.spp == 6);
 }
 
 TEST_CASE("overrides: the object or array that holds the value must exist") {

@@ -56,7 +56,7 @@ const T& as(const Variant& variant) {
 }  // namespace
 
 TEST_CASE("read_scene: the settings") {
-  const Scene scene = read_text(everything);
+  const Scene scene = parsed(everything);
   CHECK(scene.name == "Everything");
   CHECK(scene.width == 600);
   CHECK(scene.height == 300);
@@ -68,7 +68,7 @@ TEST_CASE("read_scene: the settings") {
 }
 
 TEST_CASE("read_scene: materials and textures, in the file's order, wherever they stand") {
-  const Scene scene = read_text(everything);
+  const Scene scene = parsed(everything);
   REQUIRE(scene.materials.size() == 6);
   CHECK(scene.materials[0].name == "floor");
   CHECK(as<TextureIndex>(scene.materials[0].colour).index == 0);
@@ -92,7 +92,7 @@ TEST_CASE("read_scene: materials and textures, in the file's order, wherever the
 }
 
 TEST_CASE("read_scene: objects, media, groups and their transforms") {
-  const Scene scene = read_text(everything);
+  const Scene scene = parsed(everything);
   REQUIRE(scene.objects.size() == 6);
   const auto& ball = as<Solid3d>(scene.objects[0].kind);
   CHECK(scene.objects[0].name == "ball");
@@ -116,7 +116,7 @@ TEST_CASE("read_scene: objects, media, groups and their transforms") {
 }
 
 TEST_CASE("read_scene: what a file leaves out has the format's defaults") {
-  const Scene scene = read_text("{ \"tyndall\": 1 }");
+  const Scene scene = parsed("{ \"tyndall\": 1 }");
   CHECK(scene == Scene());
   CHECK(scene.camera == Camera{{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 90, 0, std::nullopt, 0, 0});
   CHECK(scene.render.max_depth == 1000);
@@ -126,7 +126,7 @@ TEST_CASE("read_scene: what a file leaves out has the format's defaults") {
 }
 
 TEST_CASE("read_scene: one picture in memory, however many textures use its file") {
-  const Scene scene = read_text(R"({ "tyndall": 1, "textures": {
+  const Scene scene = parsed(R"({ "tyndall": 1, "textures": {
     "a": { "type": "image", "file": "../textures/planet.png" },
     "b": { "type": "image", "file": "../textures/planet.png" } } })");
   CHECK(as<Image>(scene.textures[0].kind).pixels == as<Image>(scene.textures[1].kind).pixels);

@@ -17,7 +17,7 @@ TEST_CASE("schema: the file for editors is what the lists of fields say") {
   const std::filesystem::path file = assets_folder() / "scene.schema.json";
   const std::string made = test::scene_schema();
   if (is_on("TYNDALL_WRITE_SCHEMA")) std::ofstream(file, std::ios::binary) << made;
-  CHECK_MESSAGE(text_of(file) == made, "tests/scene/scene_schema.h says how to write it anew");
+  CHECK_MESSAGE(test::read_text(file) == made, "tests/scene/scene_schema.h says how to write it anew");
 }
 
 // Facts of the format, written by hand: they hold the lists themselves to what users rely on.

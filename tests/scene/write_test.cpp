@@ -61,7 +61,7 @@ TEST_CASE("write_scene: the normal form") {
   ]
 }
 )";
-  CHECK(write_scene(read_text(text)) == text);
+  CHECK(write_scene(parsed(text)) == text);
 }
 
 TEST_CASE("write_scene: defaults are left out") {
@@ -74,7 +74,7 @@ TEST_CASE("write_scene: the built-in scenes come back equal, and then the same t
   CHECK(files.size() >= 18);
   for (const auto& file : files) {
     CAPTURE(file);
-    const Scene scene = read_scene(text_of(file), file.filename().string(), scenes);
+    const Scene scene = read_scene(test::read_text(file), file.filename().string(), scenes);
     const std::string text = write_scene(scene);
     const Scene again = read_scene(text, "written", scenes);
     CHECK(again == scene);
@@ -90,7 +90,7 @@ TEST_CASE("write_scene: random scenes come back equal") {
     const ParseError error = check(scene).value_or(none);
     REQUIRE(error.where + error.found == "");
     const std::string text = write_scene(scene);
-    const Scene again = read_text(text);
+    const Scene again = parsed(text);
     CHECK(again == scene);
     CHECK(write_scene(again) == text);
   }

@@ -9,9 +9,10 @@ namespace tyndall::test {
 namespace {
 
 std::string deflated(std::string_view data) {
-  uLongf size = compressBound(data.size());
+  const auto length = static_cast<uLong>(data.size());
+  uLongf size = compressBound(length);
   std::string out(size, '\0');
-  compress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(data.data()), data.size());
+  compress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(data.data()), length);
   out.resize(size);
   return out;
 }

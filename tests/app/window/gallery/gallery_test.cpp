@@ -45,7 +45,7 @@ std::vector<fs::path> files_in(const fs::path& folder) {
 
 TEST_CASE("a thumbnail is rendered once and then comes from the cache, by what the scene's file holds") {
   const fs::path folder = scratch_folder("gallery_test"), cache = folder / "a" / "cache";
-  const std::string scene = folder / "ball.json";
+  const std::string scene = (folder / "ball.json").string();
   write_sphere(scene, 0.9);
   const Thumbnail first = pictures_of(cache, {scene})[scene];
   CHECK(first.width == 128);
@@ -71,7 +71,7 @@ TEST_CASE("a thumbnail is rendered once and then comes from the cache, by what t
 
 TEST_CASE("a scene that cannot be read has an empty picture; without a cache folder pictures come all the same") {
   const fs::path folder = scratch_folder("gallery_test");
-  const std::string good = folder / "ball.json", bad = folder / "bad.json";
+  const std::string good = (folder / "ball.json").string(), bad = (folder / "bad.json").string();
   write_sphere(good, 0.9);
   std::ofstream(bad) << "{ broken";
   std::ofstream(folder / "file") << "no folder";

@@ -33,7 +33,7 @@ TEST_CASE("preferences: what another version wrote is kept for it") {
   CHECK(read->theme == Theme::light);
   read->clean = true;
   write_preferences(file, *read);
-  CHECK(text_of(file).find("\nbrush-size 3 4\n") != std::string::npos);
+  CHECK(test::read_text(file).find("\nbrush-size 3 4\n") != std::string::npos);
   CHECK(read_preferences(file) == read);
 }
 
