@@ -1,6 +1,5 @@
 #include "core/system/windows_api.h"
 
-#include <cerrno>
 #include <cwchar>
 
 namespace tyndall {
@@ -11,16 +10,17 @@ std::string utf8_of(const wchar_t* text) { return std::filesystem::path(text).st
 
 // Names of files are UTF-8 everywhere in the program, and libstdc++ gives them so in path::string(); but what it makes
 // a path of goes through mbrtowc(), whose version in msvcrt.dll knows no UTF-8. These take its place, and that of its
-// neighbours in the C library's object, which would bring it along. (UCRT's are told by begin_process().)
+// neighbours in the C library's object, which would bring it along. (UCRT's are told by begin_process().) A byte that
+// is no letter becomes U+FFFD, so that a damaged name is one of no file and no error.
 #ifndef _UCRT
 
 namespace {
 
-constexpr auto not_whole = static_cast<std::size_t>(-2), malformed = static_cast<std::size_t>(-1);
+constexpr auto not_whole = static_cast<std::size_t>(-2);
 
-std::size_t bad_letter() {
-  errno = EILSEQ;
-  return malformed;
+std::size_t bad_letter(wchar_t* to) {
+  if (to) *to = L'\ufffd';
+  return 1;
 }
 
 /// Bytes of the letter that this one begins; 0: none begins so.
@@ -43,10 +43,10 @@ extern "C" std::size_t mbrtowc(wchar_t* to, const char* from, std::size_t size, 
   }
   const auto* bytes = reinterpret_cast<const unsigned char*>(from);
   const std::size_t length = length_of(bytes[0]);
-  if (length == 0 || size < length) return bad_letter();
+  if (length == 0 || size < length) return bad_letter(to);
   unsigned code = length == 1 ? bytes[0] : bytes[0] & (0x7fu >> length);
   for (std::size_t k = 1; k < length; ++k) {
-    if ((bytes[k] & 0xc0) != 0x80) return bad_letter();
+    if ((bytes[k] & 0xc0) != 0x80) return bad_letter(to);
     code = code << 6 | (bytes[k] & 0x3fu);
   }
   if (length == 4 && state) {
@@ -70,7 +70,6 @@ extern "C" std::size_t mbsrtowcs(wchar_t* to, const char** from, std::size_t siz
   for (const char* at = *from; !to || count < size; ++count) {
     wchar_t letter = 0;
     const std::size_t got = mbrtowc(&letter, at, std::char_traits<char>::length(at) + 1, state ? state : &own);
-    if (got == malformed) return got;
     if (to) to[count] = letter, *from = got == 0 ? nullptr : at + got;
     if (got == 0) return count;
     at += got;

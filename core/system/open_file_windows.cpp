@@ -93,10 +93,7 @@ OpenFile::OpenFile(const std::filesystem::path& file, OpenFor purpose, unsigned)
   const bool appends = purpose == OpenFor::appending || purpose == OpenFor::adding;
   const DWORD disposition = disposition_of(purpose), attributes = attributes_of(purpose);
   const int flags = appends ? _O_APPEND : 0;
-  // Only who may remove a file can rename it while it is open.
-  descriptor_ = open_for_all(file, access_of(purpose) | DELETE, disposition, attributes, flags, error_);
-  if (descriptor_ < 0 && (error_ == EACCES || error_ == EBUSY))
-    descriptor_ = open_for_all(file, access_of(purpose), disposition, attributes, flags, error_);
+  descriptor_ = open_for_all(file, access_of(purpose), disposition, attributes, flags, error_);
 }
 
 OpenFile& OpenFile::operator=(OpenFile&& other) noexcept {

@@ -51,7 +51,7 @@ std::size_t peak_memory();
 /// From now on the calling thread, and those that it starts, give way to others, as "nice" does. (On Linux a priority
 /// belongs to one thread, which cannot take it back; elsewhere this changes nothing.)
 void lower_priority(int niceness);
-/// Seconds of processor time that the calling thread has used.
+/// Seconds of processor time that the calling thread has used; where the system cannot say that, seconds that passed.
 double thread_cpu_seconds();
 
 /// A function of a library that another part of the program has loaded; null: it has not.

@@ -54,8 +54,14 @@ Buffers prepare(Imf::Header& header, const std::vector<ExrSource>& channels) {
   return buffers;
 }
 
+/// The name of a new file. OpenEXR 3.1 does not cut off the rest of an old one under Windows.
+std::string fresh(const std::filesystem::path& file) {
+  std::filesystem::remove(file);
+  return file.string();
+}
+
 void write_tiles(const std::filesystem::path& file, const Imf::Header& header, const Imf::FrameBuffer& frame) {
-  Imf::TiledOutputFile exr(file.string().c_str(), header);
+  Imf::TiledOutputFile exr(fresh(file).c_str(), header);
   exr.setFrameBuffer(frame);
   exr.writeTiles(0, exr.numXTiles(0) - 1, 0, exr.numYTiles(0) - 1, 0, 0);
   std::vector<float> nothing(1 << 16);  // rows overlap, and small coordinates may be negative
@@ -89,7 +95,7 @@ std::vector<ExrSource> constant_channels(const std::vector<std::pair<std::string
 void write_exr_file(const std::filesystem::path& file, Imf::Header header, const std::vector<ExrSource>& channels) {
   const Buffers buffers = prepare(header, channels);
   if (header.hasTileDescription()) return write_tiles(file, header, buffers.frame);
-  Imf::OutputFile exr(file.string().c_str(), header);
+  Imf::OutputFile exr(fresh(file).c_str(), header);
   exr.setFrameBuffer(buffers.frame);
   exr.writePixels(header.dataWindow().max.y - header.dataWindow().min.y + 1);
 }
@@ -102,7 +108,7 @@ void write_exr_file(const std::filesystem::path& file, std::vector<ExrPartSource
     part.header.setType(Imf::SCANLINEIMAGE);
     headers.push_back(part.header);
   }
-  Imf::MultiPartOutputFile exr(file.string().c_str(), headers.data(), static_cast<int>(headers.size()));
+  Imf::MultiPartOutputFile exr(fresh(file).c_str(), headers.data(), static_cast<int>(headers.size()));
   for (std::size_t i = 0; i < headers.size(); ++i) {
     Imf::OutputPart part(exr, static_cast<int>(i));
     part.setFrameBuffer(buffers[i].frame);
@@ -133,7 +139,7 @@ void write_deep_exr(const std::filesystem::path& file, std::vector<ExrPartSource
     part.header.setType(Imf::SCANLINEIMAGE);
     headers.push_back(part.header);
   }
-  Imf::MultiPartOutputFile exr(file.string().c_str(), headers.data(), static_cast<int>(headers.size()));
+  Imf::MultiPartOutputFile exr(fresh(file).c_str(), headers.data(), static_cast<int>(headers.size()));
   Imf::DeepScanLineOutputPart deep(exr, 0);
   deep.setFrameBuffer(frame);
   deep.writePixels(height);
@@ -153,7 +159,7 @@ void write_luminance_chroma(const std::filesystem::path& file, const Imf::Header
       const std::vector<float> rgb = colour(x, y);
       pixels.emplace_back(rgb[0], rgb[1], rgb[2], 1.0f);
     }
-  Imf::RgbaOutputFile exr(file.string().c_str(), header, Imf::WRITE_YC);
+  Imf::RgbaOutputFile exr(fresh(file).c_str(), header, Imf::WRITE_YC);
   exr.setFrameBuffer(Imf::ComputeBasePointer(pixels.data(), window), 1,
                      static_cast<std::size_t>(window.max.x - window.min.x + 1));
   exr.writePixels(window.max.y - window.min.y + 1);

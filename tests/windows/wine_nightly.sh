@@ -72,15 +72,22 @@ sleep 8
 kill -INT $! || fail 'nothing to interrupt'
 wait $!
 [ -s ended.png ] || fail "Ctrl-C left no picture: $(cat err)"
-torn=0 lost=0
-windows render cornell-box --size 32x32 --spp 1 -q -o whole.png </dev/null
-for ((k = 0; k < ${TYNDALL_KILLS:-200}; ++k)); do
-  timeout -s KILL "$(awk "BEGIN { print 0.2 + $k * 0.004 }")" wine "$program" render cornell-box --size 32x32 --spp 1 -q -o whole.png </dev/null 2>killed.err
-  [ -s whole.png ] || lost=$((lost + 1))
-  "$tyndall" inspect whole.png >out 2>err || torn=$((torn + 1))
+sleep 7200 | wine cmd >cmd.out 2>&1 & # else each program begins with wine's own start, which must not be killed
+waits=$!
+for ending in png exr; do
+  torn=0 lost=0 killed=0
+  render=(render cornell-box --size 256x192 --spp 1 -q -o "whole.$ending")
+  windows "${render[@]}" </dev/null
+  for ((k = 0; k < ${TYNDALL_KILLS:-200}; ++k)); do # a render takes a quarter of a second
+    timeout -s KILL "$(awk "BEGIN { print 0.06 + $k * 0.0009 }")" wine "$program" "${render[@]}" </dev/null 2>killed.err
+    [ $? = 137 ] && killed=$((killed + 1))
+    [ -s "whole.$ending" ] || lost=$((lost + 1))
+    "$tyndall" inspect "whole.$ending" >out 2>err || torn=$((torn + 1))
+  done
+  echo "$ending: of $killed killed $torn torn, $lost lost"
+  [ "$torn$lost" = 00 ] || fail 'an output was torn or lost'
 done
-echo "$torn torn, $lost lost"
-[ "$torn$lost" = 00 ] || fail 'an output was torn or lost'
+kill $waits
 
 echo '# window'
 display=99
@@ -99,8 +106,14 @@ if command -v Xvfb >probe; then
 fi
 
 echo '# tests'
+# Without those of symbolic links, of names and messages with ':' and '/', of bytes that are no letters, of the clipboard,
+# of lines that end with LF alone (main() sees to that), of processor time (which clock() does not count there), and of long
+# double functions, which the other C library has not to all of their bits.
+elsewhere='*links*,picture names: a*,idle:*,elementary*right*,bad scenes*,sky: what is no*,numbered names*,titles are*'
+elsewhere+=',random keys*,the log says*'
 for tests in core_tests app_tests; do
-  timeout 3600 wine "$source_root/build/windows/tests/$tests.exe" >"$tests.log" 2>&1 || { tail -40 "$tests.log"; fail "$tests"; }
+  timeout 3600 wine "$source_root/build/windows/tests/$tests.exe" -tce="$elsewhere" \
+    >"$tests.log" 2>&1 || { tail -40 "$tests.log"; fail "$tests"; }
 done
 timeout 14400 wine "$program" verify -t 2 -q >verify.log 2>&1 || { tail -20 verify.log; fail 'verify'; }
 tail -1 verify.log

@@ -56,7 +56,7 @@ TEST_CASE("a thumbnail is rendered once and then comes from the cache, by what t
 
   const fs::path other = folder / "other.png";  // whatever is in the cache is taken
   write_thumbnail(other, {2, 1, {10, 20, 30, 40, 50, 60}});
-  fs::copy_file(other, file, fs::copy_options::overwrite_existing);
+  fs::rename(other, file);
   CHECK(pictures_of(cache, {scene})[scene].rgb == std::vector<std::uint8_t>{10, 20, 30, 40, 50, 60});
 
   std::ofstream(file) << "damaged";  // is no error
