@@ -42,9 +42,11 @@ def make_seeds(root, folder, seeds):
     for reader in READERS:
         (seeds / reader).mkdir(exist_ok=True)
     shutil.copy(root / "tests/image/film_of_format_0.exr", seeds / "film")
-    for scene in [*root.glob("assets/scenes/*.json"), *root.glob("tests/bad_scenes/*.json")]:
-        if scene.stat().st_size < LONGEST["scene"]:
-            shutil.copy(scene, seeds / "scene" / (scene.parent.name + scene.name))
+    scenes = [scene.read_text() for scene in root.glob("assets/scenes/*.json")]
+    scenes += re.split("^== .*\n", (root / "tests/scene/bad_scenes.txt").read_text(), flags=re.M)
+    for number, text in enumerate(scenes):
+        if len(text.encode()) < LONGEST["scene"]:
+            (seeds / "scene" / str(number)).write_text(text)
     for name, texts in (("set", OVERRIDES), ("arguments", COMMANDS)):
         for number, text in enumerate(texts):
             (seeds / name / str(number)).write_text(text)

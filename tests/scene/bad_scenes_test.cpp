@@ -9,13 +9,13 @@ namespace tyndall::test::bad_scenes_test {
 
 namespace {
 
-const std::filesystem::path folder = tests_folder() / "bad_scenes";
+const std::filesystem::path folder = tests_folder() / "scene";
 
-/// The message about a file, without the folder's path.
-std::string message(const std::filesystem::path& file) {
+/// The message about a scene in this folder, without the folder's path.
+std::string message(const std::string& text, const std::string& name) {
   std::string what = "read without complaint";
   try {
-    read_scene(test::read_text(file), file.filename().string(), folder);
+    read_scene(text, name, folder);
   } catch (const SceneError& error) {
     what = error.what();
   }
@@ -30,14 +30,17 @@ bool has_control_character(const std::string& text) {
 
 }  // namespace
 
-// The first line of each file is a comment with the message that is expected; "…" at its end stands for any text.
+// In the table each scene follows a line "== NAME". Its first line is a comment with the message that is expected; "…"
+// at its end stands for any text.
 TEST_CASE("bad scenes: each is refused with the line that it carries") {
-  const auto files = json_files(folder);
-  CHECK(files.size() > 150);
-  for (const auto& file : files) {
-    const std::string text = test::read_text(file), name = file.filename().string();
+  const std::string table = test::read_text(folder / "bad_scenes.txt"), mark = "\n== ";
+  int scenes = 0;
+  for (std::size_t at = 0, end = 0; at < table.size(); at = end + 1, ++scenes) {
+    end = std::min(table.find(mark, at), table.size());
+    const std::size_t line = table.find('\n', at);
+    const std::string name = table.substr(at + 3, line - at - 3), text = table.substr(line + 1, end - line);
     REQUIRE(text.starts_with("// "));
-    std::string expected = name + ": " + text.substr(3, text.find('\n') - 3), found = message(file);
+    std::string expected = name + ": " + text.substr(3, text.find('\n') - 3), found = message(text, name);
     CHECK_FALSE(has_control_character(found));
     if (constexpr std::string_view more = "…"; expected.ends_with(more)) {
       expected.resize(expected.size() - more.size());
@@ -46,6 +49,7 @@ TEST_CASE("bad scenes: each is refused with the line that it carries") {
     }
     CHECK(found == expected);
   }
+  CHECK(scenes > 150);
 }
 
 TEST_CASE("bad scenes: empty files, broken texts and odd bytes are refused, too") {
