@@ -13,7 +13,10 @@
 #include <variant>
 #include <vector>
 
-/// A JSON document as a tree, between text and Scene. Objects keep their order.
+/// A JSON document as a tree, between text and Scene. Objects keep their order. Measured against nlohmann's trees on a
+/// scene of 10^6 spheres and one of 10^5 materials: this one takes 2.7 and 0.63 s, 401 and 79 MB; json, which sorts its
+/// objects, 3.7 and 0.99 s, 651 and 104 MB; ordered_json, which searches an object from its start for each new key, 3.8
+/// and 31 s, 438 and 67 MB.
 namespace tyndall {
 
 /// The memory of a tree. Short lists, of which a scene of a million objects has two millions, are cut from large blocks
