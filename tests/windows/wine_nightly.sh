@@ -64,7 +64,7 @@ if [ "$(id -u)" != 0 ]; then # root may write into everything
   expect 3 windows render cornell-box --size 8x8 --spp 1 -o kept.png :: 'kept.png: cannot write: it may only be read'
   [ "$(cat kept.png)" = old ] || fail 'a read-only file was replaced'
 fi
-expect 2 windows render nope :: nope
+expect 2 windows render nope -o nope.png :: nope
 
 echo '# ends'
 wine "$program" render cornell-box --size 64x64 --spp 1000000 -t 2 -q -o ended.png >out 2>err </dev/null &
@@ -79,7 +79,7 @@ for ending in png exr; do
   render=(render cornell-box --size 256x192 --spp 1 -q -o "whole.$ending")
   windows "${render[@]}" </dev/null
   for ((k = 0; k < ${TYNDALL_KILLS:-200}; ++k)); do # a render takes a quarter of a second
-    timeout -s KILL "$(awk "BEGIN { print 0.06 + $k * 0.0009 }")" wine "$program" "${render[@]}" </dev/null 2>killed.err
+    { timeout -s KILL "$(awk "BEGIN { print 0.06 + $k * 0.0009 }")" wine "$program" "${render[@]}" </dev/null; } 2>killed.err
     [ $? = 137 ] && killed=$((killed + 1))
     [ -s "whole.$ending" ] || lost=$((lost + 1))
     "$tyndall" inspect "whole.$ending" >out 2>err || torn=$((torn + 1))
