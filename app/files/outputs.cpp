@@ -1,10 +1,12 @@
 #include "app/files/outputs.h"
 
+#include "app/book/run_guarded.h"
 #include "app/text/standard_streams.h"
 #include "app/text/values.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/files/stats.h"
+#include "core/film/merge.h"
 #include "core/image/whole_file.h"
 #include "core/system/process.h"
 
@@ -210,6 +212,32 @@ bool written_or_told(const std::function<void()>& write) {
     complain(printable(error.what(), 2000));
     return false;
   }
+}
+
+int told_exit_code() {
+  constexpr int wrong_usage = 2, input_output_error = 3;
+  const auto told = [](const std::exception& error, int code) {
+    complain(error.what());
+    return code;
+  };
+  try {
+    throw;
+  } catch (const UsageError& error) {
+    return told(error, wrong_usage);
+  } catch (const SceneError& error) {
+    return told(error, wrong_usage);
+  } catch (const MergeError& error) {
+    return told(error, wrong_usage);
+  } catch (const NoSuchLayer& error) {
+    return told(error, wrong_usage);
+  } catch (const ProgramInterrupted& error) {
+    return told(error, 128 + error.signal);
+  } catch (const std::bad_alloc&) {
+    complain("not enough memory" + memory_limit_text());
+  } catch (const std::exception& error) {
+    return told(error, input_output_error);
+  }
+  return input_output_error;
 }
 
 void write_copy(const fs::path& from, const fs::path& to) {

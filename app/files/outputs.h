@@ -79,4 +79,8 @@ void write_text_or_rescue(const std::filesystem::path& file, const std::string& 
 /// are still written.
 bool written_or_told(const std::function<void()>& write);
 
+/// Within a handler: says in a line what was thrown, and returns the exit code for it: 2 where the user is at fault, 3
+/// where input or output fails, 128 and the number of the signal that ended it.
+int told_exit_code();
+
 }  // namespace tyndall
