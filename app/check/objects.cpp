@@ -1,5 +1,6 @@
 #include "app/check/objects.h"
 
+#include "app/report/contents.h"
 #include "app/report/replay.h"
 #include "core/trace/camera.h"
 #include "core/trace/flight.h"
@@ -36,18 +37,8 @@ bool has_noise(const Scene& scene, const ColourOrTexture& colour) {
   return texture && std::holds_alternative<Noise<>>(scene.textures[static_cast<std::size_t>(texture->index)].kind);
 }
 
-const Object& object_at(const Scene& scene, const std::vector<int>& path) {
-  const std::vector<Object>* list = &scene.objects;
-  const Object* object = nullptr;
-  for (const int index : path) {
-    object = &(*list)[static_cast<std::size_t>(index)];
-    if (const auto* group = std::get_if<Group>(&object->kind)) list = &group->objects;
-  }
-  return *object;
-}
-
 SeenObjects::Object describe(const Scene& scene, const std::vector<int>& path) {
-  const Object& object = object_at(scene, path);
+  const Object& object = *find_object(scene, path);
   SeenObjects::Object seen{object_text(scene, path), "smoke"};
   if (const auto* volume = std::get_if<Volume>(&object.kind)) seen.noisy_texture = has_noise(scene, volume->albedo);
   const auto* solid = std::get_if<Solid3d>(&object.kind);

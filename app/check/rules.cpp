@@ -1,5 +1,6 @@
 #include "app/check/rules.h"
 
+#include "app/report/contents.h"
 #include "core/base/math.h"
 
 #include <algorithm>
@@ -7,17 +8,6 @@
 
 namespace tyndall {
 namespace {
-
-/// Calls visit(object) for each object, those in groups, too.
-template <class Objects>
-void each_object(Objects& objects, const auto& visit) {
-  for (auto& object : objects) {
-    if (auto* group = std::get_if<Group>(&object.kind))
-      each_object(group->objects, visit);
-    else
-      visit(object);
-  }
-}
 
 Sphere<>* sphere_of(Object& object) {
   auto* solid = std::get_if<Solid3d>(&object.kind);

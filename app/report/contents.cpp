@@ -3,7 +3,6 @@
 #include "core/base/text.h"
 
 #include <type_traits>
-#include <variant>
 
 namespace tyndall {
 namespace {
@@ -29,17 +28,6 @@ void count(const Scene& scene, const Solid3d& solid, Contents& contents) {
   }
 }
 
-void count(const Scene& scene, const std::vector<Object>& objects, Contents& contents) {
-  for (const Object& object : objects) {
-    if (const auto* solid = std::get_if<Solid3d>(&object.kind)) count(scene, *solid, contents);
-    if (const auto* group = std::get_if<Group>(&object.kind)) count(scene, group->objects, contents);
-    if (const auto* volume = std::get_if<Volume>(&object.kind)) {
-      ++contents.media;
-      if (volume->medium.g != 0) ++contents.phase_functions;
-    }
-  }
-}
-
 std::string background_of(const Scene& scene) {
   if (std::holds_alternative<Gradient>(scene.background)) return Gradient::type;
   if (std::holds_alternative<Hemispheres>(scene.background)) return Hemispheres::type;
@@ -49,9 +37,26 @@ std::string background_of(const Scene& scene) {
 
 }  // namespace
 
+const Object* find_object(const Scene& scene, const ObjectPath& path) {
+  const std::vector<Object>* objects = &scene.objects;
+  const Object* object = nullptr;
+  for (const int index : path) {
+    if (!objects || index < 0 || static_cast<std::size_t>(index) >= objects->size()) return nullptr;
+    object = &(*objects)[static_cast<std::size_t>(index)];
+    const Group* group = std::get_if<Group>(&object->kind);
+    objects = group ? &group->objects : nullptr;
+  }
+  return object;
+}
+
 Contents contents_of(const Scene& scene) {
   Contents contents;
-  count(scene, scene.objects, contents);
+  each_object(scene.objects, [&](const Object& object) {
+    if (const auto* solid = std::get_if<Solid3d>(&object.kind)) count(scene, *solid, contents);
+    const auto* volume = std::get_if<Volume>(&object.kind);
+    contents.media += volume ? 1 : 0;
+    contents.phase_functions += volume && volume->medium.g != 0 ? 1 : 0;
+  });
   for (const Material& material : scene.materials) ++contents.materials[type_of(material.kind)];
   for (const Texture& texture : scene.textures) {
     ++contents.textures[type_of(texture.kind)];
