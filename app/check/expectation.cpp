@@ -71,7 +71,7 @@ Expectation::Expectation(const PictureNumbers& picture, const Scene& scene, cons
     : picture_(picture),
       start_(plain_program(scene)),
       lattice_(lattice_of(picture.width, picture.height)),
-      grid_(grid_of(lattice_)),
+      edge_(edge_of_blocks(lattice_)),
       reference_(on_lattice(reference.image.rgb, lattice_)),
       reference_variance_(on_lattice(reference.variance, lattice_)),
       kernels_(*choose_kernels("")),
@@ -79,9 +79,8 @@ Expectation::Expectation(const PictureNumbers& picture, const Scene& scene, cons
       go_on_(go_on) {
   const Compiled compiled(start_);
   seen_ = seen_objects(scene, compiled.columns, compiled.view, kernels_, lattice_);
-  BlockGrid large = grid_;
-  large.edge *= large_edge;
-  small_ = without_noise(regions_of(grid_), seen_), large_ = without_noise(regions_of(large), seen_);
+  small_ = without_noise(blocks_of(lattice_, edge_), seen_);
+  large_ = without_noise(blocks_of(lattice_, large_edge * edge_), seen_);
   objects_ = regions_of(seen_);
   take_samples(options);
   const Regions small = without_rare_light(small_);
@@ -215,7 +214,7 @@ Misfit rough_misfit(const PictureNumbers& picture, const Scene& scene, int threa
   std::vector<float> expected = statistics.mean;
   const std::vector<float> none(expected.size());
   for (std::size_t at = 0; at < expected.size() && picture.coded; ++at) expected[at] -= statistics.excess[at];
-  const Regions regions = regions_of(grid_of(lattice));
+  const Regions regions = blocks_of(lattice, edge_of_blocks(lattice));
   std::optional<Misfit> best;
   for (const Reading& reading : readings_of(picture.coded)) {
     if (!is_right(reading)) continue;

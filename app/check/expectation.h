@@ -47,7 +47,7 @@ class Expectation {
   /// The program that renders the scene as it is.
   const BookProgram& start() const { return start_; }
   const SeenObjects& seen() const { return seen_; }
-  int block_edge() const { return grid_.edge * lattice_.step; }  ///< of a small block, in pixels
+  int block_edge() const { return edge_ * lattice_.step; }  ///< of a small block, in pixels
   /// The numbers that the picture's noise may stand for if a program's samples are those of the picture's program, the
   /// likeliest first; 0: not known. White makes few samples show as little noise as many.
   std::vector<double> likely_samples(const std::vector<BookSample>& of_program, const Reading& reading) const;
@@ -74,7 +74,7 @@ class Expectation {
   const PictureNumbers& picture_;
   BookProgram start_;
   Lattice lattice_;
-  BlockGrid grid_;
+  int edge_;                                           ///< of a small block, in pixels of the lattice
   std::vector<float> reference_, reference_variance_;  ///< on the lattice
   Kernels kernels_;
   ThreadPool threads_;

@@ -103,16 +103,16 @@ std::vector<double> light_by_depth(const std::vector<BookSample>& samples) {
   return light;
 }
 
-BlockGrid grid_of(const Lattice& lattice) {
+int edge_of_blocks(const Lattice& lattice) {
   const double edge = std::sqrt(static_cast<double>(lattice.pixels()) / 400);
-  return {lattice.columns(), lattice.rows(), std::clamp(static_cast<int>(std::lround(edge)), 8, 32)};
+  return std::clamp(static_cast<int>(std::lround(edge)), 8, 32);
 }
 
-Regions regions_of(const BlockGrid& grid) {
-  Regions regions{{}, static_cast<int>(grid.count())};
-  const std::size_t pixels = static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows);
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel)
-    regions.of_pixel.push_back(static_cast<int>(grid.block_of(pixel)));
+Regions blocks_of(const Lattice& lattice, int edge) {
+  const int across = (lattice.columns() + edge - 1) / edge, down = (lattice.rows() + edge - 1) / edge;
+  Regions regions{{}, across * down};
+  for (int y = 0; y < lattice.rows(); ++y)
+    for (int x = 0; x < lattice.columns(); ++x) regions.of_pixel.push_back(y / edge * across + x / edge);
   return regions;
 }
 

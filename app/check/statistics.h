@@ -46,23 +46,12 @@ struct Regions {
   int count = 0;
 };
 
-/// Squares of pixels of a lattice; those at the right and the lower edge may be smaller.
-struct BlockGrid {
-  int columns = 0, rows = 0;  ///< pixels of the lattice
-  int edge = 16;              ///< of a block, in pixels of the lattice
-  int across() const { return (columns + edge - 1) / edge; }
-  int down() const { return (rows + edge - 1) / edge; }
-  std::size_t count() const { return static_cast<std::size_t>(across()) * static_cast<std::size_t>(down()); }
-  std::size_t block_of(std::size_t pixel) const {
-    const auto width = static_cast<std::size_t>(columns), size = static_cast<std::size_t>(edge);
-    return pixel / width / size * static_cast<std::size_t>(across()) + pixel % width / size;
-  }
-};
-Regions regions_of(const BlockGrid& grid);
+/// Squares of a lattice, `edge` of its pixels wide; those at the right and the lower edge may be smaller.
+Regions blocks_of(const Lattice& lattice, int edge);
+/// The edge of some 400 blocks, with as many pixels each as statistics need.
+int edge_of_blocks(const Lattice& lattice);
 /// Means over the pixels of each region and channel, of three numbers a pixel.
 std::vector<double> means_of(const std::vector<float>& numbers, const Regions& regions);
-/// Some 400 blocks, with as many pixels each as statistics need.
-BlockGrid grid_of(const Lattice& lattice);
 
 /// The mean difference in one channel of a region.
 struct BlockDifference {
