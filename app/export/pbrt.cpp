@@ -23,11 +23,7 @@ namespace pbrt {
 namespace {
 
 /// A string of the file: in quotes, with what would end it escaped.
-std::string in_pbrt(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : all_printable(text)) out += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
-  return out + "\"";
-}
+std::string in_pbrt(const std::string& text) { return in_quotes(all_printable(text)); }
 
 std::string rgb(const char* name, Vec3d colour) { return fmt::format("\"rgb {}\" [ {} ]", name, numbers_of(colour)); }
 std::string number(const char* name, double value) { return fmt::format("\"float {}\" {}", name, number_text(value)); }
