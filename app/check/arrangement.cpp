@@ -36,7 +36,7 @@ Arrangement find_arrangement(const PictureNumbers& picture, const SceneRequest& 
   if (!is_program(request.what)) return best;
   const auto misfit = [&](LoadedScene& other) {
     other.scene.width = picture.width, other.scene.height = picture.height;
-    return rough_misfit(picture, other.scene, 0);
+    return rough_misfit(picture, other.scene);
   };
   const Misfit plain = misfit(best.loaded);
   if (plain.different <= part_of_other_scene * plain.blocks) return best;

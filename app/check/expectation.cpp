@@ -75,7 +75,7 @@ Expectation::Expectation(const PictureNumbers& picture, const Scene& scene, cons
       reference_(on_lattice(reference.image.rgb, lattice_)),
       reference_variance_(on_lattice(reference.variance, lattice_)),
       kernels_(*choose_kernels("")),
-      threads_(options.threads),
+      threads_(0),
       go_on_(go_on) {
   const Compiled compiled(start_);
   seen_ = seen_objects(scene, compiled.columns, compiled.view, kernels_, lattice_);
@@ -128,9 +128,9 @@ void Expectation::take_samples(const CheckOptions& options) {
 
 std::vector<double> Expectation::likely_samples(const std::vector<BookSample>& of_program,
                                                 const Reading& reading) const {
-  const PictureNoise noise =
-      noise_of(read_pixels(picture_, lattice_, reading), reference_, reference_variance_, small_, white());
-  return likely_counts(noise, of_program, count_, small_, white());
+  const ReadPixels pixels = read_pixels(picture_, lattice_, reading);
+  return likely_counts({pixels.light, reference_, pixels.tolerance, reference_variance_}, of_program, count_, small_,
+                       white());
 }
 
 bool Expectation::white_matters() const {
@@ -147,16 +147,18 @@ std::vector<BookSample> Expectation::samples_of(const BookProgram& program, bool
       in_time ? go_on_ : [] { return true; });
 }
 
-BookModel Expectation::model_of(const std::vector<BookSample>& samples, double count) const {
+std::shared_ptr<const BookModel> Expectation::model_of(const std::vector<BookSample>& samples, double count) const {
   const int group = count > 0 ? std::clamp(static_cast<int>(std::lround(count)), 1, count_) : count_;
   SampleStatistics statistics = statistics_of(samples, count_, {group, white()}, &samples_);
-  BookModel model{std::move(statistics.mean), std::move(statistics.excess), std::move(statistics.noise),
-                  means_of(statistics.common, large_)};
+  const auto result =
+      std::make_shared<BookModel>(BookModel{std::move(statistics.mean), std::move(statistics.excess),
+                                            std::move(statistics.noise), means_of(statistics.common, large_)});
+  BookModel& model = *result;
   for (std::size_t k = 0; k < model.passes.size(); ++k)
     model.passes[k] = variance_[k] > 0 ? std::clamp(model.passes[k] * group / variance_[k], 0.0, 1.0) : 1;
   for (float& noise : model.noise)  // a picture of unknown samples shows by itself alone how noisy it is
     noise *= count > 0 ? static_cast<float>(group / count) : 0;
-  if (!picture_.coded || count <= count_ * 1.2) return model;
+  if (!picture_.coded || count <= count_ * 1.2) return result;
   const std::vector<double> ratios = excess_ratios(samples, count_, count, large_);
   for (std::size_t at = 0; at < model.mean.size(); ++at) {
     const int region = large_.of_pixel[at / 3];
@@ -166,7 +168,7 @@ BookModel Expectation::model_of(const std::vector<BookSample>& samples, double c
     const float light = model.mean[at] + passes * (reference_[at] - mean_[at]);  // means of few samples are too noisy
     model.excess[at] = std::max(model.excess[at] * ratio, light - 1);            // no pixel is brighter than white
   }
-  return model;
+  return result;
 }
 
 std::vector<float> Expectation::expected_of(const BookModel& model) const {
@@ -202,12 +204,12 @@ RegionDifferences Expectation::differences(const BookModel& model, const Reading
   return result;
 }
 
-Misfit rough_misfit(const PictureNumbers& picture, const Scene& scene, int threads) {
+Misfit rough_misfit(const PictureNumbers& picture, const Scene& scene) {
   constexpr int count = 4;
   const Lattice lattice = lattice_of(picture.width, picture.height);
   const BookProgram program = plain_program(scene);
   const Compiled compiled(program);
-  ThreadPool pool(threads);
+  ThreadPool pool(0);
   const auto samples =
       book_samples(compiled.view, *choose_kernels(""), program.rules, lattice, count, pool, [] { return true; });
   const SampleStatistics statistics = statistics_of(samples, count, {count});

@@ -21,7 +21,6 @@ namespace tyndall {
 
 struct CheckOptions {
   double seconds = 20;  ///< for all of it, but for what is needed for any answer
-  int threads = 0;      ///< 0: see thread_count()
   int samples = 0;      ///< that are taken of each pixel for a program; 0: as many as the time allows
 };
 
@@ -61,7 +60,7 @@ class Expectation {
   /// Renders a program; empty: there is no time left; in_time: whether that matters.
   std::vector<BookSample> samples_of(const BookProgram& program, bool in_time);
   /// What is expected of a program with these samples if the picture has `count` samples a pixel; 0: not known.
-  BookModel model_of(const std::vector<BookSample>& samples, double count) const;
+  std::shared_ptr<const BookModel> model_of(const std::vector<BookSample>& samples, double count) const;
   RegionDifferences differences(const BookModel& model, const Reading& reading);
 
  private:
@@ -92,6 +91,6 @@ class Expectation {
 
 /// How a picture differs from the scene as a few samples of each pixel show it: enough to tell whether it is a picture
 /// of this scene at all.
-Misfit rough_misfit(const PictureNumbers& picture, const Scene& scene, int threads);
+Misfit rough_misfit(const PictureNumbers& picture, const Scene& scene);
 
 }  // namespace tyndall

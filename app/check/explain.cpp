@@ -80,9 +80,6 @@ class Search {
   }
 
   using Model = std::shared_ptr<const BookModel>;
-  Model model_of(const std::vector<BookSample>& taken, double samples) const {
-    return std::make_shared<BookModel>(expectation_.model_of(taken, samples));
-  }
   Fit fit(const Suspect& suspect, const Reading& reading, double samples, const Model& model) {
     return {suspect, reading, samples, model, expectation_.differences(*model, reading)};
   }
@@ -99,10 +96,10 @@ class Search {
 
   /// The fit that is closest over the numbers of samples that the picture's noise may stand for.
   Fit closest(const Suspect& suspect, const std::vector<Reading>& readings, const std::vector<BookSample>& taken) {
-    const Fit rough = closest_reading(suspect, readings, 0, model_of(taken, 0));
+    const Fit rough = closest_reading(suspect, readings, 0, expectation_.model_of(taken, 0));
     std::optional<Fit> best;
     for (const double samples : expectation_.likely_samples(taken, rough.reading)) {
-      Fit found = closest_reading(suspect, readings, samples, model_of(taken, samples));
+      Fit found = closest_reading(suspect, readings, samples, expectation_.model_of(taken, samples));
       if (!best || agrees(found.regions) || clearly_closer(found.regions, best->regions)) best = std::move(found);
       if (agrees(best->regions) || !expectation_.white_matters()) break;
     }
@@ -133,7 +130,7 @@ class Search {
     const auto [known, is_new] = known_.try_emplace(name);
     if (is_new)
       if (const auto taken = samples_of(suspect, suspect.mistake.has_value()); !taken.empty())
-        known->second = model_of(taken, samples);
+        known->second = expectation_.model_of(taken, samples);
     return known->second;
   }
 
@@ -199,7 +196,7 @@ class Search {
       ++findings_.untried;
       return;
     }
-    const Model model = model_of(taken, right.samples);
+    const Model model = expectation_.model_of(taken, right.samples);
     Candidate best{mistake, right.reading, gone(right.regions, fit(suspect, right.reading, 0, model).regions)};
     for (const Reading& reading : right_readings_) {
       if (best.explained < promising) break;
@@ -223,7 +220,7 @@ class Search {
       const double explained = gone(right.regions, found.regions);
       if (!agrees(found.regions) || explained < promising) continue;
       const Suspect innocent{found.suspect.choices, {}};
-      const Model model = model_of(samples_of(innocent, false), found.samples);
+      const Model model = expectation_.model_of(samples_of(innocent, false), found.samples);
       describe(fit(innocent, is_right(found.reading) ? found.reading : right.reading, found.samples, model));
       if (!findings_.agrees && !findings_.too_few)
         findings_.mistake = {candidate.mistake.name, candidate.mistake.words, explained};

@@ -31,7 +31,7 @@ Reference render_reference(Scene scene, const LinearImage& picture, const Refere
   options.target_error = std::isfinite(difference) ? std::max(min_error, part_of_difference * difference) : min_error;
   if (!rendered.interrupted) rendered = render(*prepared, options, progress, std::move(rendered.film));
   const Film& film = rendered.film;
-  Reference reference{{film.region.width(), film.region.height(), resolve(film)}, {}, film.pixels.front().taken};
+  Reference reference{{film.region.width(), film.region.height(), resolve(film)}, {}};
   reference.variance.reserve(3 * film.pixels.size());
   for (const FilmPixel& pixel : film.pixels) {
     const Vec3f half = half_mean(film, pixel, 0) - half_mean(film, pixel, 1);

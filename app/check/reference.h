@@ -12,7 +12,6 @@ namespace tyndall {
 struct Reference {
   LinearImage image;
   std::vector<float> variance;  ///< of each number of the image, from two halves of the samples
-  std::uint32_t spp = 0;
 };
 
 /// What is spent on a reference at most, but for its first samples.
