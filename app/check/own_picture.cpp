@@ -50,8 +50,6 @@ bool apart(const BlockLight& a, const BlockLight& b) {
   return false;
 }
 
-Lattice small_lattice(int width, int height) { return {width, height, std::max(1, width / max_columns)}; }
-
 /// The sums of the blocks, from left to right, the upper ones first. add_pixel(pixel of the lattice, sums): adds its
 /// samples to those of its block.
 template <class AddPixel>
@@ -113,7 +111,7 @@ std::vector<BlockLight> our_blocks(const Scene& scene, const ProgramScene& progr
 
 std::string differs_from_own(const Scene& scene, const ProgramScene& program) {
   if (program.has_noise || program.has_images) return "";
-  const Lattice lattice = small_lattice(scene.width, scene.height);
+  const Lattice lattice{scene.width, scene.height, std::max(1, scene.width / max_columns)};
   int count = 0;
   const std::vector<BlockLight> own = own_blocks(program, lattice, count),
                                 ours = our_blocks(scene, program, lattice, count);

@@ -165,12 +165,6 @@ CheckedPicture nothing_compared(const BaselineRequest& request) {
   return none;
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw IoError(folder.string() + ": cannot make the folder: " + error.message());
-}
-
 /// The files of the pictures, which are whole files for layers too, and what becomes of each in the baseline. Throws
 /// IoError unless all of them can be written.
 std::map<fs::path, fs::path> copies_of(const std::map<std::string, fs::path>& pictures, const fs::path& folder) {
@@ -179,7 +173,8 @@ std::map<fs::path, fs::path> copies_of(const std::map<std::string, fs::path>& pi
     const auto [file, layer] = picture_name(image);
     const fs::path target = folder / (layer ? file.filename() : fs::path(name));
     std::error_code error;
-    make_folder(target.parent_path());
+    fs::create_directories(target.parent_path(), error);
+    if (error) throw IoError(target.parent_path().string() + ": cannot make the folder: " + error.message());
     if (fs::equivalent(file, target, error)) continue;
     check_can_write(target);
     copies[target] = file;

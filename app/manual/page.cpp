@@ -32,9 +32,6 @@ std::string capitals(std::string text) {
   return text;
 }
 
-/// Lines that keep their breaks.
-std::string as_typed(const std::string& text) { return ".nf\n" + escaped(text) + "\n.fi\n"; }
-
 std::string option_text(const OptionPage& option) {
   std::string names;
   for (const std::string& name : option.names) names += (names.empty() ? "\\fB" : ", \\fB") + escaped(name) + "\\fR";
@@ -56,7 +53,8 @@ std::string command_text(const CommandPage& command) {
     group = option.group;
     text += option_text(option);
   }
-  return command.examples.empty() ? text : text + ".SS Notes\n" + as_typed(command.examples);
+  // .nf to .fi: lines keep their breaks.
+  return command.examples.empty() ? text : text + ".SS Notes\n.nf\n" + escaped(command.examples) + "\n.fi\n";
 }
 
 /// The help up to its first "; ", colon or line end.
@@ -65,8 +63,6 @@ std::string short_help(const std::string& help) {
 }
 
 bool takes_file(const OptionPage& option) { return option.unit.rfind("FILE", 0) == 0 || option.unit == "DIR"; }
-
-bool takes_words(const CommandPage& command) { return !command.arguments.empty(); }
 
 std::vector<std::string> names_of(const std::vector<CommandPage>& commands) {
   std::vector<std::string> names;
@@ -187,7 +183,7 @@ std::string zsh_completion(const std::vector<CommandPage>& commands) {
   for (const CommandPage& command : commands) {
     text += "    " + command.name + ")\n      _arguments -S";
     for (const OptionPage& option : command.options) text += " \\\n" + zsh_option(option);
-    text += std::string(takes_words(command) ? " \\\n        '*:file:_tyndall_words'" : "") + "\n      ;;\n";
+    text += std::string(command.arguments.empty() ? "" : " \\\n        '*:file:_tyndall_words'") + "\n      ;;\n";
   }
   return text + "    *) _tyndall_words ;;\n  esac\n}\n_tyndall \"$@\"\n";
 }

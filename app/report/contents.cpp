@@ -7,17 +7,14 @@
 namespace tyndall {
 namespace {
 
-bool emits(const Scene& scene, int material) {
-  return std::holds_alternative<Light<double>>(scene.materials[static_cast<std::size_t>(material)].kind);
-}
-
 template <class Kinds>
 const char* type_of(const Kinds& kind) {
   return std::visit([](const auto& k) { return std::decay_t<decltype(k)>::type; }, kind);
 }
 
 void count(const Scene& scene, const Solid3d& solid, Contents& contents) {
-  const int lights = emits(scene, solid.material) ? 1 : 0;
+  const Material& material = scene.materials[static_cast<std::size_t>(solid.material)];
+  const int lights = std::holds_alternative<Light<double>>(material.kind) ? 1 : 0;
   if (const auto* sphere = std::get_if<Sphere<>>(&solid.shape)) {
     ++contents.shapes[sphere->center_end ? "moving sphere" : "sphere"];
     contents.lights += lights;

@@ -26,10 +26,6 @@ void list_media(const std::vector<Object>& objects, std::vector<int> path, std::
   }
 }
 
-std::string medium_text(const Scene& scene, int medium) {
-  return object_text(scene, media_of(scene)[static_cast<std::size_t>(medium)]);
-}
-
 const char* fate_text(Fate fate) {
   switch (fate) {
     case Fate::goes_on:
@@ -51,8 +47,8 @@ const char* fate_text(Fate fate) {
 }
 
 std::string what_is_met(const Scene& scene, const RenderScene& compiled, const PathVertex& v) {
-  return v.met == Met::medium ? "the medium " + medium_text(scene, v.medium)
-                              : object_text(scene, compiled.object_of(v.element));
+  if (v.met != Met::medium) return object_text(scene, compiled.object_of(v.element));
+  return "the medium " + object_text(scene, media_of(scene)[static_cast<std::size_t>(v.medium)]);
 }
 
 std::string heading(const Scene& scene, const RenderScene& compiled, const PathVertex& v) {
