@@ -3,7 +3,6 @@
 #include "app/book/load_program.h"
 #include "app/check/arrangement.h"
 #include "app/comparison/pair.h"
-#include "app/comparison/picture_folder.h"
 #include "app/files/open_scene.h"
 #include "core/base/error.h"
 #include "core/base/seconds.h"
@@ -27,7 +26,10 @@ namespace fs = std::filesystem;
 constexpr double part_for_reference = 0.25;  // of the time
 
 bool is_picture_name(const fs::path& name) {
-  return has_picture_ending(name) || lower_case(name.extension().string()) == ".pnm";
+  const std::string ending = lower_case(name.extension().string());
+  constexpr const char* endings[] = {".png", ".jpg", ".jpeg", ".bmp", ".tga", ".ppm",
+                                     ".pgm", ".pnm", ".pfm",  ".hdr", ".exr"};
+  return std::any_of(std::begin(endings), std::end(endings), [&](const char* known) { return ending == known; });
 }
 
 /// What read_picture() would have made of a PPM with PpmCurve::gamma2.

@@ -10,6 +10,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool is_picture(const fs::path& file) {
+  const std::string ending = lower_case(file.extension().string());
+  const std::string endings = picture_endings + std::string(" ");
+  return !ending.empty() && endings.find(ending + " ") != endings.npos;
+}
+
 class Walk {
  public:
   explicit Walk(const std::vector<fs::path>& without) : without_(without) {}
@@ -34,7 +40,7 @@ class Walk {
     const fs::path& path = entry.path();
     const auto is_this = [&](const fs::path& other) { return fs::equivalent(path, other, ignored); };
     if (!entry.is_directory(ignored)) {
-      if (has_picture_ending(path))
+      if (is_picture(path))
         found.pictures.emplace(name, path);
       else if (path.filename().string().front() != '.')
         found.others.push_back(name);
@@ -50,12 +56,6 @@ class Walk {
 };
 
 }  // namespace
-
-bool has_picture_ending(const fs::path& file) {
-  const std::string ending = lower_case(file.extension().string());
-  const std::string endings = picture_endings + std::string(" ");
-  return !ending.empty() && endings.find(ending + " ") != endings.npos;
-}
 
 PictureFolder pictures_in(const fs::path& folder, const std::vector<fs::path>& without) {
   Walk walk(without);

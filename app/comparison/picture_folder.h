@@ -16,8 +16,6 @@ struct PictureFolder {
 
 /// The endings of pictures' names, for messages.
 inline constexpr const char* picture_endings = ".png .exr .pfm .hdr .ppm .pgm .jpg .jpeg .bmp .tga";
-/// Whether the name of the file ends in one of them.
-bool has_picture_ending(const std::filesystem::path& file);
 
 /// without: folders that are not gone into. Throws IoError for a folder that cannot be read.
 PictureFolder pictures_in(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& without);
