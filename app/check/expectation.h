@@ -2,9 +2,7 @@
 #include "app/check/differences.h"
 #include "app/check/objects.h"
 #include "app/check/reading.h"
-#include "app/check/reference.h"
 #include "app/check/rules.h"
-#include "app/check/sample_count.h"
 #include "app/check/statistics.h"
 #include "core/base/thread_pool.h"
 #include "core/targets/kernels.h"
@@ -23,6 +21,24 @@ struct CheckOptions {
   double seconds = 20;  ///< for all of it, but for what is needed for any answer
   int samples = 0;      ///< that are taken of each pixel for a program; 0: as many as the time allows
 };
+
+/// A picture rendered to measure another one against.
+struct Reference {
+  LinearImage image;
+  std::vector<float> variance;  ///< of each number of the image, from two halves of the samples
+};
+
+/// What is spent on a reference at most, but for its first samples.
+struct ReferenceLimits {
+  double seconds = 0;
+  std::uint32_t spp = 8192;
+};
+
+/// Renders the scene until the noise is small against the difference from `picture`, which has the scene's size, or
+/// a limit is reached. go_on: asked now and then; false ends it. Pixels share no paths, so that their errors are
+/// independent.
+Reference render_reference(Scene scene, const LinearImage& picture, const ReferenceLimits& limits,
+                           const std::function<bool()>& go_on);
 
 /// What samples of a program tell of its picture: 3 floats a pixel of the lattice.
 struct BookModel {

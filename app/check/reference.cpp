@@ -1,4 +1,4 @@
-#include "app/check/reference.h"
+#include "app/check/expectation.h"
 
 #include "core/accuracy/error.h"
 #include "core/render/render.h"

@@ -1,4 +1,4 @@
-#include "app/check/sample_count.h"
+#include "app/check/statistics.h"
 
 #include <algorithm>
 #include <cmath>

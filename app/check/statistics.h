@@ -90,4 +90,10 @@ Misfit misfit_of(std::span<const BlockDifference> differences);
 /// compared must not differ because one of the pictures is noisier.
 double amount_of(std::span<const BlockDifference> differences, std::span<const BlockDifference> other);
 
+/// The numbers of samples a pixel that a picture's noise may stand for if a program with these samples, `count` of each
+/// pixel, has made it, the likeliest first; 0: not known. White makes few samples show as little noise as many, so that
+/// there may be several. picture: with the picture without noise as what is expected, and the variance of that.
+std::vector<double> likely_counts(const ComparedPixels& picture, const std::vector<BookSample>& samples, int count,
+                                  const Regions& regions, double white);
+
 }  // namespace tyndall

@@ -1,9 +1,8 @@
-#include "app/cli/command_rows.h"
+#include "app/cli/option_rows.h"
 
 #include "app/book/load_program.h"
 #include "app/check/own_picture.h"
 #include "app/cli/commands.h"
-#include "app/cli/option_rows.h"
 #include "app/text/name_pattern.h"
 #include "core/base/text.h"
 

@@ -1,5 +1,4 @@
 #include "app/check/check.h"
-#include "app/check/report.h"
 #include "app/cli/commands.h"
 #include "app/files/outputs.h"
 #include "app/report/heat_map.h"

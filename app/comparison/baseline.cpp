@@ -1,6 +1,6 @@
 #include "app/comparison/baseline.h"
 
-#include "app/comparison/noise.h"
+#include "app/comparison/pair.h"
 #include "app/comparison/picture_folder.h"
 #include "app/files/outputs.h"
 #include "app/text/values.h"

@@ -1,6 +1,5 @@
 #include "app/comparison/comparison.h"
 
-#include "app/comparison/noise.h"
 #include "app/comparison/pair.h"
 #include "app/text/values.h"
 #include "core/accuracy/flip.h"

@@ -37,10 +37,10 @@ struct Comparison {
 /// How two files are compared.
 struct ComparisonOptions {
   PpmCurve ppm = PpmCurve::srgb;  ///< how PPM files are read
-  bool noise = false;             ///< also by the noise that both carry (noise.h)
+  bool noise = false;             ///< also by the noise that both carry (pair.h)
 };
 
-/// Reads and compares two images, and throws as read_pair() (pair.h) and read_noisy_image() (noise.h) do.
+/// Reads and compares two images, and throws as read_pair() and read_noisy_image() do.
 Comparison compare_images(const std::filesystem::path& image, const std::filesystem::path& reference,
                           const ComparisonOptions& options = {});
 

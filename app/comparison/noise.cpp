@@ -1,4 +1,4 @@
-#include "app/comparison/noise.h"
+#include "app/comparison/pair.h"
 
 #include "app/text/values.h"
 #include "core/base/text.h"
