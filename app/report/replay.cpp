@@ -51,14 +51,6 @@ std::string what_is_met(const Scene& scene, const RenderScene& compiled, const P
   return "the medium " + object_text(scene, media_of(scene)[static_cast<std::size_t>(v.medium)]);
 }
 
-std::string heading(const Scene& scene, const RenderScene& compiled, const PathVertex& v) {
-  const std::string fate = fate_text(v.fate);
-  if (v.met == Met::nothing) return v.fate == Fate::escapes ? fate : "meets nothing, " + fate;
-  const char* side = v.inside ? " on its inner side" : "";
-  return fmt::format("after {:.9g} meets {}, {}{}", static_cast<double>(v.distance), what_is_met(scene, compiled, v),
-                     fate, side);
-}
-
 double luminance(Vec3f light) {
   const double sum = 0.2126 * static_cast<double>(light.x) + 0.7152 * static_cast<double>(light.y) +
                      0.0722 * static_cast<double>(light.z);
@@ -70,6 +62,12 @@ std::string vertex_text(const Scene& scene, const RenderScene& compiled, const P
   std::string fate = fate_text(vertex.fate);
   if (vertex.met == Met::nothing) return fate;
   return what_is_met(scene, compiled, vertex) + ", " + fate + (vertex.inside ? " on its inner side" : "");
+}
+
+std::string heading(const Scene& scene, const RenderScene& compiled, const PathVertex& v) {
+  const std::string text = vertex_text(scene, compiled, v);
+  if (v.met == Met::nothing) return (v.fate == Fate::escapes ? "" : "meets nothing, ") + text;
+  return fmt::format("after {:.9g} meets {}", static_cast<double>(v.distance), text);
 }
 
 /// "branch from 2: " where a branch begins, which leaves glass where vertex 2 is; else nothing.
