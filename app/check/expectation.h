@@ -1,5 +1,4 @@
 #pragma once
-#include "app/check/differences.h"
 #include "app/check/objects.h"
 #include "app/check/reading.h"
 #include "app/check/rules.h"

@@ -24,13 +24,6 @@ struct SeenObjects {
 SeenObjects seen_objects(const Scene& scene, const RenderScene& columns, const SceneView& view, const Kernels& kernels,
                          const Lattice& lattice);
 
-/// Means of linear light over the pixels of an object.
-struct ObjectDifference {
-  int object = 0;  ///< index into SeenObjects::objects
-  int pixels = 0;
-  Vec3d image, expected;
-};
-
 /// The objects as regions: the pixels around which the same object is seen. Objects of a noise texture have none.
 Regions regions_of(const SeenObjects& seen);
 
