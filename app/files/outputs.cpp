@@ -5,7 +5,6 @@
 #include "app/text/values.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/files/stats.h"
 #include "core/film/merge.h"
 #include "core/image/whole_file.h"
 #include "core/system/process.h"
@@ -158,17 +157,6 @@ std::vector<std::string> write_images(const Picture& picture, const std::vector<
     }
   }
   return problems;
-}
-
-std::vector<std::string> write_film(const Film& film, const Scene& scene, const FilmLabel& label,
-                                    const std::vector<std::filesystem::path>& files, const ImageForm& form,
-                                    const std::optional<CleanOfFilm>& clean) {
-  const auto embedded = [&](const std::filesystem::path& file) {
-    return Embedded{embedded_scene(scene, ".", film, file), clean ? clean_stats_text(film, clean->picture, 0) : "",
-                    label};
-  };
-  const LinearImage image{film.region.width(), film.region.height(), resolve(film)};
-  return write_images({film, image, scene.display, embedded, {}, clean ? &clean->picture : nullptr, form}, files);
 }
 
 void write_text_file(const fs::path& file, const std::string& text) {

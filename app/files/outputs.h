@@ -55,12 +55,6 @@ void check_outputs(const std::vector<Output>& outputs, const std::vector<std::fi
 /// see write_or_rescue().
 std::vector<std::string> write_images(const Picture& picture, const std::vector<std::filesystem::path>& files);
 
-/// Writes all images of a film that can be written; returns what went wrong, a line each. textures: see embedded_scene.
-/// Layers (albedo, normal, depth) are not written: such an EXR has none.
-std::vector<std::string> write_film(const Film& film, const Scene& scene, const FilmLabel& label,
-                                    const std::vector<std::filesystem::path>& files, const ImageForm& form,
-                                    const std::optional<CleanOfFilm>& clean);
-
 /// Writes text as a whole file or not at all. Throws ImageFileError.
 void write_text_file(const std::filesystem::path& file, const std::string& text);
 /// Makes `to` a copy of `from`, whole or not at all. Throws ImageFileError, IoError.
