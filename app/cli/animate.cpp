@@ -77,13 +77,23 @@ CommandRequest command_of(const CommandRequest& command, int frame, std::vector<
   return made;
 }
 
+/// A job whose picture can be compared with what is there already.
+RenderJob job_of(const Animating& film, const CommandRequest& command, int frame) {
+  RenderJob job{command};
+  job.kernels = kernels_to_render(command.isa);
+  job.loaded = at_frame(film.base, film.plan, frame);
+  job.options = render_options(command, job.loaded);
+  job.whole_only = true;
+  return job;
+}
+
 /// Looks at what there is of a frame. Throws where it is of something else, or the frame's scene is not valid.
 FrameTask task_of(const Animating& film, int frame) {
   std::vector<std::filesystem::path> names;
   for (const FrameFiles& files : film.files) names.emplace_back(name_for(files.pattern, frame));
   const CommandRequest command = command_of(film.command, frame, names);
   check_outputs(outputs_of("--output", names), film.base.files);
-  const RenderJob job = comparable_job(command, at_frame(film.base, film.plan, frame));
+  const RenderJob job = job_of(film, command, frame);
   FrameTask task{frame, {}, {}};
   const std::string mark = picture_mark(job);
   for (std::size_t k = 0; k < names.size(); ++k) {
@@ -101,7 +111,7 @@ FrameTask task_of(const Animating& film, int frame) {
 /// What the video is of.
 std::string video_mark(const Animating& film) {
   const CommandRequest command = command_of(film.command, 0, {});
-  RenderJob job = comparable_job(command, at_frame(film.base, film.plan, film.range.first));
+  RenderJob job = job_of(film, command, film.range.first);
   job.loaded.scene.animation = film.base.scene.animation;  // each frame follows from the first and from the keys
   return mark_of(picture_mark(job) + " " + std::to_string(film.range.first) + " of " +
                  std::to_string(film.plan.frames) + (film.plan.turntable ? " turntable" : "") +
@@ -135,9 +145,7 @@ void list_frame(Animating& film, const RenderJob& job, int frame, bool whole) {
 /// Renders a frame and writes it; false if something could not be written.
 bool make_frame(Animating& film, const FrameTask& task, Series& series) {
   const CommandRequest command = command_of(film.command, task.frame, task.outputs);
-  RenderJob job{command};
-  job.loaded = at_frame(film.base, film.plan, task.frame);
-  job.whole_only = true;
+  RenderJob job = job_of(film, command, task.frame);
   prepare(job);
   if (!task.film.empty()) take_film(job, read_film_alone(task.film));
   const auto made = [&](const RenderOutcome& outcome, bool written) {

@@ -122,14 +122,6 @@ RenderOutcome outcome_of(const RenderJob& job, const RenderResult& result, bool 
   return {result, finished_picture(*job.prepared, result), unfinished};
 }
 
-RenderJob comparable_job(const CommandRequest& command, LoadedScene loaded) {
-  RenderJob job{command};
-  job.kernels = kernels_to_render(command.isa);
-  job.loaded = std::move(loaded);
-  job.options = render_options(command, job.loaded);
-  return job;
-}
-
 void check_names(const CommandRequest& command) {
   check_image_names(command.outputs, command.form, command.stats);
   if (is_image_output(command.stats))

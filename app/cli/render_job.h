@@ -40,9 +40,6 @@ struct RenderOutcome {
 };
 RenderOutcome outcome_of(const RenderJob& job, const RenderResult& result, bool unfinished);
 
-/// A job whose picture can be compared with what is there already, but not rendered.
-RenderJob comparable_job(const CommandRequest& command, LoadedScene loaded);
-
 /// Checks the names of the outputs, before any file is read.
 void check_names(const CommandRequest& command);
 /// Finds everything else that can be wrong before the first sample, and where the render begins.

@@ -117,7 +117,10 @@ void check_steps(Sweeping& sweep) {
   for (const SweepStep& step : sweep.steps) {
     const CommandRequest command = command_of(sweep, step);
     check_names(command);
-    const RenderJob job = comparable_job(command, scene_of(sweep, step));
+    RenderJob job{command};
+    job.kernels = kernels_to_render(command.isa);
+    job.loaded = scene_of(sweep, step);
+    job.options = render_options(command, job.loaded);
     if (command.fresh) continue;
     for (const auto& file : step.outputs)
       if (is_exr(file)) look_at_picture(file, job);
