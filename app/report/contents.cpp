@@ -25,6 +25,17 @@ void count(const Scene& scene, const Solid3d& solid, Contents& contents) {
   }
 }
 
+void add_leaves(const std::vector<Object>& objects, ObjectPath& path, std::vector<ObjectPath>& out) {
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    path.push_back(static_cast<int>(i));
+    if (const Group* group = std::get_if<Group>(&objects[i].kind))
+      add_leaves(group->objects, path, out);
+    else
+      out.push_back(path);
+    path.pop_back();
+  }
+}
+
 std::string background_of(const Scene& scene) {
   if (std::holds_alternative<Gradient>(scene.background)) return Gradient::type;
   if (std::holds_alternative<Hemispheres>(scene.background)) return Hemispheres::type;
@@ -44,6 +55,13 @@ const Object* find_object(const Scene& scene, const ObjectPath& path) {
     objects = group ? &group->objects : nullptr;
   }
   return object;
+}
+
+std::vector<ObjectPath> leaves(const Scene& scene) {
+  std::vector<ObjectPath> out;
+  ObjectPath path;
+  add_leaves(scene.objects, path, out);
+  return out;
 }
 
 Contents contents_of(const Scene& scene) {

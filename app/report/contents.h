@@ -15,6 +15,9 @@ using ObjectPath = std::vector<int>;
 /// The object at a path; null for an empty path and for one that leads nowhere.
 const Object* find_object(const Scene& scene, const ObjectPath& path);
 
+/// Every object that is no group, in file order.
+std::vector<ObjectPath> leaves(const Scene& scene);
+
 /// Calls f with each object of a list, groups and what is in them, too.
 template <class Objects, class F>
 void each_object(Objects& objects, const F& f) {

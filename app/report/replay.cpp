@@ -16,16 +16,6 @@ Vec3d exact(Vec3f v) { return {v.x, v.y, v.z}; }
 
 std::string text_of(Vec3d v) { return fmt::format("{:.9g} {:.9g} {:.9g}", v.x, v.y, v.z); }
 
-void list_media(const std::vector<Object>& objects, std::vector<int> path, std::vector<std::vector<int>>& out) {
-  path.push_back(0);
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    path.back() = static_cast<int>(i);
-    if (const auto* group = std::get_if<Group>(&objects[i].kind)) list_media(group->objects, path, out);
-    const auto* volume = std::get_if<Volume>(&objects[i].kind);
-    if (volume && volume->medium.density > 0) out.push_back(path);
-  }
-}
-
 const char* fate_text(Fate fate) {
   switch (fate) {
     case Fate::goes_on:
@@ -77,7 +67,10 @@ std::string branch_text(const PathVertex& v) { return v.branch ? fmt::format("br
 
 std::vector<std::vector<int>> media_of(const Scene& scene) {
   std::vector<std::vector<int>> media;
-  list_media(scene.objects, {}, media);
+  for (const ObjectPath& path : leaves(scene)) {
+    const auto* volume = std::get_if<Volume>(&find_object(scene, path)->kind);
+    if (volume && volume->medium.density > 0) media.push_back(path);
+  }
   return media;
 }
 

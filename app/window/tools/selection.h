@@ -23,9 +23,6 @@ const Material* material_of(const Scene& scene, const Object& object);
 /// How many objects (in groups too) have the material.
 int users_of(const Scene& scene, int material);
 
-/// Every object that is no group, in file order.
-std::vector<ObjectPath> leaves(const Scene& scene);
-
 /// Calls f with the shape of a solid or the boundary of a medium; groups have none.
 template <class Item, class F>
 void with_shape(Item& object, const F& f) {
