@@ -62,11 +62,6 @@ void check_material(const Material& material, const Scene& scene, const Refusal&
     refuse(place_of(material, "type"), "an image on what is not lambertian", "a colour");
 }
 
-void check_settings(const Scene& scene, const Refusal& refuse) {
-  if (scene.render.fresnel != FresnelKind::exact) refuse("/render/fresnel", "\"schlick\"", "\"exact\"");
-  if (scene.render.max_depth == 0 && !refuse.renderer.depth_zero) refuse("/render/max_depth", "0", "at least 1");
-}
-
 ForeignSphere sphere_of(const Sphere<>& sphere, const Placement& placement, const Camera& camera) {
   const Vec3d begin = place(placement, sphere.center),
               end = place(placement, sphere.center_end.value_or(sphere.center));
@@ -176,7 +171,8 @@ void add_media(const Scene& scene, const Flattened& flat, const Refusal& refuse,
 
 ForeignScene foreign_scene(const Scene& scene, const std::string& name, const ForeignRenderer& renderer) {
   const Refusal refuse{name, renderer};
-  check_settings(scene, refuse);
+  if (scene.render.fresnel != FresnelKind::exact) refuse("/render/fresnel", "\"schlick\"", "\"exact\"");
+  if (scene.render.max_depth == 0 && !renderer.depth_zero) refuse("/render/max_depth", "0", "at least 1");
   const Flattened flat = flatten(scene);
   ForeignScene out;
   std::set<int> used;

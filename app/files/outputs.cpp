@@ -49,12 +49,6 @@ fs::path free_name(const fs::path& file) {
   return {};
 }
 
-/// The file's name in a new folder among the temporary files; empty: none can be made.
-fs::path temporary_name(const fs::path& file) {
-  const fs::path folder = make_temporary_folder("tyndall-");
-  return folder.empty() ? fs::path() : folder / file.filename();
-}
-
 bool succeeds(const std::function<void(const fs::path& file)>& write, const fs::path& file) {
   if (file.empty()) return false;
   try {
@@ -178,10 +172,10 @@ void write_or_rescue(const fs::path& file, const std::function<void(const fs::pa
     const std::string problem = error.what();
     const fs::path near = free_name(file);
     if (succeeds(write, near)) throw at(problem, near);
-    const fs::path far = temporary_name(file);
-    if (succeeds(write, far)) throw at(problem, far);
+    const fs::path folder = make_temporary_folder("tyndall-"), far = folder / file.filename();  // "": none can be made
+    if (!folder.empty() && succeeds(write, far)) throw at(problem, far);
     std::error_code ignored;
-    if (!far.empty()) fs::remove(far.parent_path(), ignored);
+    if (!folder.empty()) fs::remove(folder, ignored);
     throw;
   }
 }
