@@ -17,7 +17,6 @@
 #include <optional>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 namespace tyndall {
 namespace {

@@ -6,7 +6,6 @@
 #include "core/trace/flight.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace tyndall {

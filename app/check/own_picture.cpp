@@ -1,7 +1,6 @@
 #include "app/check/own_picture.h"
 
 #include "app/check/statistics.h"
-#include "core/base/error.h"
 #include "core/base/seconds.h"
 #include "core/compile/compile.h"
 
@@ -11,7 +10,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 namespace tyndall {

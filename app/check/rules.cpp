@@ -3,7 +3,6 @@
 #include "app/report/contents.h"
 #include "core/base/math.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

@@ -5,7 +5,6 @@
 #include "core/scene/scene.h"
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 

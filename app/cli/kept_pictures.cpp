@@ -2,7 +2,6 @@
 
 #include "core/base/error.h"
 #include "core/base/fnv1a.h"
-#include "core/base/text.h"
 #include "core/files/film_files.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/place.h"

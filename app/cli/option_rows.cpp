@@ -1,7 +1,5 @@
 #include "app/cli/option_rows.h"
 
-#include "app/book/load_program.h"
-#include "app/check/own_picture.h"
 #include "app/cli/setting_options.h"
 #include "app/files/sweep_values.h"
 #include "app/text/name_pattern.h"
@@ -10,7 +8,6 @@
 #include "core/base/thread_pool.h"
 #include "core/render/clean_film.h"
 
-#include <algorithm>
 #include <functional>
 
 namespace tyndall {

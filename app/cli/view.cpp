@@ -21,7 +21,6 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <utility>
 
 namespace tyndall {
 namespace {

@@ -2,7 +2,6 @@
 
 #include "app/book/run_guarded.h"
 #include "app/text/standard_streams.h"
-#include "app/text/values.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/film/merge.h"

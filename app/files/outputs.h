@@ -3,7 +3,6 @@
 #include "core/files/picture_files.h"
 #include "core/image/file_place.h"
 #include "core/image/image_io.h"
-#include "core/scene/scene.h"
 
 #include <filesystem>
 #include <functional>

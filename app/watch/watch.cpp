@@ -5,7 +5,6 @@
 #include "app/files/outputs.h"
 #include "app/files/watched_function.h"
 #include "app/text/standard_streams.h"
-#include "app/text/values.h"
 #include "app/watch/host.h"
 #include "app/window/window.h"
 #include "core/base/error.h"
@@ -23,7 +22,6 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 
 /// The library for programs of others: what <tyndall/watch.h> promises, by the parts of the program.
