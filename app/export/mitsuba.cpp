@@ -20,15 +20,12 @@ namespace tyndall {
 namespace mitsuba {
 namespace {
 
-std::string number(const char* name, double value) {
-  return fmt::format("<float name=\"{}\" value=\"{}\"/>", name, number_text(value));
+std::string property(const char* type, const char* name, const std::string& value) {
+  return fmt::format("<{} name=\"{}\" value=\"{}\"/>", type, name, value);
 }
-std::string whole(const char* name, int value) {
-  return fmt::format("<integer name=\"{}\" value=\"{}\"/>", name, value);
-}
-std::string rgb(const char* name, Vec3d c) {
-  return fmt::format("<rgb name=\"{}\" value=\"{}\"/>", name, numbers_of(c, ", "));
-}
+std::string number(const char* name, double value) { return property("float", name, number_text(value)); }
+std::string whole(const char* name, int value) { return property("integer", name, std::to_string(value)); }
+std::string rgb(const char* name, Vec3d c) { return property("rgb", name, numbers_of(c, ", ")); }
 std::string point(const char* name, Vec3d p) {
   return fmt::format("<point name=\"{}\" x=\"{}\" y=\"{}\" z=\"{}\"/>", name, number_text(p.x), number_text(p.y),
                      number_text(p.z));
