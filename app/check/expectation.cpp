@@ -178,36 +178,25 @@ std::vector<BookSample> Expectation::samples_of(const BookProgram& program, bool
 
 std::shared_ptr<const BookModel> Expectation::model_of(const std::vector<BookSample>& samples, double count) const {
   const int group = count > 0 ? std::clamp(static_cast<int>(std::lround(count)), 1, count_) : count_;
-  SampleStatistics statistics = statistics_of(samples, count_, {group, white()}, &samples_);
-  const auto result =
-      std::make_shared<BookModel>(BookModel{std::move(statistics.mean), std::move(statistics.excess),
-                                            std::move(statistics.noise), means_of(statistics.common, large_)});
-  BookModel& model = *result;
-  for (std::size_t k = 0; k < model.passes.size(); ++k)
-    model.passes[k] = variance_[k] > 0 ? std::clamp(model.passes[k] * group / variance_[k], 0.0, 1.0) : 1;
-  for (float& noise : model.noise)  // a picture of unknown samples shows by itself alone how noisy it is
+  SampleStatistics now = statistics_of(samples, count_, {group, white()}, &samples_);
+  for (float& noise : now.noise)  // a picture of unknown samples shows by itself alone how noisy it is
     noise *= count > 0 ? static_cast<float>(group / count) : 0;
-  if (!picture_.coded || count <= count_ * 1.2) return result;
-  const std::vector<double> ratios = excess_ratios(samples, count_, count, large_);
-  for (std::size_t at = 0; at < model.mean.size(); ++at) {
+  const std::vector<double> common = means_of(now.common, large_);
+  std::vector<double> ratios;
+  if (picture_.coded && count > count_ * 1.2) ratios = excess_ratios(samples, count_, count, large_);
+  for (std::size_t at = 0; at < now.mean.size(); ++at) {
     const int region = large_.of_pixel[at / 3];
-    if (region < 0) continue;
-    const auto ratio = static_cast<float>(std::min(1.0, ratios[3 * static_cast<std::size_t>(region) + at % 3]));
-    const auto passes = static_cast<float>(model.passes[3 * static_cast<std::size_t>(region) + at % 3]);
-    const float light = model.mean[at] + passes * (reference_[at] - mean_[at]);  // means of few samples are too noisy
-    model.excess[at] = std::max(model.excess[at] * ratio, light - 1);            // no pixel is brighter than white
+    const std::size_t k = 3 * static_cast<std::size_t>(std::max(region, 0)) + at % 3;
+    // What it has of the luck of the scene's own samples.
+    const bool tells = region >= 0 && variance_[k] > 0;
+    const auto passes = static_cast<float>(tells ? std::clamp(common[k] * group / variance_[k], 0.0, 1.0) : 1);
+    const float missed = passes * (reference_[at] - mean_[at]);
+    float& excess = now.excess[at];
+    if (region >= 0 && !ratios.empty())  // means of few samples are too noisy; no pixel is brighter than white
+      excess = std::max(excess * static_cast<float>(std::min(1.0, ratios[k])), now.mean[at] + missed - 1);
+    now.mean[at] = now.mean[at] - excess + missed;
   }
-  return result;
-}
-
-std::vector<float> Expectation::expected_of(const BookModel& model) const {
-  std::vector<float> expected(reference_.size());
-  for (std::size_t at = 0; at < expected.size(); ++at) {
-    const int region = large_.of_pixel[at / 3];
-    const double passes = region < 0 ? 1 : model.passes[3 * static_cast<std::size_t>(region) + at % 3];
-    expected[at] = model.mean[at] - model.excess[at] + static_cast<float>(passes) * (reference_[at] - mean_[at]);
-  }
-  return expected;
+  return std::make_shared<BookModel>(BookModel{std::move(now.mean), std::move(now.noise), count});
 }
 
 /// The picture, read in a way that is tried often: right ones are kept.
@@ -222,8 +211,7 @@ const ReadPixels& Expectation::read(const Reading& reading) {
 
 RegionDifferences Expectation::differences(const BookModel& model, const Reading& reading) {
   const ReadPixels& pixels = read(reading);
-  const std::vector<float> expected = expected_of(model);
-  const ComparedPixels compared{pixels.light, expected, pixels.tolerance, model.noise};
+  const ComparedPixels compared{pixels.light, model.expected, pixels.tolerance, model.noise};
   RegionDifferences result{block_differences(compared, small_), block_differences(compared, whole_), 0, 0};
   result.small = result.all.size();
   const auto large = block_differences(compared, large_), objects = block_differences(compared, objects_);

@@ -40,9 +40,9 @@ Reference render_reference(Scene scene, const LinearImage& picture, const Refere
 
 /// What samples of a program tell of its picture: 3 floats a pixel of the lattice.
 struct BookModel {
-  std::vector<float> mean, excess;  ///< see SampleStatistics
-  std::vector<float> noise;         ///< variance of a pixel of a picture with the number of samples of the user's
-  std::vector<double> passes;  ///< what it has of the luck of the scene's own samples; of each large region and channel
+  std::vector<float> expected;
+  std::vector<float> noise;  ///< variance of a pixel of a picture with the number of samples of the user's
+  double samples = 0;        ///< that number; 0: not known
 };
 
 /// The pictures that are expected of programs, and how the user's picture differs from them.
@@ -82,7 +82,6 @@ class Expectation {
   const ReadPixels& read(const Reading& reading);
   Regions without_rare_light(Regions regions) const;
   double white() const { return picture_.coded ? 1 : std::numeric_limits<double>::infinity(); }
-  std::vector<float> expected_of(const BookModel& model) const;
 
   const PictureNumbers& picture_;
   BookProgram start_;
