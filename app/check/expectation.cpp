@@ -2,7 +2,6 @@
 
 #include "core/accuracy/error.h"
 #include "core/base/seconds.h"
-#include "core/compile/compile.h"
 #include "core/render/render.h"
 
 #include <algorithm>
@@ -21,20 +20,6 @@ constexpr double rare_light = 0.5, dark = 0.003;  // of the light of a region, a
 constexpr double min_cut = 0.02;                  // of the light of single samples, that white cuts off
 constexpr std::uint32_t first_spp = 16;
 constexpr double part_of_difference = 0.05, min_error = 0.002;
-
-/// A scene as kernels read it.
-struct Compiled {
-  explicit Compiled(const BookProgram& program) : columns(compile(program.scene)) {
-    if (program.columns) program.columns(columns);
-    textures = texture_views(columns);
-    view = view_of(columns, textures);
-  }
-  Compiled(const Compiled&) = delete;
-  Compiled& operator=(const Compiled&) = delete;
-  RenderScene columns;
-  std::vector<TextureView> textures;
-  SceneView view;
-};
 
 BookProgram plain_program(const Scene& scene) {
   BookProgram program{scene, {}};
@@ -103,11 +88,9 @@ Expectation::Expectation(const PictureNumbers& picture, const Scene& scene, cons
       edge_(edge_of_blocks(lattice_)),
       reference_(on_lattice(reference.image.rgb, lattice_)),
       reference_variance_(on_lattice(reference.variance, lattice_)),
-      kernels_(*choose_kernels("")),
       threads_(0),
       go_on_(go_on) {
-  const Compiled compiled(start_);
-  seen_ = seen_objects(scene, compiled.columns, compiled.view, kernels_, lattice_);
+  seen_ = seen_objects(scene, lattice_);
   small_ = without_noise(blocks_of(lattice_, edge_), seen_);
   large_ = without_noise(blocks_of(lattice_, large_edge * edge_), seen_);
   objects_ = regions_of(seen_);
@@ -140,10 +123,7 @@ Regions Expectation::without_rare_light(Regions regions) const {
 
 /// Takes the samples of the scene as it is: as many as the time allows.
 void Expectation::take_samples(const CheckOptions& options) {
-  const Compiled compiled(start_);
-  const auto take = [&](int count) {
-    return book_samples(compiled.view, kernels_, start_.rules, lattice_, count, threads_, [] { return true; });
-  };
+  const auto take = [&](int count) { return book_samples(start_, lattice_, count, threads_, [] { return true; }); };
   const auto begin = std::chrono::steady_clock::now();
   count_ = options.samples;
   if (count_ == 0) {
@@ -172,8 +152,7 @@ bool Expectation::white_matters() const {
 
 std::vector<BookSample> Expectation::samples_of(const BookProgram& program, bool in_time) {
   return book_samples(
-      Compiled(program).view, kernels_, program.rules, lattice_, count_, threads_,
-      in_time ? go_on_ : [] { return true; });
+      program, lattice_, count_, threads_, in_time ? go_on_ : [] { return true; });
 }
 
 std::shared_ptr<const BookModel> Expectation::model_of(const std::vector<BookSample>& samples, double count) const {
@@ -224,11 +203,8 @@ RegionDifferences Expectation::differences(const BookModel& model, const Reading
 Misfit rough_misfit(const PictureNumbers& picture, const Scene& scene) {
   constexpr int count = 4;
   const Lattice lattice = lattice_of(picture.width, picture.height);
-  const BookProgram program = plain_program(scene);
-  const Compiled compiled(program);
   ThreadPool pool(0);
-  const auto samples =
-      book_samples(compiled.view, *choose_kernels(""), program.rules, lattice, count, pool, [] { return true; });
+  const auto samples = book_samples(plain_program(scene), lattice, count, pool, [] { return true; });
   const SampleStatistics statistics = statistics_of(samples, count, {count});
   std::vector<float> expected = statistics.mean;
   const std::vector<float> none(expected.size());

@@ -4,7 +4,6 @@
 #include "app/check/rules.h"
 #include "app/check/statistics.h"
 #include "core/base/thread_pool.h"
-#include "core/targets/kernels.h"
 
 #include <functional>
 #include <limits>
@@ -88,7 +87,6 @@ class Expectation {
   Lattice lattice_;
   int edge_;                                           ///< of a small block, in pixels of the lattice
   std::vector<float> reference_, reference_variance_;  ///< on the lattice
-  Kernels kernels_;
   ThreadPool threads_;
   const std::function<bool()>& go_on_;
   SeenObjects seen_;

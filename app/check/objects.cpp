@@ -2,6 +2,8 @@
 
 #include "app/report/contents.h"
 #include "app/report/replay.h"
+#include "core/compile/compile.h"
+#include "core/targets/kernels.h"
 #include "core/trace/camera.h"
 #include "core/trace/flight.h"
 
@@ -92,8 +94,11 @@ void find_interior(SeenObjects& seen, const Lattice& lattice) {
 
 }  // namespace
 
-SeenObjects seen_objects(const Scene& scene, const RenderScene& columns, const SceneView& view, const Kernels& kernels,
-                         const Lattice& lattice) {
+SeenObjects seen_objects(const Scene& scene, const Lattice& lattice) {
+  const RenderScene columns = compile(scene);
+  const std::vector<TextureView> textures = texture_views(columns);
+  const SceneView view = view_of(columns, textures);
+  const Kernels kernels = *choose_kernels("");
   SeenObjects seen;
   Labels labels(scene, columns);
   std::vector<FirstHit> hits(static_cast<std::size_t>(lattice.width));

@@ -1,7 +1,6 @@
 #pragma once
 #include "app/check/book_paths.h"
 #include "app/check/statistics.h"
-#include "core/compile/render_scene.h"
 #include "core/scene/scene.h"
 
 #include <string>
@@ -21,8 +20,7 @@ struct SeenObjects {
   std::vector<int> of_pixel;   ///< index into objects
   std::vector<char> interior;  ///< 1: the pixels around it show the same object
 };
-SeenObjects seen_objects(const Scene& scene, const RenderScene& columns, const SceneView& view, const Kernels& kernels,
-                         const Lattice& lattice);
+SeenObjects seen_objects(const Scene& scene, const Lattice& lattice);
 
 /// The objects as regions: the pixels around which the same object is seen. Objects of a noise texture have none.
 Regions regions_of(const SeenObjects& seen);

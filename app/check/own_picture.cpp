@@ -2,7 +2,6 @@
 
 #include "app/check/statistics.h"
 #include "core/base/seconds.h"
-#include "core/compile/compile.h"
 
 #include <fmt/core.h>
 
@@ -86,17 +85,14 @@ std::vector<BlockLight> own_blocks(const ProgramScene& program, const Lattice& l
 }
 
 std::vector<BlockLight> our_blocks(const Scene& scene, const ProgramScene& program, const Lattice& lattice, int count) {
-  const RenderScene columns = compile(scene);
-  const std::vector<TextureView> textures = texture_views(columns);
-  SceneView view = view_of(columns, textures);
-  BookRules rules;
+  BookProgram ours{scene, {}};
+  BookRules& rules = ours.rules;
   rules.schlick = true;
   rules.short_frame = program.short_frame;
   if (program.matt_in_sphere) rules.diffuse = DiffuseRule::filled_sphere;
   if (program.fuzz_on_sphere) rules.fuzz = FuzzRule::sphere;
   ThreadPool pool(0);
-  const std::vector<BookSample> samples =
-      book_samples(view, *choose_kernels(""), rules, lattice, count, pool, [] { return true; });
+  const std::vector<BookSample> samples = book_samples(ours, lattice, count, pool, [] { return true; });
   return sums_of(lattice, [&](std::size_t pixel, BlockLight& sums) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
       const Vec3f& light = samples[pixel * static_cast<std::size_t>(count) + k].light;
