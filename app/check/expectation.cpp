@@ -93,7 +93,7 @@ Expectation::Expectation(const PictureNumbers& picture, const Scene& scene, cons
   seen_ = seen_objects(scene, lattice_);
   small_ = without_noise(blocks_of(lattice_, edge_), seen_);
   large_ = without_noise(blocks_of(lattice_, large_edge * edge_), seen_);
-  objects_ = regions_of(seen_);
+  objects_ = regions_of(seen_, lattice_);
   take_samples(options);
   const Regions small = without_rare_light(small_);
   const auto left_out = [](const Regions& regions) {

@@ -77,21 +77,6 @@ class Labels {
   std::map<std::int32_t, int> known_;
 };
 
-void find_interior(SeenObjects& seen, const Lattice& lattice) {
-  const int columns = lattice.columns(), rows = lattice.rows();
-  const auto at = [&](int x, int y) {
-    return seen.of_pixel[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)];
-  };
-  for (int y = 0; y < rows; ++y)
-    for (int x = 0; x < columns; ++x) {
-      bool same = true;
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx)
-          same = same && at(std::clamp(x + dx, 0, columns - 1), std::clamp(y + dy, 0, rows - 1)) == at(x, y);
-      seen.interior.push_back(same ? 1 : 0);
-    }
-}
-
 }  // namespace
 
 SeenObjects seen_objects(const Scene& scene, const Lattice& lattice) {
@@ -112,15 +97,25 @@ SeenObjects seen_objects(const Scene& scene, const Lattice& lattice) {
     }
   }
   seen.objects = std::move(labels.objects);
-  find_interior(seen, lattice);
   return seen;
 }
 
-Regions regions_of(const SeenObjects& seen) {
+Regions regions_of(const SeenObjects& seen, const Lattice& lattice) {
   Regions regions{seen.of_pixel, static_cast<int>(seen.objects.size())};
-  for (std::size_t pixel = 0; pixel < seen.of_pixel.size(); ++pixel)
-    if (!seen.interior[pixel] || seen.objects[static_cast<std::size_t>(seen.of_pixel[pixel])].noisy_texture)
-      regions.of_pixel[pixel] = -1;
+  const int columns = lattice.columns(), rows = lattice.rows();
+  const auto at = [&](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x);
+  };
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) {
+      const int object = seen.of_pixel[at(x, y)];
+      bool same = !seen.objects[static_cast<std::size_t>(object)].noisy_texture;
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+          same =
+              same && seen.of_pixel[at(std::clamp(x + dx, 0, columns - 1), std::clamp(y + dy, 0, rows - 1))] == object;
+      if (!same) regions.of_pixel[at(x, y)] = -1;
+    }
   return regions;
 }
 
