@@ -144,8 +144,9 @@ Check check_picture(const CheckRequest& request) {
   if (!arrangement.words.empty())
     check.verdict.choices.insert(check.verdict.choices.begin(), {"arrangement", arrangement.words, 1});
   const bool ppm = picture.kind == ImageKind::ppm;
-  check.gamma2 = ppm && request.ppm == PpmCurve::srgb && check.verdict.curve == TransferCurve::gamma2;
-  if (ppm && (check.gamma2 || request.ppm == PpmCurve::gamma2)) read_as_gamma2(picture.image);
+  // Read by the square of its numbers, as that fits better.
+  const bool gamma2 = ppm && request.ppm == PpmCurve::srgb && check.verdict.curve == TransferCurve::gamma2;
+  if (ppm && (gamma2 || request.ppm == PpmCurve::gamma2)) read_as_gamma2(picture.image);
   PicturePair pair{std::move(picture.image), std::move(reference.image)};
   pair.image.frame.reset();
   pair.image_pixels = pair.reference_pixels = pair.image.rgb.size() / 3;
@@ -153,7 +154,7 @@ Check check_picture(const CheckRequest& request) {
   if (!remark.empty()) pair.remarks.push_back(remark);
   if (picture.has_alpha)
     pair.remarks.push_back(request.image.string() + ": alpha is not looked at: what is hidden beneath it is compared");
-  if (check.gamma2)
+  if (gamma2)
     pair.remarks.push_back(request.image.string() +
                            ": read as the books' programs write it (gamma 2), which fits the scene better");
   check.comparison = compare_pair(std::move(pair), request.image, arrangement.loaded.name);

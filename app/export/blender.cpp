@@ -7,7 +7,6 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-
 namespace tyndall {
 namespace blender {
 namespace {
