@@ -2,7 +2,9 @@
 
 #include "core/base/math.h"
 #include "core/base/sampling.h"
+#include "core/compile/compile.h"
 #include "core/materials/materials.h"
+#include "core/targets/kernels.h"
 #include "core/trace/camera.h"
 #include "core/trace/flight.h"
 #include "core/trace/shade.h"
@@ -242,9 +244,13 @@ class BookPaths {
 
 }  // namespace
 
-std::vector<BookSample> book_samples(const SceneView& scene, const Kernels& kernels, const BookRules& rules,
-                                     const Lattice& lattice, int count, ThreadPool& threads,
+std::vector<BookSample> book_samples(const BookProgram& program, const Lattice& lattice, int count, ThreadPool& threads,
                                      const std::function<bool()>& go_on) {
+  RenderScene columns = compile(program.scene);
+  if (program.columns) program.columns(columns);
+  const std::vector<TextureView> textures = texture_views(columns);
+  const SceneView scene = view_of(columns, textures);
+  const Kernels kernels = *choose_kernels("");
   std::vector<BookSample> samples(lattice.pixels() * static_cast<std::size_t>(count));
   const int pixels = static_cast<int>(lattice.pixels()), pixels_per_job = std::max(1, paths_per_job / count);
   std::atomic<bool> give_up = !go_on();
@@ -255,10 +261,10 @@ std::vector<BookSample> book_samples(const SceneView& scene, const Kernels& kern
       const int x = pixel % lattice.columns() * lattice.step, y = pixel / lattice.columns() * lattice.step;
       for (int index = 0; index < count; ++index)
         paths.push_back(
-            begin(scene, rules, x, y, index,
+            begin(scene, program.rules, x, y, index,
                   static_cast<std::size_t>(pixel) * static_cast<std::size_t>(count) + static_cast<std::size_t>(index)));
     }
-    BookPaths(scene, kernels, rules, samples).follow(paths);
+    BookPaths(scene, kernels, program.rules, samples).follow(paths);
   };
   threads.for_each((pixels + pixels_per_job - 1) / pixels_per_job, follow, [&] { give_up = give_up || !go_on(); });
   if (give_up) samples.clear();

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/base/thread_pool.h"
-#include "core/targets/kernels.h"
+#include "core/compile/render_scene.h"
+#include "core/scene/scene.h"
 
 #include <cstdint>
 #include <functional>
@@ -34,6 +35,14 @@ struct BookRules {
   bool operator==(const BookRules&) const = default;
 };
 
+/// A scene and the rules by which a program renders it.
+struct BookProgram {
+  Scene scene;
+  BookRules rules;
+  /// Changes the compiled scene, where no scene file can say it; empty: nothing.
+  std::function<void(RenderScene&)> columns{};
+};
+
 /// Every step-th pixel of a picture in both directions, from the upper left one on.
 struct Lattice {
   int width = 0, height = 0;  ///< of the picture
@@ -52,8 +61,7 @@ struct BookSample {
 /// The samples 0 … count - 1 of each pixel of the lattice: those of a pixel follow each other. The same random numbers
 /// are used whatever the rules are, so that pictures by two rules have much the same noise, and differ only where the
 /// rules do. go_on: asked now and then; after it has said false the result is empty.
-std::vector<BookSample> book_samples(const SceneView& scene, const Kernels& kernels, const BookRules& rules,
-                                     const Lattice& lattice, int count, ThreadPool& threads,
+std::vector<BookSample> book_samples(const BookProgram& program, const Lattice& lattice, int count, ThreadPool& threads,
                                      const std::function<bool()>& go_on);
 
 }  // namespace tyndall

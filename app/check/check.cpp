@@ -1,7 +1,6 @@
 #include "app/check/check.h"
 
 #include "app/book/load_program.h"
-#include "app/check/arrangement.h"
 #include "app/comparison/pair.h"
 #include "app/files/open_scene.h"
 #include "core/base/error.h"
@@ -15,6 +14,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -23,7 +23,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double part_for_reference = 0.25;  // of the time
+constexpr double part_for_reference = 0.25;   // of the time
+constexpr double part_of_other_scene = 0.05;  // blocks that differ from the start, before others are looked for
+constexpr double part_of_right_scene = 0.5;   // of the difference that is left where another one is taken
 
 bool is_picture_name(const fs::path& name) {
   const std::string ending = lower_case(name.extension().string());
@@ -47,6 +49,53 @@ std::string remark_on_size(const LoadedScene& loaded, const LinearImage& image, 
   return loaded.name + ": its picture is " + std::to_string(width) + "x" + std::to_string(height) +
          ", which is rendered as " + std::to_string(image.width) + "x" + std::to_string(image.height) +
          " with the same vertical field of view";
+}
+
+/// A program's scene with its balls where they lie in a picture.
+struct Arrangement {
+  LoadedScene loaded;
+  std::string words;  ///< which compiler puts them there; "": the one that the program is compiled with
+};
+
+/// Loads the program again, compiled in another way; nothing: it cannot be.
+std::optional<LoadedScene> load(SceneRequest request, const std::string& compiler) {
+  request.program.compiler = compiler;
+  request.program.told = true;
+  try {
+    return open_scene(request);
+  } catch (const ProgramInterrupted&) {
+    throw;
+  } catch (const std::runtime_error&) {  // a compiler that is not there, or that refuses the program
+    return {};
+  }
+}
+
+/// Programs place balls at random, and where depends on the order in which a compiler computes arguments. If the
+/// picture clearly differs from the scene as it was loaded, the program is compiled by other compilers, and the scene
+/// that fits is taken. Other scenes are returned as they are. Throws what open_scene() throws where the user interrupts
+/// a compiler; go_on: false ends the search.
+Arrangement find_arrangement(const PictureNumbers& picture, const SceneRequest& request, LoadedScene loaded,
+                             const std::function<bool()>& go_on) {
+  Arrangement best{std::move(loaded), ""};
+  if (!is_program(request.what)) return best;
+  const auto misfit = [&](LoadedScene& other) {
+    other.scene.width = picture.width, other.scene.height = picture.height;
+    return rough_misfit(picture, other.scene);
+  };
+  const Misfit plain = misfit(best.loaded);
+  if (plain.different <= part_of_other_scene * plain.blocks) return best;
+  double amount = part_of_right_scene * plain.amount;
+  const Scene first = best.loaded.scene;
+  for (const char* compiler : {"g++", "clang++"}) {
+    if (!go_on()) return best;
+    std::optional<LoadedScene> other = load(request, compiler);
+    if (!other || other->scene == first) continue;
+    const Misfit found = misfit(*other);
+    if (found.amount >= amount) continue;
+    amount = found.amount;
+    best = {std::move(*other), std::string("balls as ") + compiler + " places them"};
+  }
+  return best;
 }
 
 }  // namespace
@@ -95,8 +144,9 @@ Check check_picture(const CheckRequest& request) {
   if (!arrangement.words.empty())
     check.verdict.choices.insert(check.verdict.choices.begin(), {"arrangement", arrangement.words, 1});
   const bool ppm = picture.kind == ImageKind::ppm;
-  check.gamma2 = ppm && request.ppm == PpmCurve::srgb && check.verdict.curve == TransferCurve::gamma2;
-  if (ppm && (check.gamma2 || request.ppm == PpmCurve::gamma2)) read_as_gamma2(picture.image);
+  // Read by the square of its numbers, as that fits better.
+  const bool gamma2 = ppm && request.ppm == PpmCurve::srgb && check.verdict.curve == TransferCurve::gamma2;
+  if (ppm && (gamma2 || request.ppm == PpmCurve::gamma2)) read_as_gamma2(picture.image);
   PicturePair pair{std::move(picture.image), std::move(reference.image)};
   pair.image.frame.reset();
   pair.image_pixels = pair.reference_pixels = pair.image.rgb.size() / 3;
@@ -104,7 +154,7 @@ Check check_picture(const CheckRequest& request) {
   if (!remark.empty()) pair.remarks.push_back(remark);
   if (picture.has_alpha)
     pair.remarks.push_back(request.image.string() + ": alpha is not looked at: what is hidden beneath it is compared");
-  if (check.gamma2)
+  if (gamma2)
     pair.remarks.push_back(request.image.string() +
                            ": read as the books' programs write it (gamma 2), which fits the scene better");
   check.comparison = compare_pair(std::move(pair), request.image, arrangement.loaded.name);

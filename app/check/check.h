@@ -30,7 +30,6 @@ struct CheckRequest {
 struct Check {
   Comparison comparison;  ///< with the scene, rendered in the picture's size
   Findings verdict;
-  bool gamma2 = false;  ///< the PPM was read by the square of its numbers, as that fits better
 };
 
 /// Renders the scene in the picture's size, and compares. Throws as open_scene(), read_whole_picture() and

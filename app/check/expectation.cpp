@@ -1,7 +1,8 @@
 #include "app/check/expectation.h"
 
+#include "core/accuracy/error.h"
 #include "core/base/seconds.h"
-#include "core/compile/compile.h"
+#include "core/render/render.h"
 
 #include <algorithm>
 #include <chrono>
@@ -17,20 +18,8 @@ constexpr double part_for_samples = 1 / 60.0;     // of the time, for the sample
 constexpr int large_edge = 4;                     // of a large block, in small ones
 constexpr double rare_light = 0.5, dark = 0.003;  // of the light of a region, and light, that samples may be off
 constexpr double min_cut = 0.02;                  // of the light of single samples, that white cuts off
-
-/// A scene as kernels read it.
-struct Compiled {
-  explicit Compiled(const BookProgram& program) : columns(compile(program.scene)) {
-    if (program.columns) program.columns(columns);
-    textures = texture_views(columns);
-    view = view_of(columns, textures);
-  }
-  Compiled(const Compiled&) = delete;
-  Compiled& operator=(const Compiled&) = delete;
-  RenderScene columns;
-  std::vector<TextureView> textures;
-  SceneView view;
-};
+constexpr std::uint32_t first_spp = 16;
+constexpr double part_of_difference = 0.05, min_error = 0.002;
 
 BookProgram plain_program(const Scene& scene) {
   BookProgram program{scene, {}};
@@ -66,23 +55,45 @@ Regions without_noise(Regions regions, const SeenObjects& seen) {
 
 }  // namespace
 
+Reference render_reference(Scene scene, const LinearImage& picture, const ReferenceLimits& limits,
+                           const std::function<bool()>& go_on) {
+  scene.render.sharing = false, scene.render.adaptive = false, scene.render.sampler = SamplerKind::sobol;
+  scene.render.integrator = Integrator::mis;
+  scene.render.seed += 0x5eed;  // the picture may be Tyndall's own, whose noise must not be taken for the truth
+  const auto prepared = prepare(scene);
+  const auto progress = [&](const RenderProgress&) { return go_on(); };
+  RenderOptions options;
+  options.spp = first_spp;
+  RenderResult rendered = render(*prepared, options);
+  const double difference = std::sqrt(relative_mse(picture.rgb, resolve(rendered.film)));
+  options.spp = limits.spp;
+  options.time_limit = std::max(0.0, limits.seconds - rendered.seconds);
+  options.target_error = std::isfinite(difference) ? std::max(min_error, part_of_difference * difference) : min_error;
+  if (!rendered.interrupted) rendered = render(*prepared, options, progress, std::move(rendered.film));
+  const Film& film = rendered.film;
+  Reference reference{{film.region.width(), film.region.height(), resolve(film)}, {}};
+  reference.variance.reserve(3 * film.pixels.size());
+  for (const FilmPixel& pixel : film.pixels) {
+    const Vec3f half = half_mean(film, pixel, 0) - half_mean(film, pixel, 1);
+    for (const float off : {half.x, half.y, half.z}) reference.variance.push_back(off * off / 4);
+  }
+  return reference;
+}
+
 Expectation::Expectation(const PictureNumbers& picture, const Scene& scene, const Reference& reference,
                          const CheckOptions& options, const std::function<bool()>& go_on)
     : picture_(picture),
       start_(plain_program(scene)),
       lattice_(lattice_of(picture.width, picture.height)),
-      grid_(grid_of(lattice_)),
+      edge_(edge_of_blocks(lattice_)),
       reference_(on_lattice(reference.image.rgb, lattice_)),
       reference_variance_(on_lattice(reference.variance, lattice_)),
-      kernels_(*choose_kernels("")),
-      threads_(options.threads),
+      threads_(0),
       go_on_(go_on) {
-  const Compiled compiled(start_);
-  seen_ = seen_objects(scene, compiled.columns, compiled.view, kernels_, lattice_);
-  BlockGrid large = grid_;
-  large.edge *= large_edge;
-  small_ = without_noise(regions_of(grid_), seen_), large_ = without_noise(regions_of(large), seen_);
-  objects_ = regions_of(seen_);
+  seen_ = seen_objects(scene, lattice_);
+  small_ = without_noise(blocks_of(lattice_, edge_), seen_);
+  large_ = without_noise(blocks_of(lattice_, large_edge * edge_), seen_);
+  objects_ = regions_of(seen_, lattice_);
   take_samples(options);
   const Regions small = without_rare_light(small_);
   const auto left_out = [](const Regions& regions) {
@@ -112,10 +123,7 @@ Regions Expectation::without_rare_light(Regions regions) const {
 
 /// Takes the samples of the scene as it is: as many as the time allows.
 void Expectation::take_samples(const CheckOptions& options) {
-  const Compiled compiled(start_);
-  const auto take = [&](int count) {
-    return book_samples(compiled.view, kernels_, start_.rules, lattice_, count, threads_, [] { return true; });
-  };
+  const auto take = [&](int count) { return book_samples(start_, lattice_, count, threads_, [] { return true; }); };
   const auto begin = std::chrono::steady_clock::now();
   count_ = options.samples;
   if (count_ == 0) {
@@ -129,9 +137,9 @@ void Expectation::take_samples(const CheckOptions& options) {
 
 std::vector<double> Expectation::likely_samples(const std::vector<BookSample>& of_program,
                                                 const Reading& reading) const {
-  const PictureNoise noise =
-      noise_of(read_pixels(picture_, lattice_, reading), reference_, reference_variance_, small_, white());
-  return likely_counts(noise, of_program, count_, small_, white());
+  const ReadPixels pixels = read_pixels(picture_, lattice_, reading);
+  return likely_counts({pixels.light, reference_, pixels.tolerance, reference_variance_}, of_program, count_, small_,
+                       white());
 }
 
 bool Expectation::white_matters() const {
@@ -144,40 +152,30 @@ bool Expectation::white_matters() const {
 
 std::vector<BookSample> Expectation::samples_of(const BookProgram& program, bool in_time) {
   return book_samples(
-      Compiled(program).view, kernels_, program.rules, lattice_, count_, threads_,
-      in_time ? go_on_ : [] { return true; });
+      program, lattice_, count_, threads_, in_time ? go_on_ : [] { return true; });
 }
 
-BookModel Expectation::model_of(const std::vector<BookSample>& samples, double count) const {
+std::shared_ptr<const BookModel> Expectation::model_of(const std::vector<BookSample>& samples, double count) const {
   const int group = count > 0 ? std::clamp(static_cast<int>(std::lround(count)), 1, count_) : count_;
-  SampleStatistics statistics = statistics_of(samples, count_, {group, white()}, &samples_);
-  BookModel model{std::move(statistics.mean), std::move(statistics.excess), std::move(statistics.noise),
-                  means_of(statistics.common, large_)};
-  for (std::size_t k = 0; k < model.passes.size(); ++k)
-    model.passes[k] = variance_[k] > 0 ? std::clamp(model.passes[k] * group / variance_[k], 0.0, 1.0) : 1;
-  for (float& noise : model.noise)  // a picture of unknown samples shows by itself alone how noisy it is
+  SampleStatistics now = statistics_of(samples, count_, {group, white()}, &samples_);
+  for (float& noise : now.noise)  // a picture of unknown samples shows by itself alone how noisy it is
     noise *= count > 0 ? static_cast<float>(group / count) : 0;
-  if (!picture_.coded || count <= count_ * 1.2) return model;
-  const std::vector<double> ratios = excess_ratios(samples, count_, count, large_);
-  for (std::size_t at = 0; at < model.mean.size(); ++at) {
+  const std::vector<double> common = means_of(now.common, large_);
+  std::vector<double> ratios;
+  if (picture_.coded && count > count_ * 1.2) ratios = excess_ratios(samples, count_, count, large_);
+  for (std::size_t at = 0; at < now.mean.size(); ++at) {
     const int region = large_.of_pixel[at / 3];
-    if (region < 0) continue;
-    const auto ratio = static_cast<float>(std::min(1.0, ratios[3 * static_cast<std::size_t>(region) + at % 3]));
-    const auto passes = static_cast<float>(model.passes[3 * static_cast<std::size_t>(region) + at % 3]);
-    const float light = model.mean[at] + passes * (reference_[at] - mean_[at]);  // means of few samples are too noisy
-    model.excess[at] = std::max(model.excess[at] * ratio, light - 1);            // no pixel is brighter than white
+    const std::size_t k = 3 * static_cast<std::size_t>(std::max(region, 0)) + at % 3;
+    // What it has of the luck of the scene's own samples.
+    const bool tells = region >= 0 && variance_[k] > 0;
+    const auto passes = static_cast<float>(tells ? std::clamp(common[k] * group / variance_[k], 0.0, 1.0) : 1);
+    const float missed = passes * (reference_[at] - mean_[at]);
+    float& excess = now.excess[at];
+    if (region >= 0 && !ratios.empty())  // means of few samples are too noisy; no pixel is brighter than white
+      excess = std::max(excess * static_cast<float>(std::min(1.0, ratios[k])), now.mean[at] + missed - 1);
+    now.mean[at] = now.mean[at] - excess + missed;
   }
-  return model;
-}
-
-std::vector<float> Expectation::expected_of(const BookModel& model) const {
-  std::vector<float> expected(reference_.size());
-  for (std::size_t at = 0; at < expected.size(); ++at) {
-    const int region = large_.of_pixel[at / 3];
-    const double passes = region < 0 ? 1 : model.passes[3 * static_cast<std::size_t>(region) + at % 3];
-    expected[at] = model.mean[at] - model.excess[at] + static_cast<float>(passes) * (reference_[at] - mean_[at]);
-  }
-  return expected;
+  return std::make_shared<BookModel>(BookModel{std::move(now.mean), std::move(now.noise), count});
 }
 
 /// The picture, read in a way that is tried often: right ones are kept.
@@ -192,8 +190,7 @@ const ReadPixels& Expectation::read(const Reading& reading) {
 
 RegionDifferences Expectation::differences(const BookModel& model, const Reading& reading) {
   const ReadPixels& pixels = read(reading);
-  const std::vector<float> expected = expected_of(model);
-  const ComparedPixels compared{pixels.light, expected, pixels.tolerance, model.noise};
+  const ComparedPixels compared{pixels.light, model.expected, pixels.tolerance, model.noise};
   RegionDifferences result{block_differences(compared, small_), block_differences(compared, whole_), 0, 0};
   result.small = result.all.size();
   const auto large = block_differences(compared, large_), objects = block_differences(compared, objects_);
@@ -203,19 +200,16 @@ RegionDifferences Expectation::differences(const BookModel& model, const Reading
   return result;
 }
 
-Misfit rough_misfit(const PictureNumbers& picture, const Scene& scene, int threads) {
+Misfit rough_misfit(const PictureNumbers& picture, const Scene& scene) {
   constexpr int count = 4;
   const Lattice lattice = lattice_of(picture.width, picture.height);
-  const BookProgram program = plain_program(scene);
-  const Compiled compiled(program);
-  ThreadPool pool(threads);
-  const auto samples =
-      book_samples(compiled.view, *choose_kernels(""), program.rules, lattice, count, pool, [] { return true; });
+  ThreadPool pool(0);
+  const auto samples = book_samples(plain_program(scene), lattice, count, pool, [] { return true; });
   const SampleStatistics statistics = statistics_of(samples, count, {count});
   std::vector<float> expected = statistics.mean;
   const std::vector<float> none(expected.size());
   for (std::size_t at = 0; at < expected.size() && picture.coded; ++at) expected[at] -= statistics.excess[at];
-  const Regions regions = regions_of(grid_of(lattice));
+  const Regions regions = blocks_of(lattice, edge_of_blocks(lattice));
   std::optional<Misfit> best;
   for (const Reading& reading : readings_of(picture.coded)) {
     if (!is_right(reading)) continue;

@@ -1,19 +1,14 @@
 #pragma once
-#include "app/check/differences.h"
 #include "app/check/objects.h"
 #include "app/check/reading.h"
-#include "app/check/reference.h"
 #include "app/check/rules.h"
-#include "app/check/sample_count.h"
 #include "app/check/statistics.h"
 #include "core/base/thread_pool.h"
-#include "core/targets/kernels.h"
 
 #include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -21,15 +16,32 @@ namespace tyndall {
 
 struct CheckOptions {
   double seconds = 20;  ///< for all of it, but for what is needed for any answer
-  int threads = 0;      ///< 0: see thread_count()
   int samples = 0;      ///< that are taken of each pixel for a program; 0: as many as the time allows
 };
 
+/// A picture rendered to measure another one against.
+struct Reference {
+  LinearImage image;
+  std::vector<float> variance;  ///< of each number of the image, from two halves of the samples
+};
+
+/// What is spent on a reference at most, but for its first samples.
+struct ReferenceLimits {
+  double seconds = 0;
+  std::uint32_t spp = 8192;
+};
+
+/// Renders the scene until the noise is small against the difference from `picture`, which has the scene's size, or
+/// a limit is reached. go_on: asked now and then; false ends it. Pixels share no paths, so that their errors are
+/// independent.
+Reference render_reference(Scene scene, const LinearImage& picture, const ReferenceLimits& limits,
+                           const std::function<bool()>& go_on);
+
 /// What samples of a program tell of its picture: 3 floats a pixel of the lattice.
 struct BookModel {
-  std::vector<float> mean, excess;  ///< see SampleStatistics
-  std::vector<float> noise;         ///< variance of a pixel of a picture with the number of samples of the user's
-  std::vector<double> passes;  ///< what it has of the luck of the scene's own samples; of each large region and channel
+  std::vector<float> expected;
+  std::vector<float> noise;  ///< variance of a pixel of a picture with the number of samples of the user's
+  double samples = 0;        ///< that number; 0: not known
 };
 
 /// The pictures that are expected of programs, and how the user's picture differs from them.
@@ -47,7 +59,7 @@ class Expectation {
   /// The program that renders the scene as it is.
   const BookProgram& start() const { return start_; }
   const SeenObjects& seen() const { return seen_; }
-  int block_edge() const { return grid_.edge * lattice_.step; }  ///< of a small block, in pixels
+  int block_edge() const { return edge_ * lattice_.step; }  ///< of a small block, in pixels
   /// The numbers that the picture's noise may stand for if a program's samples are those of the picture's program, the
   /// likeliest first; 0: not known. White makes few samples show as little noise as many.
   std::vector<double> likely_samples(const std::vector<BookSample>& of_program, const Reading& reading) const;
@@ -61,7 +73,7 @@ class Expectation {
   /// Renders a program; empty: there is no time left; in_time: whether that matters.
   std::vector<BookSample> samples_of(const BookProgram& program, bool in_time);
   /// What is expected of a program with these samples if the picture has `count` samples a pixel; 0: not known.
-  BookModel model_of(const std::vector<BookSample>& samples, double count) const;
+  std::shared_ptr<const BookModel> model_of(const std::vector<BookSample>& samples, double count) const;
   RegionDifferences differences(const BookModel& model, const Reading& reading);
 
  private:
@@ -69,14 +81,12 @@ class Expectation {
   const ReadPixels& read(const Reading& reading);
   Regions without_rare_light(Regions regions) const;
   double white() const { return picture_.coded ? 1 : std::numeric_limits<double>::infinity(); }
-  std::vector<float> expected_of(const BookModel& model) const;
 
   const PictureNumbers& picture_;
   BookProgram start_;
   Lattice lattice_;
-  BlockGrid grid_;
+  int edge_;                                           ///< of a small block, in pixels of the lattice
   std::vector<float> reference_, reference_variance_;  ///< on the lattice
-  Kernels kernels_;
   ThreadPool threads_;
   const std::function<bool()>& go_on_;
   SeenObjects seen_;
@@ -92,6 +102,6 @@ class Expectation {
 
 /// How a picture differs from the scene as a few samples of each pixel show it: enough to tell whether it is a picture
 /// of this scene at all.
-Misfit rough_misfit(const PictureNumbers& picture, const Scene& scene, int threads);
+Misfit rough_misfit(const PictureNumbers& picture, const Scene& scene);
 
 }  // namespace tyndall

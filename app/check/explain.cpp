@@ -26,7 +26,6 @@ struct Suspect {
 struct Fit {
   Suspect suspect;
   Reading reading;
-  double samples = 0;  ///< a pixel of the picture; 0: not known
   std::shared_ptr<const BookModel> model;
   RegionDifferences regions;
 };
@@ -80,18 +79,14 @@ class Search {
   }
 
   using Model = std::shared_ptr<const BookModel>;
-  Model model_of(const std::vector<BookSample>& taken, double samples) const {
-    return std::make_shared<BookModel>(expectation_.model_of(taken, samples));
-  }
-  Fit fit(const Suspect& suspect, const Reading& reading, double samples, const Model& model) {
-    return {suspect, reading, samples, model, expectation_.differences(*model, reading)};
+  Fit fit(const Suspect& suspect, const Reading& reading, const Model& model) {
+    return {suspect, reading, model, expectation_.differences(*model, reading)};
   }
 
-  Fit closest_reading(const Suspect& suspect, const std::vector<Reading>& readings, double samples,
-                      const Model& model) {
-    Fit best = fit(suspect, readings.front(), samples, model);
+  Fit closest_reading(const Suspect& suspect, const std::vector<Reading>& readings, const Model& model) {
+    Fit best = fit(suspect, readings.front(), model);
     for (const Reading& reading : readings) {
-      Fit other = fit(suspect, reading, samples, model);
+      Fit other = fit(suspect, reading, model);
       if (other.regions.amount() < best.regions.amount()) best = std::move(other);
     }
     return best;
@@ -99,10 +94,10 @@ class Search {
 
   /// The fit that is closest over the numbers of samples that the picture's noise may stand for.
   Fit closest(const Suspect& suspect, const std::vector<Reading>& readings, const std::vector<BookSample>& taken) {
-    const Fit rough = closest_reading(suspect, readings, 0, model_of(taken, 0));
+    const Fit rough = closest_reading(suspect, readings, expectation_.model_of(taken, 0));
     std::optional<Fit> best;
     for (const double samples : expectation_.likely_samples(taken, rough.reading)) {
-      Fit found = closest_reading(suspect, readings, samples, model_of(taken, samples));
+      Fit found = closest_reading(suspect, readings, expectation_.model_of(taken, samples));
       if (!best || agrees(found.regions) || clearly_closer(found.regions, best->regions)) best = std::move(found);
       if (agrees(best->regions) || !expectation_.white_matters()) break;
     }
@@ -118,9 +113,9 @@ class Search {
       if (agrees(best.regions)) break;
       Suspect suspect = best.suspect;
       suspect.choices.push_back(choice);
-      const Model model = known_model_of(suspect, best.samples);
+      const Model model = known_model_of(suspect, best.model->samples);
       if (!model) continue;
-      Fit other = fit(suspect, best.reading, best.samples, model);
+      Fit other = fit(suspect, best.reading, model);
       if (agrees(other.regions) || left_by(best.regions, other.regions) <= clear_improvement) best = std::move(other);
     }
     return best;
@@ -133,7 +128,7 @@ class Search {
     const auto [known, is_new] = known_.try_emplace(name);
     if (is_new)
       if (const auto taken = samples_of(suspect, suspect.mistake.has_value()); !taken.empty())
-        known->second = model_of(taken, samples);
+        known->second = expectation_.model_of(taken, samples);
     return known->second;
   }
 
@@ -143,7 +138,7 @@ class Search {
     std::optional<Fit> best;
     const auto rank = [](const Fit& fit) { return std::pair(!agrees(fit.regions), fit.regions.amount()); };
     for (const Reading& reading : right_readings_) {
-      Fit found = with_choices(fit({}, reading, start.samples, start.model));
+      Fit found = with_choices(fit({}, reading, start.model));
       if (!best || rank(found) < rank(*best)) best = std::move(found);
     }
     return *best;
@@ -154,7 +149,7 @@ class Search {
     const Misfit small = misfit_of(right.regions.of_small());
     findings_.blocks = small.blocks, findings_.different = small.different;
     findings_.block_edge = expectation_.block_edge();
-    findings_.curve = right.reading.curve, findings_.samples = right.samples;
+    findings_.curve = right.reading.curve, findings_.samples = right.model->samples;
     findings_.seen = expectation_.seen();
     findings_.objects = different_objects(right.regions);
     findings_.choices.clear();
@@ -165,12 +160,12 @@ class Search {
     findings_.too_few = agree && findings_.unseen > max_unseen;
     findings_.agrees = agree && !findings_.too_few;
     const double times = findings_.unseen / max_unseen;
-    findings_.enough = std::ceil(right.samples * times * times);
+    findings_.enough = std::ceil(findings_.samples * times * times);
   }
 
   /// A wrong reading must be clearly better than the best right one.
   void try_readings(const Fit& right) {
-    const Fit best = closest_reading(right.suspect, wrong_readings_, right.samples, right.model);
+    const Fit best = closest_reading(right.suspect, wrong_readings_, right.model);
     if (best.regions.amount() < clear_improvement * right.regions.amount())
       candidates_.push_back({mistake_of(best.reading), best.reading, gone(right.regions, best.regions)});
   }
@@ -199,11 +194,11 @@ class Search {
       ++findings_.untried;
       return;
     }
-    const Model model = model_of(taken, right.samples);
-    Candidate best{mistake, right.reading, gone(right.regions, fit(suspect, right.reading, 0, model).regions)};
+    const Model model = expectation_.model_of(taken, right.model->samples);
+    Candidate best{mistake, right.reading, gone(right.regions, fit(suspect, right.reading, model).regions)};
     for (const Reading& reading : right_readings_) {
       if (best.explained < promising) break;
-      const double explained = gone(right.regions, fit(suspect, reading, 0, model).regions);
+      const double explained = gone(right.regions, fit(suspect, reading, model).regions);
       if (explained > best.explained) best.explained = explained, best.reading = reading;
     }
     candidates_.push_back(std::move(best));
@@ -223,8 +218,8 @@ class Search {
       const double explained = gone(right.regions, found.regions);
       if (!agrees(found.regions) || explained < promising) continue;
       const Suspect innocent{found.suspect.choices, {}};
-      const Model model = model_of(samples_of(innocent, false), found.samples);
-      describe(fit(innocent, is_right(found.reading) ? found.reading : right.reading, found.samples, model));
+      const Model model = expectation_.model_of(samples_of(innocent, false), found.model->samples);
+      describe(fit(innocent, is_right(found.reading) ? found.reading : right.reading, model));
       if (!findings_.agrees && !findings_.too_few)
         findings_.mistake = {candidate.mistake.name, candidate.mistake.words, explained};
       return;

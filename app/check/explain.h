@@ -1,6 +1,8 @@
 #pragma once
 #include "app/check/expectation.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <functional>
 #include <optional>
 #include <string>
@@ -40,5 +42,10 @@ struct Findings {
 /// after it has said false no more is tried.
 Findings explain(const PictureNumbers& picture, const Scene& scene, const Reference& reference,
                  const CheckOptions& options, const std::function<bool()>& go_on);
+
+/// What is found about a picture, in lines for a table.
+std::string verdict_text(const Findings& verdict);
+/// The same for scripts.
+nlohmann::ordered_json verdict_json(const Findings& verdict);
 
 }  // namespace tyndall

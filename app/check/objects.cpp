@@ -1,11 +1,13 @@
 #include "app/check/objects.h"
 
+#include "app/report/contents.h"
 #include "app/report/replay.h"
+#include "core/compile/compile.h"
+#include "core/targets/kernels.h"
 #include "core/trace/camera.h"
 #include "core/trace/flight.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace tyndall {
@@ -36,18 +38,8 @@ bool has_noise(const Scene& scene, const ColourOrTexture& colour) {
   return texture && std::holds_alternative<Noise<>>(scene.textures[static_cast<std::size_t>(texture->index)].kind);
 }
 
-const Object& object_at(const Scene& scene, const std::vector<int>& path) {
-  const std::vector<Object>* list = &scene.objects;
-  const Object* object = nullptr;
-  for (const int index : path) {
-    object = &(*list)[static_cast<std::size_t>(index)];
-    if (const auto* group = std::get_if<Group>(&object->kind)) list = &group->objects;
-  }
-  return *object;
-}
-
 SeenObjects::Object describe(const Scene& scene, const std::vector<int>& path) {
-  const Object& object = object_at(scene, path);
+  const Object& object = *find_object(scene, path);
   SeenObjects::Object seen{object_text(scene, path), "smoke"};
   if (const auto* volume = std::get_if<Volume>(&object.kind)) seen.noisy_texture = has_noise(scene, volume->albedo);
   const auto* solid = std::get_if<Solid3d>(&object.kind);
@@ -85,25 +77,13 @@ class Labels {
   std::map<std::int32_t, int> known_;
 };
 
-void find_interior(SeenObjects& seen, const Lattice& lattice) {
-  const int columns = lattice.columns(), rows = lattice.rows();
-  const auto at = [&](int x, int y) {
-    return seen.of_pixel[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)];
-  };
-  for (int y = 0; y < rows; ++y)
-    for (int x = 0; x < columns; ++x) {
-      bool same = true;
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx)
-          same = same && at(std::clamp(x + dx, 0, columns - 1), std::clamp(y + dy, 0, rows - 1)) == at(x, y);
-      seen.interior.push_back(same ? 1 : 0);
-    }
-}
-
 }  // namespace
 
-SeenObjects seen_objects(const Scene& scene, const RenderScene& columns, const SceneView& view, const Kernels& kernels,
-                         const Lattice& lattice) {
+SeenObjects seen_objects(const Scene& scene, const Lattice& lattice) {
+  const RenderScene columns = compile(scene);
+  const std::vector<TextureView> textures = texture_views(columns);
+  const SceneView view = view_of(columns, textures);
+  const Kernels kernels = *choose_kernels("");
   SeenObjects seen;
   Labels labels(scene, columns);
   std::vector<FirstHit> hits(static_cast<std::size_t>(lattice.width));
@@ -117,15 +97,25 @@ SeenObjects seen_objects(const Scene& scene, const RenderScene& columns, const S
     }
   }
   seen.objects = std::move(labels.objects);
-  find_interior(seen, lattice);
   return seen;
 }
 
-Regions regions_of(const SeenObjects& seen) {
+Regions regions_of(const SeenObjects& seen, const Lattice& lattice) {
   Regions regions{seen.of_pixel, static_cast<int>(seen.objects.size())};
-  for (std::size_t pixel = 0; pixel < seen.of_pixel.size(); ++pixel)
-    if (!seen.interior[pixel] || seen.objects[static_cast<std::size_t>(seen.of_pixel[pixel])].noisy_texture)
-      regions.of_pixel[pixel] = -1;
+  const int columns = lattice.columns(), rows = lattice.rows();
+  const auto at = [&](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x);
+  };
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) {
+      const int object = seen.of_pixel[at(x, y)];
+      bool same = !seen.objects[static_cast<std::size_t>(object)].noisy_texture;
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+          same =
+              same && seen.of_pixel[at(std::clamp(x + dx, 0, columns - 1), std::clamp(y + dy, 0, rows - 1))] == object;
+      if (!same) regions.of_pixel[at(x, y)] = -1;
+    }
   return regions;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 #include "app/check/book_paths.h"
 #include "app/check/statistics.h"
-#include "core/compile/render_scene.h"
 #include "core/scene/scene.h"
 
 #include <string>
@@ -18,20 +17,11 @@ struct SeenObjects {
     bool noisy_texture = false;  ///< it has a noise texture, whose veins lie elsewhere in Tyndall
   };
   std::vector<Object> objects;
-  std::vector<int> of_pixel;   ///< index into objects
-  std::vector<char> interior;  ///< 1: the pixels around it show the same object
+  std::vector<int> of_pixel;  ///< index into objects
 };
-SeenObjects seen_objects(const Scene& scene, const RenderScene& columns, const SceneView& view, const Kernels& kernels,
-                         const Lattice& lattice);
-
-/// Means of linear light over the pixels of an object.
-struct ObjectDifference {
-  int object = 0;  ///< index into SeenObjects::objects
-  int pixels = 0;
-  Vec3d image, expected;
-};
+SeenObjects seen_objects(const Scene& scene, const Lattice& lattice);
 
 /// The objects as regions: the pixels around which the same object is seen. Objects of a noise texture have none.
-Regions regions_of(const SeenObjects& seen);
+Regions regions_of(const SeenObjects& seen, const Lattice& lattice);
 
 }  // namespace tyndall

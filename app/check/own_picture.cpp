@@ -1,9 +1,7 @@
 #include "app/check/own_picture.h"
 
-#include "app/check/book_paths.h"
-#include "core/base/error.h"
+#include "app/check/statistics.h"
 #include "core/base/seconds.h"
-#include "core/compile/compile.h"
 
 #include <fmt/core.h>
 
@@ -11,7 +9,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 namespace tyndall {
@@ -50,18 +47,14 @@ bool apart(const BlockLight& a, const BlockLight& b) {
   return false;
 }
 
-Lattice small_lattice(int width, int height) { return {width, height, std::max(1, width / max_columns)}; }
-
-/// The sums of the blocks, from left to right, the upper ones first. light(pixel of the lattice): its samples, which
-/// are added by add().
+/// The sums of the blocks, from left to right, the upper ones first. add_pixel(pixel of the lattice, sums): adds its
+/// samples to those of its block.
 template <class AddPixel>
-std::vector<BlockLight> blocks_of(const Lattice& lattice, const AddPixel& add_pixel) {
-  const int columns = (lattice.columns() + block - 1) / block, rows = (lattice.rows() + block - 1) / block;
-  std::vector<BlockLight> blocks(static_cast<std::size_t>(columns * rows));
-  for (int y = 0; y < lattice.rows(); ++y)
-    for (int x = 0; x < lattice.columns(); ++x)
-      add_pixel(static_cast<std::size_t>(y * lattice.columns() + x),
-                blocks[static_cast<std::size_t>(y / block * columns + x / block)]);
+std::vector<BlockLight> sums_of(const Lattice& lattice, const AddPixel& add_pixel) {
+  const Regions regions = blocks_of(lattice, block);
+  std::vector<BlockLight> blocks(static_cast<std::size_t>(regions.count));
+  for (std::size_t pixel = 0; pixel < lattice.pixels(); ++pixel)
+    add_pixel(pixel, blocks[static_cast<std::size_t>(regions.of_pixel[pixel])]);
   return blocks;
 }
 
@@ -85,25 +78,22 @@ std::vector<BlockLight> own_blocks(const ProgramScene& program, const Lattice& l
   while (all.size() < fewest_samples || (all.size() < most_samples && seconds_since(begin) < seconds_of_program))
     all.push_back(ask_once(*program.own, lattice, static_cast<int>(all.size())));
   count = static_cast<int>(all.size());
-  return blocks_of(lattice, [&](std::size_t pixel, BlockLight& sums) {
+  return sums_of(lattice, [&](std::size_t pixel, BlockLight& sums) {
     for (const std::vector<double>& one : all)
       sums.add({one[3 * pixel], one[3 * pixel + 1], one[3 * pixel + 2]}, brightest_of(program));
   });
 }
 
 std::vector<BlockLight> our_blocks(const Scene& scene, const ProgramScene& program, const Lattice& lattice, int count) {
-  const RenderScene columns = compile(scene);
-  const std::vector<TextureView> textures = texture_views(columns);
-  SceneView view = view_of(columns, textures);
-  BookRules rules;
+  BookProgram ours{scene, {}};
+  BookRules& rules = ours.rules;
   rules.schlick = true;
   rules.short_frame = program.short_frame;
   if (program.matt_in_sphere) rules.diffuse = DiffuseRule::filled_sphere;
   if (program.fuzz_on_sphere) rules.fuzz = FuzzRule::sphere;
   ThreadPool pool(0);
-  const std::vector<BookSample> samples =
-      book_samples(view, *choose_kernels(""), rules, lattice, count, pool, [] { return true; });
-  return blocks_of(lattice, [&](std::size_t pixel, BlockLight& sums) {
+  const std::vector<BookSample> samples = book_samples(ours, lattice, count, pool, [] { return true; });
+  return sums_of(lattice, [&](std::size_t pixel, BlockLight& sums) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
       const Vec3f& light = samples[pixel * static_cast<std::size_t>(count) + k].light;
       sums.add({light.x, light.y, light.z}, brightest_of(program));
@@ -115,7 +105,7 @@ std::vector<BlockLight> our_blocks(const Scene& scene, const ProgramScene& progr
 
 std::string differs_from_own(const Scene& scene, const ProgramScene& program) {
   if (program.has_noise || program.has_images) return "";
-  const Lattice lattice = small_lattice(scene.width, scene.height);
+  const Lattice lattice{scene.width, scene.height, std::max(1, scene.width / max_columns)};
   int count = 0;
   const std::vector<BlockLight> own = own_blocks(program, lattice, count),
                                 ours = our_blocks(scene, program, lattice, count);

@@ -1,4 +1,4 @@
-#include "app/check/report.h"
+#include "app/check/explain.h"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

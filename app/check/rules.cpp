@@ -1,23 +1,13 @@
 #include "app/check/rules.h"
 
+#include "app/report/contents.h"
 #include "core/base/math.h"
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tyndall {
 namespace {
-
-/// Calls visit(object) for each object, those in groups, too.
-template <class Objects>
-void each_object(Objects& objects, const auto& visit) {
-  for (auto& object : objects) {
-    if (auto* group = std::get_if<Group>(&object.kind))
-      each_object(group->objects, visit);
-    else
-      visit(object);
-  }
-}
 
 Sphere<>* sphere_of(Object& object) {
   auto* solid = std::get_if<Solid3d>(&object.kind);
@@ -94,27 +84,20 @@ bool flip_radii(BookProgram& program) {
   return flipped;
 }
 
-bool invert_refractive_indices(BookProgram& program) {
-  return change_materials<Dielectric<>>(program.scene, [](Dielectric<>& glass, Material&) {
-    glass.refractive_index = 1 / glass.refractive_index;
-    return glass.refractive_index != 1;
-  });
-}
-/// Only those below 1: the air in a hollow ball.
-bool invert_bubbles(BookProgram& program) {
-  return change_materials<Dielectric<>>(program.scene, [](Dielectric<>& glass, Material&) {
-    if (glass.refractive_index >= 1) return false;
-    glass.refractive_index = 1 / glass.refractive_index;
-    return true;
-  });
+/// Of refractive indices below `limit`. 1: only the air in a hollow ball.
+std::function<bool(BookProgram&)> invert_indices(double limit) {
+  return [=](BookProgram& program) {
+    return change_materials<Dielectric<>>(program.scene, [=](Dielectric<>& glass, Material&) {
+      if (glass.refractive_index >= limit) return false;
+      glass.refractive_index = 1 / glass.refractive_index;
+      return glass.refractive_index != 1;
+    });
+  };
 }
 
 bool remove_fuzz(BookProgram& program) {
-  return change_materials<Metal<>>(program.scene, [](Metal<>& metal, Material&) {
-    const bool had = metal.fuzz > 0;
-    metal.fuzz = 0;
-    return had;
-  });
+  return change_materials<Metal<>>(program.scene,
+                                   [](Metal<>& metal, Material&) { return std::exchange(metal.fuzz, 0) > 0; });
 }
 
 bool close_shutter(BookProgram& program) {
@@ -122,11 +105,7 @@ bool close_shutter(BookProgram& program) {
   program.scene.camera.shutter_close = program.scene.camera.shutter_open;
   return true;
 }
-bool sharpen(BookProgram& program) {
-  const bool blurred = program.scene.camera.defocus_angle > 0;
-  program.scene.camera.defocus_angle = 0;
-  return blurred;
-}
+bool sharpen(BookProgram& program) { return std::exchange(program.scene.camera.defocus_angle, 0) > 0; }
 bool widen_lens(BookProgram& program) {
   Camera& camera = program.scene.camera;
   if (camera.defocus_angle <= 0) return false;
@@ -236,11 +215,11 @@ std::vector<Difference> usual_mistakes() {
        rule(&BookRules::glass, GlassRule::reflects_all, has_material<Dielectric<>>)},
       {"no-schlick", "glass reflects nothing that it can refract: there is no Schlick term",
        rule(&BookRules::glass, GlassRule::reflects_none, has_material<Dielectric<>>)},
-      {"inverted-index", "the ratio of the refractive indices is upside down", invert_refractive_indices},
+      {"inverted-index", "the ratio of the refractive indices is upside down", invert_indices(1e300)},
       {"one-sided-index", "rays that leave glass are refracted by the ratio of those that enter it",
        rule(&BookRules::glass, GlassRule::enters_only, has_material<Dielectric<>>)},
       {"positive-radius", "the inner ball of hollow glass has lost the minus of its radius", flip_radii},
-      {"bubble-index", "the air in hollow glass has the refractive index of glass", invert_bubbles},
+      {"bubble-index", "the air in hollow glass has the refractive index of glass", invert_indices(1)},
       {"long-mirror", "the mirror direction is not made a unit vector before fuzz is added",
        rule(&BookRules::long_mirror, true, has_fuzz)},
       {"no-fuzz", "metal has no fuzz", remove_fuzz},

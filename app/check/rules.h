@@ -1,24 +1,13 @@
 #pragma once
 #include "app/check/book_paths.h"
 #include "app/check/reading.h"
-#include "core/compile/render_scene.h"
-#include "core/scene/scene.h"
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
 /// What programs of the books do otherwise: by their edition, and by usual mistakes.
 namespace tyndall {
-
-/// A scene and the rules by which a program renders it.
-struct BookProgram {
-  Scene scene;
-  BookRules rules;
-  /// Changes the compiled scene, where no scene file can say it; empty: nothing.
-  std::function<void(RenderScene&)> columns{};
-};
 
 /// One thing that a program may do otherwise.
 struct Difference {

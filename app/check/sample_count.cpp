@@ -1,4 +1,4 @@
-#include "app/check/sample_count.h"
+#include "app/check/statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -66,13 +66,17 @@ double black_fraction(const SampleStatistics& statistics) {
   return black / static_cast<double>(statistics.black.size());
 }
 
-}  // namespace
+struct PictureNoise {
+  std::vector<double> variance;  ///< of a pixel, of each region and channel; negative: there are too few pixels
+  double black = 0;              ///< fraction of the numbers that are black
+};
 
-PictureNoise noise_of(const ReadPixels& picture, const std::vector<float>& reference,
-                      const std::vector<float>& reference_variance, const Regions& regions, double white) {
-  PictureNoise noise{scatter_of(picture.light, reference, regions, white), 0};
+/// From neighbours in a row, so that what changes slowly from pixel to pixel counts little; what is brighter than white
+/// counts nothing.
+PictureNoise noise_of(const ComparedPixels& picture, const Regions& regions, double white) {
+  PictureNoise noise{scatter_of(picture.light, picture.expected, regions, white), 0};
   const std::vector<double> steps = means_of(picture.tolerance, regions),
-                            of_reference = means_of(reference_variance, regions);
+                            of_reference = means_of(picture.variance, regions);
   for (std::size_t k = 0; k < noise.variance.size(); ++k) {
     double& variance = noise.variance[k];
     if (variance < 0) continue;
@@ -86,8 +90,11 @@ PictureNoise noise_of(const ReadPixels& picture, const std::vector<float>& refer
   return noise;
 }
 
-std::vector<double> likely_counts(const PictureNoise& noise, const std::vector<BookSample>& samples, int count,
+}  // namespace
+
+std::vector<double> likely_counts(const ComparedPixels& picture, const std::vector<BookSample>& samples, int count,
                                   const Regions& regions, double white) {
+  const PictureNoise noise = noise_of(picture, regions, white);
   std::vector<std::pair<double, double>> likely;  // how far off the noise is, and samples
   for (int group = 1; 2 * group <= count; ++group) {
     const SampleStatistics few = statistics_of(samples, count, {group, white});

@@ -6,8 +6,10 @@
 namespace tyndall {
 namespace {
 
-constexpr double amount_errors = 3;  // standard errors that an amount leaves to noise
-constexpr int min_pixels = 24;       // of a block that is compared
+constexpr double amount_errors = 3;          // standard errors that an amount leaves to noise
+constexpr int min_pixels = 24;               // of a block that is compared
+constexpr double max_different = 1 / 150.0;  // of the small blocks of a picture that agrees
+constexpr double min_seen = 0.25;            // of a difference must be seen beside the noise of another picture
 
 struct Sums {
   double expected = 0, value = 0, square = 0, variance = 0, tolerance = 0;
@@ -103,16 +105,16 @@ std::vector<double> light_by_depth(const std::vector<BookSample>& samples) {
   return light;
 }
 
-BlockGrid grid_of(const Lattice& lattice) {
+int edge_of_blocks(const Lattice& lattice) {
   const double edge = std::sqrt(static_cast<double>(lattice.pixels()) / 400);
-  return {lattice.columns(), lattice.rows(), std::clamp(static_cast<int>(std::lround(edge)), 8, 32)};
+  return std::clamp(static_cast<int>(std::lround(edge)), 8, 32);
 }
 
-Regions regions_of(const BlockGrid& grid) {
-  Regions regions{{}, static_cast<int>(grid.count())};
-  const std::size_t pixels = static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows);
-  for (std::size_t pixel = 0; pixel < pixels; ++pixel)
-    regions.of_pixel.push_back(static_cast<int>(grid.block_of(pixel)));
+Regions blocks_of(const Lattice& lattice, int edge) {
+  const int across = (lattice.columns() + edge - 1) / edge, down = (lattice.rows() + edge - 1) / edge;
+  Regions regions{{}, across * down};
+  for (int y = 0; y < lattice.rows(); ++y)
+    for (int x = 0; x < lattice.columns(); ++x) regions.of_pixel.push_back(y / edge * across + x / edge);
   return regions;
 }
 
@@ -181,6 +183,64 @@ double amount_of(std::span<const BlockDifference> differences, std::span<const B
     amount += block.pixels * excess_of(block, std::max(block.error, other[k].error), amount_errors) / block.tolerance;
   }
   return amount;
+}
+
+bool agrees_in_blocks(const RegionDifferences& regions) {
+  const Misfit small = misfit_of(regions.of_small());
+  return small.different <= max_different * small.blocks;
+}
+
+bool agrees(const RegionDifferences& regions) {
+  return agrees_in_blocks(regions) && misfit_of(regions.of_large()).different == 0 &&
+         misfit_of(regions.of_objects()).different == 0 && misfit_of(regions.whole).different == 0;
+}
+
+double left_by(const RegionDifferences& old, const RegionDifferences& now) {
+  double before = 0, after = 0;
+  for (std::size_t k = 0; k < old.all.size(); ++k) {
+    const BlockDifference &a = old.all[k], &b = now.all[k];
+    const double error = std::max(a.error, b.error);
+    if (a.pixels == 0 || std::abs(a.difference - b.difference) <= a.tolerance + 2 * error) continue;
+    const double weight = a.pixels / a.tolerance;
+    before += weight * std::max(0.0, std::abs(a.difference) - 2 * error);
+    after += weight * std::max(0.0, std::abs(b.difference) - 2 * error);
+  }
+  return before > 0 ? after / before : 1;
+}
+
+double gone(const RegionDifferences& before, const RegionDifferences& after) {
+  const double seen = amount_of(before.all, after.all);
+  return seen > min_seen * before.amount() ? 1 - amount_of(after.all, before.all) / seen : 0;
+}
+
+bool clearly_closer(const RegionDifferences& a, const RegionDifferences& b) {
+  return amount_of(a.all, b.all) < clear_improvement * amount_of(b.all, a.all);
+}
+
+double unseen_light(const RegionDifferences& regions) {
+  double light = 0, unseen = 0;
+  for (const BlockDifference& channel : regions.whole)
+    light += channel.expected, unseen += channel.tolerance + noise_limit * channel.error;
+  return light > 0 ? unseen / light : 0;
+}
+
+std::vector<ObjectDifference> different_objects(const RegionDifferences& regions) {
+  std::vector<ObjectDifference> found;
+  const auto objects = regions.of_objects();
+  for (std::size_t k = 0; k < objects.size(); k += 3) {
+    const auto channels = objects.subspan(k, 3);
+    if (misfit_of(channels).different == 0) continue;
+    const Vec3d expected{channels[0].expected, channels[1].expected, channels[2].expected};
+    const Vec3d off{channels[0].difference, channels[1].difference, channels[2].difference};
+    found.push_back({static_cast<int>(k / 3), channels[0].pixels, expected + off, expected});
+  }
+  const auto amount = [](const ObjectDifference& d) {
+    const Vec3d off = d.image - d.expected;
+    return d.pixels * (std::abs(off.x) + std::abs(off.y) + std::abs(off.z));
+  };
+  std::sort(found.begin(), found.end(),
+            [&](const ObjectDifference& a, const ObjectDifference& b) { return amount(a) > amount(b); });
+  return found;
 }
 
 }  // namespace tyndall

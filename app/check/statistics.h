@@ -5,7 +5,7 @@
 #include <vector>
 
 /// What many samples of each pixel tell: the picture that a program would have shown of them, and how noisy it is; and
-/// whether two pictures differ, block by block.
+/// how two pictures differ, by blocks, by objects and as a whole, and whether that is more than noise.
 namespace tyndall {
 
 /// Of each pixel and channel, 3 floats a pixel.
@@ -46,23 +46,12 @@ struct Regions {
   int count = 0;
 };
 
-/// Squares of pixels of a lattice; those at the right and the lower edge may be smaller.
-struct BlockGrid {
-  int columns = 0, rows = 0;  ///< pixels of the lattice
-  int edge = 16;              ///< of a block, in pixels of the lattice
-  int across() const { return (columns + edge - 1) / edge; }
-  int down() const { return (rows + edge - 1) / edge; }
-  std::size_t count() const { return static_cast<std::size_t>(across()) * static_cast<std::size_t>(down()); }
-  std::size_t block_of(std::size_t pixel) const {
-    const auto width = static_cast<std::size_t>(columns), size = static_cast<std::size_t>(edge);
-    return pixel / width / size * static_cast<std::size_t>(across()) + pixel % width / size;
-  }
-};
-Regions regions_of(const BlockGrid& grid);
+/// Squares of a lattice, `edge` of its pixels wide; those at the right and the lower edge may be smaller.
+Regions blocks_of(const Lattice& lattice, int edge);
+/// The edge of some 400 blocks, with as many pixels each as statistics need.
+int edge_of_blocks(const Lattice& lattice);
 /// Means over the pixels of each region and channel, of three numbers a pixel.
 std::vector<double> means_of(const std::vector<float>& numbers, const Regions& regions);
-/// Some 400 blocks, with as many pixels each as statistics need.
-BlockGrid grid_of(const Lattice& lattice);
 
 /// The mean difference in one channel of a region.
 struct BlockDifference {
@@ -100,5 +89,49 @@ Misfit misfit_of(std::span<const BlockDifference> differences);
 /// The amount alone, where each block's error is the greater of its own and that of `other`: two amounts that are
 /// compared must not differ because one of the pictures is noisier.
 double amount_of(std::span<const BlockDifference> differences, std::span<const BlockDifference> other);
+
+/// How the means of a picture differ from what is expected, in small blocks, in large ones, and by object: three of
+/// each region; and over the whole picture.
+struct RegionDifferences {
+  std::vector<BlockDifference> all, whole;
+  std::size_t small = 0, large = 0;  ///< how many of them are of small and of large blocks, which come first
+  std::span<const BlockDifference> of_small() const { return {all.data(), small}; }
+  std::span<const BlockDifference> of_large() const { return {all.data() + small, large}; }
+  std::span<const BlockDifference> of_objects() const { return std::span(all).subspan(small + large); }
+  double amount() const { return amount_of(all, all); }
+};
+
+/// Whether the small blocks differ by noise alone. The noise of few samples is no normal distribution: so now and then
+/// one of them is beyond noise_limit.
+bool agrees_in_blocks(const RegionDifferences& regions);
+/// Whether all of it does.
+bool agrees(const RegionDifferences& regions);
+
+/// How much of the difference is left with `now` in place of `old`, as far as the two differ at all.
+double left_by(const RegionDifferences& old, const RegionDifferences& now);
+/// How much of a difference is gone; nothing, if `after` is so noisy that little of it could be seen beside its noise.
+double gone(const RegionDifferences& before, const RegionDifferences& after);
+/// Whether clearly less is left of a difference, where both have the same noise.
+bool clearly_closer(const RegionDifferences& a, const RegionDifferences& b);
+inline constexpr double clear_improvement = 0.7;  ///< of a difference is left where it has become clearly less
+
+/// Fraction of the light by which the whole may be off without that it is seen.
+double unseen_light(const RegionDifferences& regions);
+
+/// Means of linear light over the pixels of an object.
+struct ObjectDifference {
+  int object = 0;  ///< index into SeenObjects::objects
+  int pixels = 0;
+  Vec3d image, expected;
+};
+
+/// The objects that differ, those with the largest difference first.
+std::vector<ObjectDifference> different_objects(const RegionDifferences& regions);
+
+/// The numbers of samples a pixel that a picture's noise may stand for if a program with these samples, `count` of each
+/// pixel, has made it, the likeliest first; 0: not known. White makes few samples show as little noise as many, so that
+/// there may be several. picture: with the picture without noise as what is expected, and the variance of that.
+std::vector<double> likely_counts(const ComparedPixels& picture, const std::vector<BookSample>& samples, int count,
+                                  const Regions& regions, double white);
 
 }  // namespace tyndall

@@ -26,7 +26,6 @@ struct FrameTask {
   int frame = 0;
   std::vector<std::filesystem::path> outputs;  ///< to be written
   std::filesystem::path film;                  ///< whole already; empty: to be rendered
-  bool nothing() const { return outputs.empty(); }
 };
 
 /// A film while its frames are rendered.
@@ -183,7 +182,7 @@ int run_animate(const CommandRequest& command) {
   check_names(command_of(command, film.range.first, tasks[0].outputs));
   open_video(film);
   std::erase_if(tasks, [&](const FrameTask& task) {
-    return task.nothing() && !(film.video && task.frame >= film.range.first + film.video->frames());
+    return task.outputs.empty() && !(film.video && task.frame >= film.range.first + film.video->frames());
   });
   const auto all = static_cast<std::size_t>(film.range.last - film.range.first), kept = all - tasks.size();
   if (kept > 0) complain(std::to_string(kept) + " of " + std::to_string(all) + " frames are there already");

@@ -61,8 +61,9 @@ class ChartJob {
     if (methods.empty()) methods = default_methods(scene);
     const double budget = command_.budget;
     Chart chart;
-    const ChartReference reference =
-        command_.reference.empty() ? rendered(scene, fraction_of_reference * budget) : read(scene);
+    const ChartReference reference = command_.reference.empty()
+                                         ? render_reference(scene, fraction_of_reference * budget, run("reference"))
+                                         : read(scene);
     chart.reference_noise = reference.noise;
     const double left = command_.reference.empty() ? (1 - fraction_of_reference) * budget : budget;
     for (std::size_t i = 0; i < methods.size() && !stopped(); ++i)
@@ -78,9 +79,6 @@ class ChartJob {
   void finish(const std::string& summary) { report_.finish(summary); }
 
  private:
-  ChartReference rendered(const Scene& scene, double seconds) {
-    return render_reference(scene, seconds, run("reference"));
-  }
   ChartReference read(const Scene& scene) const {
     const std::filesystem::path& file = command_.reference;
     PictureFile picture = read_whole_picture(file);

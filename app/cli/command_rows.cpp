@@ -1,9 +1,8 @@
-#include "app/cli/command_rows.h"
+#include "app/cli/option_rows.h"
 
 #include "app/book/load_program.h"
 #include "app/check/own_picture.h"
 #include "app/cli/commands.h"
-#include "app/cli/option_rows.h"
 #include "app/text/name_pattern.h"
 #include "core/base/text.h"
 
@@ -135,13 +134,18 @@ void finish_convert(CommandRequest& request) {
 
 constexpr const char* usual_heading = "Options";  // the usual heading
 
+/// The groups of a command that renders a scene: its own ones stand between those of the scene and of the method.
+std::vector<OptionGroup> rendering(std::vector<OptionGroup> own, const char* machine = "--threads --isa") {
+  own.insert(own.begin(), {usual_heading, "SCENE --set --include --trust"});
+  own.insert(own.end(), {{"Image", "--size {display}"}, {"Method", "{render}"}, {"Machine", machine}});
+  return own;
+}
+
 }  // namespace
 
 const std::vector<CommandRow>& command_rows() {
   static const std::vector<CommandRow> rows{
-      {"view",
-       "open a scene in the window (also without this word; default: the showroom)",
-       "view [SCENE] [options]",
+      {"view", "open a scene in the window (also without this word; default: the showroom)", "view [SCENE] [options]",
        "Opens a scene in the window. 'tyndall' alone opens the showroom, 'tyndall SCENE' a scene.\n\n"
        "Where standard input (-) begins with P3 or P6, it is a picture: its rows are shown as a program\n"
        "writes them, to be enlarged, exposed, compared with --reference and saved.",
@@ -150,34 +154,23 @@ const std::vector<CommandRow>& command_rows() {
        "  tyndall view fog.json --set /camera/vfov=30 --spp 256\n"
        "  tyndall view snapshot.png --reference reference.exr\n"
        "  ./mine | tyndall view - --reference cover.exr",
-       {{usual_heading, "SCENE --set --include --trust"},
-        {"Limits (the first one reached pauses the picture; Space goes on)", "--spp --time --target-error"},
-        {"Image", "--size {display}"},
-        {"Method", "{render}"},
-        {"Machine", "--threads --isa --reference --gamma2 --ui-log"}},
-       finish_view,
-       run_view},
-      {"render",
-       "render without a window and write images",
-       "render SCENE -o FILE [options]",
+       rendering({{"Limits (the first one reached pauses the picture; Space goes on)", "--spp --time --target-error"}},
+                 "--threads --isa --reference --gamma2 --ui-log"),
+       finish_view, run_view},
+      {"render", "render without a window and write images", "render SCENE -o FILE [options]",
        "Renders a scene without a window and writes the image.",
        "Examples:\n"
        "  tyndall render cornell-box -o box.png\n"
        "  tyndall render fog.json --spp 1000 -o fog.exr -o fog.png --stats fog-stats.json\n"
        "  tyndall render box.png --set /camera/vfov=30 -o closer.png\n"
        "  tyndall render next-week -o week.exr --watch-at localhost    # seen in tev meanwhile",
-       {{usual_heading, "SCENE --set --include --trust"},
-        {"Output",
-         "--output --format --gamma2 --exr-film --region --denoise --stats --frame --replay --checkpoint --fresh "
-         "--resume --watch-at --progress --quiet"},
-        {"Limits (the first one reached ends the render)", "--spp --time --target-error --samples"},
-        {"Image", "--size {display}"},
-        {"Method", "{render}"},
-        {"Machine", "--threads --isa"}},
-       finish_render,
-       run_render},
-      {"sweep",
-       "render one or two values of a scene in steps, and say which differences are real",
+       rendering(
+           {{"Output",
+             "--output --format --gamma2 --exr-film --region --denoise --stats --frame --replay --checkpoint --fresh "
+             "--resume --watch-at --progress --quiet"},
+            {"Limits (the first one reached ends the render)", "--spp --time --target-error --samples"}}),
+       finish_render, run_render},
+      {"sweep", "render one or two values of a scene in steps, and say which differences are real",
        "sweep SCENE --vary POINTER=FROM:TO:STEPS -o SHEET.png [options]",
        "Renders a scene with one or two of its values in steps: a sheet of all pictures with the values\n"
        "beneath them, and a table of how far each differs from the one in the middle.\n\n"
@@ -188,18 +181,13 @@ const std::vector<CommandRow>& command_rows() {
        "  tyndall sweep showroom --vary /materials/gold/fuzz=0:0.4:9 -o fuzz.png --csv fuzz.csv\n"
        "  tyndall sweep glass-spheres --vary /materials/glass/refractive_index=[1.3,1.5,1.8] -o glass.png\n"
        "  tyndall sweep showroom --vary /objects/0/material=gold,glass --vary /camera/vfov=20:40:3 -o two.png",
-       {{usual_heading, "SCENE --set --include --trust"},
-        {"Values", "--vary"},
-        {"Output",
-         "--output --csv --each --gamma2 --exr-film --region --denoise --checkpoint --fresh --progress --quiet"},
-        {"Limits (the first one reached ends the picture)", "--spp --time --target-error --total-time"},
-        {"Image", "--size {display}"},
-        {"Method", "{render}"},
-        {"Machine", "--threads --isa"}},
-       finish_sweep,
-       run_sweep},
-      {"animate",
-       "render the frames of a film, from keys or on a turntable",
+       rendering(
+           {{"Values", "--vary"},
+            {"Output",
+             "--output --csv --each --gamma2 --exr-film --region --denoise --checkpoint --fresh --progress --quiet"},
+            {"Limits (the first one reached ends the picture)", "--spp --time --target-error --total-time"}}),
+       finish_sweep, run_sweep},
+      {"animate", "render the frames of a film, from keys or on a turntable",
        "animate SCENE --frames N -o 'f/%04d.png' [options]",
        "Renders the frames of a film: the values that have keys in the scene's \"animation\" follow them, and\n"
        "--turntable moves the camera once around. Frames count from 0.\n\n"
@@ -212,15 +200,11 @@ const std::vector<CommandRow>& command_rows() {
        "  tyndall animate film.json -o - |\n"
        "    ffmpeg -i - -vf format=yuv420p,crop -crf 4 -x264-params chroma-qp-offset=-12 -colorspace smpte170m \\\n"
        "      -color_primaries bt709 -color_trc iec61966-2-1 -color_range tv film.mp4",
-       {{usual_heading, "SCENE --set --include --trust"},
-        {"Film", "--frames --frame-range --turntable --seed-per-frame --fps"},
-        {"Output", "--output --gamma2 --exr-film --region --denoise --stats --checkpoint --fresh --progress --quiet"},
-        {"Limits (the first one reached ends the frame)", "--spp --time --target-error"},
-        {"Image", "--size {display}"},
-        {"Method", "{render}"},
-        {"Machine", "--threads --isa"}},
-       finish_animate,
-       run_animate},
+       rendering({{"Film", "--frames --frame-range --turntable --seed-per-frame --fps"},
+                  {"Output",
+                   "--output --gamma2 --exr-film --region --denoise --stats --checkpoint --fresh --progress --quiet"},
+                  {"Limits (the first one reached ends the frame)", "--spp --time --target-error"}}),
+       finish_animate, run_animate},
       {"compare",
        "measure how far an image is from a reference",
        "compare IMAGE REFERENCE | IMAGE SCENE | IMAGE... --baseline DIR [options]",

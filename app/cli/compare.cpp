@@ -1,5 +1,4 @@
 #include "app/check/check.h"
-#include "app/check/report.h"
 #include "app/cli/commands.h"
 #include "app/files/outputs.h"
 #include "app/report/heat_map.h"
@@ -163,7 +162,7 @@ int run_compare(const CommandRequest& command) {
   const std::optional<Check> check = check_against_scene(command);
   const Comparison comparison =
       check ? check->comparison
-            : compare_images(command.image, command.reference, {command.baseline.ppm, command.limits.z.has_value()});
+            : compare_images(command.image, command.reference, command.baseline.ppm, command.limits.z.has_value());
   check_gamma2(command.baseline.ppm, comparison.has_ppm);
   for (const std::string& remark : comparison.remarks) complain(remark);
   const BlockScores blocks = check ? BlockScores{} : compare_films(command);

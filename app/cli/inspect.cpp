@@ -15,88 +15,17 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <optional>
 
 namespace tyndall {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 struct Report {
   LoadedScene loaded;
-  Contents contents;
-  std::shared_ptr<const PreparedScene> prepared;
-  const char* isa = "";                      ///< the instruction set that was asked for, else the best
-  KernelSet kernel = KernelSet::everything;  ///< that renders it, of that instruction set
-  std::size_t film_bytes = 0;
-  std::optional<KernelGain> gain;
-  MethodGain specular_gain, splitting_gain, reuse_gain;
+  Contents contents = contents_of(loaded.scene);
+  std::shared_ptr<const PreparedScene> prepared = prepare(loaded.scene);
 };
-
-Report examine(const CommandRequest& command) {
-  Report report{open_scene(command.scene), {}, {}, "", {}, 0, {}, {}, {}, {}};
-  const Scene& scene = report.loaded.scene;
-  report.contents = contents_of(scene);
-  report.prepared = prepare(scene);
-  const Kernels kernels = find_kernels(command.isa);
-  report.kernel = kernels.set_for(report.prepared->view());
-  report.isa = kernels.isa;
-  if (command.measure) {
-    report.gain = measure_kernel_gain(*report.prepared, kernels);
-    report.specular_gain = measure_specular_gain(scene, kernels.isa);
-    report.splitting_gain = measure_splitting_gain(scene, kernels.isa);
-    report.reuse_gain = measure_reuse_gain(scene, kernels.isa);
-  }
-  report.film_bytes = bytes_per_pixel(needs_trait<&BsdfTraits::emits>(report.prepared->columns().features)) *
-                      static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
-  return report;
-}
-
-nlohmann::ordered_json json_of(const KernelGain& gain) {
-  return {{"isa", gain.isa},      {"gain", gain.gain},   {"least", gain.minimum},
-          {"most", gain.maximum}, {"pairs", gain.pairs}, {"same_picture", gain.same_picture}};
-}
-
-std::string json_text(const Report& report) {
-  const Scene& scene = report.loaded.scene;
-  const Contents& c = report.contents;
-  nlohmann::ordered_json json;
-  json["scene"] = report.loaded.name;
-  json["name"] = scene.name;
-  json["comments"] = leading_comments(report.loaded.text);
-  json["width"] = scene.width;
-  json["height"] = scene.height;
-  json["spp"] = scene.render.spp ? nlohmann::ordered_json(*scene.render.spp) : nlohmann::ordered_json();
-  json["max_depth"] = scene.render.max_depth;
-  json["shapes"] = c.shapes;
-  json["materials"] = c.materials;
-  json["textures"] = c.textures;
-  json["media"] = c.media;
-  json["phase_functions"] = c.phase_functions;
-  json["lights"] = c.lights;
-  json["chains"] = report.prepared->columns().specular.sphere.size();
-  json["guide_lobes"] = report.prepared->guide().lobes();
-  json["guide_ms"] = report.prepared->guide().milliseconds;
-  if (report.specular_gain.measured)
-    json["chain_gain"] = {{"time", report.specular_gain.time}, {"squared_error", report.specular_gain.error}};
-  json["splitting"] = report.prepared->columns().splits_paths;
-  if (report.splitting_gain.measured)
-    json["splitting_gain"] = {{"time", report.splitting_gain.time}, {"squared_error", report.splitting_gain.error}};
-  if (report.reuse_gain.measured)
-    json["sharing_gain"] = {{"time", report.reuse_gain.time}, {"squared_error", report.reuse_gain.error}};
-  json["background"] = c.background;
-  json["motion"] = c.motion;
-  json["defocus"] = c.defocus;
-  json["primitives"] = report.prepared->columns().primitives();
-  json["tree"] = report.prepared->columns().bvh != nullptr;
-  json["kernel_features"] = names_of(report.prepared->columns().features);
-  json["kernel"] = name_of(report.kernel);
-  json["isa"] = report.isa;
-  for (const Target target : built_targets()) json["built_sets"].push_back(name_of(target));
-  if (report.gain) json["kernel_gain"] = json_of(*report.gain);
-  json["scene_bytes"] = bytes_of(report.prepared->columns());
-  json["film_bytes"] = report.film_bytes;
-  json["textures_with_alpha"] = c.with_alpha;
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
 
 /// "1 box", "2 boxes".
 std::string counted(int count, const std::string& noun) {
@@ -231,57 +160,111 @@ std::string gain_text(const KernelGain& gain) {
                      gain.same_picture ? "bit for bit the same picture" : "ANOTHER PICTURE: a bug");
 }
 
-std::string gain_text(const MethodGain& gain) {
-  return fmt::format(
-      "a sample takes {:.2f} times as long, and at equal time the squared error is {:.2g} times that without",
-      gain.time, gain.error);
-}
+/// What is told of a scene.
+struct Answer {
+  std::string table;
+  Json json;
+  bool same_picture = true;  ///< by the scene's own kernel as by the full one, if that was measured
 
-std::string table(const Report& report) {
+  /// A row of the table, and members of the JSON object. name: "" for a further line of the row above.
+  void add(const char* name, const std::string& words, const Json& members = Json::object()) {
+    table += fmt::format("{:<12}{}\n", name, words);
+    json.update(members);
+  }
+  void add(const char* key, const MethodGain& gain) {
+    if (!gain.measured) return;
+    add("",
+        fmt::format(
+            "a sample takes {:.2f} times as long, and at equal time the squared error is {:.2g} times that without",
+            gain.time, gain.error),
+        {{key, {{"time", gain.time}, {"squared_error", gain.error}}}});
+  }
+  void add(const KernelGain& gain) {
+    same_picture = gain.same_picture;
+    add("", gain_text(gain),
+        {{"kernel_gain",
+          {{"isa", gain.isa},
+           {"gain", gain.gain},
+           {"least", gain.minimum},
+           {"most", gain.maximum},
+           {"pairs", gain.pairs},
+           {"same_picture", gain.same_picture}}}});
+  }
+};
+
+/// What the scene's file says.
+void add_contents(const Report& report, Answer& answer) {
   const Scene& scene = report.loaded.scene;
   const Contents& c = report.contents;
-  std::string text = printable(report.loaded.name) + (scene.name.empty() ? "" : ": " + printable(scene.name)) + "\n";
-  for (const std::string& line : leading_comments(report.loaded.text)) text += "  " + printable(line) + "\n";
-  const auto row = [&text](const std::string& name, const std::string& value) {
-    text += name + std::string(12 - name.size(), ' ') + value + "\n";
-  };
-  const auto spp = scene.render.spp ? std::to_string(*scene.render.spp) + " spp, " : std::string();
-  row("image", std::to_string(scene.width) + "x" + std::to_string(scene.height) + ", " + spp + "max depth " +
-                   std::to_string(scene.render.max_depth));
-  row("shapes", listed(c.shapes, true));
-  row("materials", listed(c.materials, false));
-  row("textures", listed(c.textures, false));
-  if (!c.with_alpha.empty()) row("", alpha_note(c.with_alpha));
-  const std::string lobes = c.phase_functions == 0 ? "" : ", " + std::to_string(c.phase_functions) + " with g not 0";
-  row("media", c.media == 0 ? "none" : std::to_string(c.media) + lobes);
-  row("lights", c.lights == 0 ? "none" : counted(c.lights, "emitting primitive"));
-  row("chains", specular_paths_text(report));
-  if (report.specular_gain.measured) row("", gain_text(report.specular_gain));
-  row("guide", guide_text(report));
-  row("splitting", splitting_text(report));
-  if (report.splitting_gain.measured) row("", gain_text(report.splitting_gain));
-  row("sharing", sharing_text(report));
-  if (report.reuse_gain.measured) row("", gain_text(report.reuse_gain));
-  row("background", background_text(report));
-  row("motion", c.motion ? "yes" : "no");
-  row("defocus", c.defocus ? "yes" : "no");
-  row("primitives", std::to_string(report.prepared->columns().primitives()) +
-                        (report.prepared->columns().bvh ? ", in a tree" : ", each tested for every ray"));
-  row("models", joined(names_of(report.prepared->columns().features)));
-  row("kernel", name_of(report.kernel));
-  row("runs", std::string(report.isa) + " (built: " + names_of(built_targets()) + ")");
-  if (report.gain) row("", gain_text(*report.gain));
-  row("memory",
-      "scene " + bytes_text(bytes_of(report.prepared->columns())) + ", film " + bytes_text(report.film_bytes));
-  return text;
+  const std::vector<std::string> comments = leading_comments(report.loaded.text);
+  answer.table = printable(report.loaded.name) + (scene.name.empty() ? "" : ": " + printable(scene.name)) + "\n";
+  for (const std::string& line : comments) answer.table += "  " + printable(line) + "\n";
+  answer.json = {{"scene", report.loaded.name}, {"name", scene.name}, {"comments", comments}};
+  const auto& spp = scene.render.spp;
+  answer.add("image",
+             fmt::format("{}x{}, {}max depth {}", scene.width, scene.height, spp ? fmt::format("{} spp, ", *spp) : "",
+                         scene.render.max_depth),
+             {{"width", scene.width},
+              {"height", scene.height},
+              {"spp", spp ? Json(*spp) : Json()},
+              {"max_depth", scene.render.max_depth}});
+  answer.add("shapes", listed(c.shapes, true), {{"shapes", c.shapes}});
+  answer.add("materials", listed(c.materials, false), {{"materials", c.materials}});
+  answer.add("textures", listed(c.textures, false), {{"textures", c.textures}});
+  if (!c.with_alpha.empty()) answer.add("", alpha_note(c.with_alpha));
+  const std::string lobes = c.phase_functions == 0 ? "" : fmt::format(", {} with g not 0", c.phase_functions);
+  answer.add("media", c.media == 0 ? "none" : std::to_string(c.media) + lobes,
+             {{"media", c.media}, {"phase_functions", c.phase_functions}});
+  answer.add("lights", c.lights == 0 ? "none" : counted(c.lights, "emitting primitive"), {{"lights", c.lights}});
+}
+
+/// How it is rendered. kernels: of the instruction set that was asked for, else the best.
+void add_methods(const Report& report, const Kernels& kernels, bool measure, Answer& answer) {
+  const Scene& scene = report.loaded.scene;
+  const Contents& c = report.contents;
+  const RenderScene& columns = report.prepared->columns();
+  const Guide& guide = report.prepared->guide();
+  answer.add(
+      "chains", specular_paths_text(report),
+      {{"chains", columns.specular.sphere.size()}, {"guide_lobes", guide.lobes()}, {"guide_ms", guide.milliseconds}});
+  if (measure) answer.add("chain_gain", measure_specular_gain(scene, kernels.isa));
+  answer.add("guide", guide_text(report));
+  answer.add("splitting", splitting_text(report), {{"splitting", columns.splits_paths}});
+  if (measure) answer.add("splitting_gain", measure_splitting_gain(scene, kernels.isa));
+  answer.add("sharing", sharing_text(report));
+  if (measure) answer.add("sharing_gain", measure_reuse_gain(scene, kernels.isa));
+  answer.add("background", background_text(report), {{"background", c.background}});
+  answer.add("motion", c.motion ? "yes" : "no", {{"motion", c.motion}});
+  answer.add("defocus", c.defocus ? "yes" : "no", {{"defocus", c.defocus}});
+  answer.add("primitives",
+             std::to_string(columns.primitives()) + (columns.bvh ? ", in a tree" : ", each tested for every ray"),
+             {{"primitives", columns.primitives()}, {"tree", columns.bvh != nullptr}});
+  const auto models = names_of(columns.features);
+  answer.add("models", joined(models), {{"kernel_features", models}});
+  const char* kernel = name_of(kernels.set_for(report.prepared->view()));
+  answer.add("kernel", kernel, {{"kernel", kernel}});
+  Json built;
+  for (const Target target : built_targets()) built.push_back(name_of(target));
+  answer.add("runs", fmt::format("{} (built: {})", kernels.isa, names_of(built_targets())),
+             {{"isa", kernels.isa}, {"built_sets", built}});
+  if (measure) answer.add(measure_kernel_gain(*report.prepared, kernels));
+  const std::size_t bytes = bytes_of(columns);
+  const std::size_t film_bytes = bytes_per_pixel(needs_trait<&BsdfTraits::emits>(columns.features)) *
+                                 static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
+  answer.add("memory", "scene " + bytes_text(bytes) + ", film " + bytes_text(film_bytes),
+             {{"scene_bytes", bytes}, {"film_bytes", film_bytes}, {"textures_with_alpha", c.with_alpha}});
 }
 
 }  // namespace
 
 int run_inspect(const CommandRequest& command) {
-  const Report report = examine(command);
-  write_standard_output(command.json ? json_text(report) : table(report));
-  return report.gain && !report.gain->same_picture ? 1 : 0;
+  const Report report{open_scene(command.scene)};
+  Answer answer;
+  add_contents(report, answer);
+  add_methods(report, find_kernels(command.isa), command.measure, answer);
+  write_standard_output(command.json ? answer.json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"
+                                     : answer.table);
+  return answer.same_picture ? 0 : 1;
 }
 
 }  // namespace tyndall

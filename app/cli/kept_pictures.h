@@ -1,8 +1,8 @@
 #pragma once
 #include "app/cli/render_job.h"
-#include "app/files/frame_list.h"
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 /// What an earlier run has left of the pictures that a command is to make, so that a killed one goes on.
@@ -14,7 +14,33 @@ enum class PictureState { nothing, unfinished, whole };
 /// picture of the same scene, settings and version. The job needs its scene, options and kernels.
 PictureState look_at_picture(const std::filesystem::path& file, const RenderJob& job);
 
-/// The same for formats that carry no settings, by a list beside them. mark: see picture_mark().
+/// A list beside numbered pictures of formats that carry no settings: which frames are whole, and what they are of.
+///
+/// Lines are only ever added, so that several machines can write into one list, and a line that was cut off by a kill
+/// costs one frame: "3 begun 0123456789abcdef" before the frame's file is written, "3 whole 0123456789abcdef" after it.
+class FrameList {
+ public:
+  struct Entry {
+    std::string mark;  ///< 16 hexadecimal digits: what the frame is of
+    bool whole = false;
+  };
+
+  FrameList() = default;
+  /// Reads the list, which need not be there.
+  explicit FrameList(std::filesystem::path file);
+
+  const std::filesystem::path& file() const { return file_; }
+  /// What the list says of a frame; null: nothing.
+  const Entry* find(int frame) const;
+  /// Throws IoError.
+  void add(int frame, const Entry& entry);
+
+ private:
+  std::filesystem::path file_;
+  std::map<int, Entry> entries_;
+};
+
+/// The same as look_at_picture() for formats that carry no settings, by a list beside them. mark: see picture_mark().
 PictureState look_at_list(const std::filesystem::path& file, const FrameList& list, int frame, const std::string& mark);
 
 /// 16 hexadecimal digits that differ with the job's scene, settings, version and instruction set.

@@ -11,10 +11,17 @@
 namespace tyndall {
 namespace {
 
-/// Writes the films' files and returns the exit code.
+/// Writes the film's files and returns the exit code. Layers (albedo, normal, depth) are not written: such an EXR has
+/// none.
 int write(const Film& film, const Scene& scene, const FilmLabel& label, const std::vector<std::filesystem::path>& files,
           const ImageForm& form, const std::optional<CleanOfFilm>& clean) {
-  const std::vector<std::string> problems = write_film(film, scene, label, files, form, clean);
+  const auto embedded = [&](const std::filesystem::path& file) {
+    return Embedded{embedded_scene(scene, ".", film, file), clean ? clean_stats_text(film, clean->picture, 0) : "",
+                    label};
+  };
+  const LinearImage image{film.region.width(), film.region.height(), resolve(film)};
+  const auto problems =
+      write_images({film, image, scene.display, embedded, {}, clean ? &clean->picture : nullptr, form}, files);
   const std::string uneven = uneven_text(scene, totals(film));
   if (!uneven.empty()) complain(uneven);
   for (const std::string& problem : problems) complain(problem);

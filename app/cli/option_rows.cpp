@@ -1,7 +1,5 @@
 #include "app/cli/option_rows.h"
 
-#include "app/book/load_program.h"
-#include "app/check/own_picture.h"
 #include "app/cli/setting_options.h"
 #include "app/files/sweep_values.h"
 #include "app/text/name_pattern.h"
@@ -10,8 +8,7 @@
 #include "core/base/thread_pool.h"
 #include "core/render/clean_film.h"
 
-#include <algorithm>
-#include <cassert>
+#include <functional>
 
 namespace tyndall {
 namespace {
@@ -19,23 +16,14 @@ namespace {
 using Text = const std::string&;
 namespace fs = std::filesystem;
 
-/// The text as it is, for a name, a file or a word.
-template <class T>
-Taker to(T CommandRequest::*member) {
-  return {[member](CommandRequest& request, Text t) { request.*member = t; }};
-}
-/// What a function reads from the text.
-template <class T, class Read>
-Taker to(T CommandRequest::*member, Read read) {
+/// What a function reads from the text; without one the text as it is, for a name, a file or a word.
+template <class T, class Read = std::identity>
+Taker to(T CommandRequest::*member, Read read = {}) {
   return {[member, read](CommandRequest& request, Text t) { request.*member = read(t); }};
 }
-template <class T>
-Taker add_to(T CommandRequest::*member) {
-  return {[member](CommandRequest& request, Text t) { (request.*member).emplace_back(t); }, Takes::each};
-}
-template <class T, class Read>
-Taker add_to(T CommandRequest::*member, Read read) {
-  return {[member, read](CommandRequest& request, Text t) { (request.*member).push_back(read(t)); }, Takes::each};
+template <class T, class Read = std::identity>
+Taker add_to(T CommandRequest::*member, Read read = {}) {
+  return {[member, read](CommandRequest& request, Text t) { (request.*member).emplace_back(read(t)); }, Takes::each};
 }
 Taker on(bool CommandRequest::*member) {
   return {[member](CommandRequest& request, Text) { request.*member = true; }, Takes::flag};

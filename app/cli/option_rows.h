@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-/// The options of all commands, a row each.
+/// The options of all commands, and the commands, a row each.
 namespace tyndall {
 
 /// What an option does with its text. Throws UsageError `found "X", expected Y`, before which the option's name is put.
@@ -37,5 +37,25 @@ CommandRequest read_method(const std::string& text);
 
 /// Refuses options of a render that exclude each other.
 void refuse_conflicts(const CommandRequest& request);
+
+/// Options that stand below one heading of a help.
+struct OptionGroup {
+  const char* heading;  ///< "": no help lists them
+  /// Long names as option_row() knows them; {display} and {render}: those of fields().
+  const char* options;
+};
+
+struct CommandRow {
+  const char* name;
+  const char* summary;
+  const char* usage;     ///< what follows "tyndall"
+  const char* about;     ///< before the options in the help
+  const char* examples;  ///< and after them
+  std::vector<OptionGroup> groups;
+  void (*finish)(CommandRequest&);  ///< looks at the options as a whole; throws UsageError
+  int (*run)(const CommandRequest&);
+};
+
+const std::vector<CommandRow>& command_rows();
 
 }  // namespace tyndall

@@ -1,4 +1,3 @@
-#include "app/cli/command_rows.h"
 #include "app/cli/commands.h"
 #include "app/cli/option_rows.h"
 #include "app/cli/setting_options.h"

@@ -1,6 +1,5 @@
 #include "app/cli/render_job.h"
 
-#include "app/cli/commands.h"
 #include "app/files/checkpoint.h"
 #include "app/files/memory.h"
 #include "app/files/outputs.h"

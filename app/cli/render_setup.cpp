@@ -28,11 +28,6 @@ void check_region(const Region& region, const Scene& scene) {
                    pair(scene.width, scene.height) + ", the image's size");
 }
 
-void refuse_adaptive(const char* option, const char* why) {
-  throw UsageError(std::string(option) + " and adaptive sampling exclude each other: " + why +
-                   " (it comes from --adaptive, or from /render/adaptive of the scene)");
-}
-
 std::string differing(const std::string& what, const std::string& film, const std::string& requested) {
   return film == requested ? "" : what + " " + film + ", expected " + requested;
 }
@@ -199,7 +194,10 @@ LoadedScene open_frame(const CommandRequest& command, OwnSamples& own) {
 
 RenderOptions render_options(const CommandRequest& command, const LoadedScene& loaded) {
   const bool adaptive = loaded.scene.render.adaptive;
-  if (adaptive && command.samples) refuse_adaptive("--samples", "it says which samples every pixel takes");
+  if (adaptive && command.samples)
+    throw UsageError(
+        "--samples and adaptive sampling exclude each other: it says which samples every pixel takes (it comes from "
+        "--adaptive, or from /render/adaptive of the scene)");
   if (command.region) check_region(*command.region, loaded.scene);
   RenderOptions options;
   options.isa = command.isa;

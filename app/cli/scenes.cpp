@@ -9,7 +9,6 @@
 #include "core/scene/load.h"
 
 #include <algorithm>
-#include <optional>
 
 namespace tyndall {
 namespace {
@@ -23,14 +22,13 @@ std::string about(const BuiltIn& scene) {
   return printable(shortened(sentence, longest));
 }
 
-/// For other renderers; nothing for Tyndall's own format.
-std::optional<ForeignFile> foreign_file(const Scene& scene, const std::string& name,
-                                        const std::filesystem::path& output) {
+/// In the format that the ending of the output says; of Tyndall's own the text alone.
+ForeignFile converted(const Scene& scene, const std::string& name, const std::filesystem::path& output) {
   const std::string ending = lower_case(output.extension().string());
   if (ending == ".pbrt") return pbrt_file(scene, name, output.string());
   if (ending == ".xml") return mitsuba_file(scene, name, output.string());
   if (ending == ".py") return blender_file(scene, name, output.string());
-  return {};
+  return {write_scene(scene), {}};
 }
 
 }  // namespace
@@ -49,25 +47,20 @@ int run_scenes(const CommandRequest&) {
 
 int run_convert(const CommandRequest& command) {
   const LoadedScene loaded = open_scene(command.scene);
-  const bool to_standard_output = command.output == "-";
-  const std::filesystem::path folder = to_standard_output ? "" : command.output.parent_path();
-  const Scene scene = move_textures(loaded.scene, loaded.folder, folder);
-  const std::optional<ForeignFile> foreign = foreign_file(scene, loaded.name, command.output);
-  const std::string text = foreign ? foreign->text : write_scene(scene);
-  if (to_standard_output) {
-    write_standard_output(text);
-  } else {
-    std::vector<Output> outputs{{"--output", command.output}};
-    const bool has_mesh = foreign && !foreign->mesh_name.empty();
-    const auto pictures = foreign ? foreign->pictures : decltype(foreign->pictures){};
-    for (const auto& [name, pixels] : pictures) outputs.push_back({"--output", folder / name});
-    if (has_mesh) outputs.push_back({"--output", folder / foreign->mesh_name});
-    check_outputs(outputs, loaded.files);
-    check_can_write(outputs);
-    for (const auto& [name, pixels] : pictures) write_pfm(folder / name, pixels);
-    if (has_mesh) write_text_or_rescue(folder / foreign->mesh_name, foreign->mesh);
-    write_text_or_rescue(command.output, text);
+  const std::filesystem::path folder = command.output.parent_path();  // of "-", too: none
+  const ForeignFile file = converted(move_textures(loaded.scene, loaded.folder, folder), loaded.name, command.output);
+  if (command.output == "-") {
+    write_standard_output(file.text);
+    return 0;
   }
+  std::vector<Output> outputs{{"--output", command.output}};
+  for (const auto& [name, pixels] : file.pictures) outputs.push_back({"--output", folder / name});
+  for (const auto& [name, mesh] : file.meshes) outputs.push_back({"--output", folder / name});
+  check_outputs(outputs, loaded.files);
+  check_can_write(outputs);
+  for (const auto& [name, pixels] : file.pictures) write_pfm(folder / name, pixels);
+  for (const auto& [name, mesh] : file.meshes) write_text_or_rescue(folder / name, mesh);
+  write_text_or_rescue(command.output, file.text);
   return 0;
 }
 

@@ -48,8 +48,6 @@ struct Sweeping {
   Film reference{};                     ///< the film in the middle
 };
 
-std::string values_text(const SweepStep& step, const std::string& between) { return joined(step.values, between); }
-
 std::vector<SweepStep> steps_of(const CommandRequest& command) {
   const std::vector<std::string> once{""};
   const auto& first = command.axes[0].values;
@@ -63,7 +61,7 @@ std::vector<SweepStep> steps_of(const CommandRequest& command) {
       SweepStep step{{a}, {}};
       if (command.axes.size() > 1) step.values.push_back(b);
       for (const auto& name : command.outputs)
-        step.outputs.emplace_back(name_for(read_valued_name(name.string()), values_text(step, "_")));
+        step.outputs.emplace_back(name_for(read_valued_name(name.string()), joined(step.values, "_")));
       steps.push_back(std::move(step));
     }
   return steps;
@@ -167,7 +165,7 @@ bool make_picture(Sweeping& sweep, std::size_t k, Series& series) {
   const auto made = [&](const RenderOutcome& outcome, bool) {
     add_figures(sweep, k, outcome, job.loaded.scene.display);
   };
-  return series.make(job, values_text(step, ", "), {{}, {}, made});
+  return series.make(job, joined(step.values, ", "), {{}, {}, made});
 }
 
 std::string percent(double part, double error) {

@@ -8,6 +8,8 @@
 #include "core/base/thread_pool.h"
 #include "core/system/signals.h"
 
+#include <fmt/core.h>
+
 #include <chrono>
 #include <cmath>
 
@@ -41,63 +43,46 @@ bool is_out_of_reach(const VerifyCase& what, const RenderSettings& method) {
   return what.requires_specular_paths && !solved;
 }
 
-class Verification {
- public:
-  Verification(const CommandRequest& command, std::vector<VerifyCase> cases)
-      : command_(command), cases_(std::move(cases)), report_(command.progress) {
-    run_.precision = command.thorough ? 1e-4 : 1e-3;
-    run_.isa = find_kernels(command.isa).isa;
-    run_.threads = ThreadPool(command.threads).size();
-  }
-
-  VerifyRun run() {
-    for (const VerifyCase& what : cases_) {
-      const Scene scene = scene_of(command_, what);
-      VerifyRow row{what, scene.render};
-      if (is_out_of_reach(what, scene.render)) {
-        run_.rows.push_back(row);
-        continue;
-      }
-      const Measured measured = measure(scene, what);
+VerifyRun verify(const CommandRequest& command, const std::vector<VerifyCase>& cases, const SignalWatch& signals) {
+  const auto start = Clock::now();
+  ProgressReport report(command.progress);
+  VerifyRun run;
+  run.precision = command.thorough ? 1e-4 : 1e-3;
+  run.isa = find_kernels(command.isa).isa;
+  run.threads = ThreadPool(command.threads).size();
+  for (const VerifyCase& what : cases) {
+    const Scene scene = scene_of(command, what);
+    VerifyRow row{what, scene.render};
+    if (!is_out_of_reach(what, scene.render)) {
+      const MeasureOptions options{command.threads, command.isa, run.precision * std::abs(what.expected),
+                                   what.expected};
+      const auto done = static_cast<double>(run.rows.size()), all = static_cast<double>(cases.size());
+      const Measured measured = measure_mean(scene, options, [&](const RenderProgress&) {
+        const double seconds = seconds_since(start);
+        report.show(seconds, done / all,
+                    fmt::format("{}/{} {}, {}", run.rows.size(), cases.size(), what.name, duration(seconds)));
+        return signals.received() == 0;
+      });
       if (measured.interrupted) break;
-      run_.rows.push_back(judge(row, measured, run_.precision));
+      row = judge(row, measured, run.precision);
     }
-    run_.seconds = seconds_since(start_);
-    run_.interrupted = signals_.received() != 0;
-    report_.finish(std::to_string(run_.rows.size()) + " cases done, " + duration(run_.seconds));
-    return run_;
+    run.rows.push_back(row);
   }
-  int signal() const { return signals_.received(); }
-
- private:
-  Measured measure(const Scene& scene, const VerifyCase& what) {
-    const MeasureOptions options{command_.threads, command_.isa, run_.precision * std::abs(what.expected),
-                                 what.expected};
-    const auto done = static_cast<double>(run_.rows.size()), all = static_cast<double>(cases_.size());
-    return measure_mean(scene, options, [&](const RenderProgress&) {
-      report_.show(seconds_since(start_), done / all,
-                   std::to_string(run_.rows.size()) + "/" + std::to_string(cases_.size()) + " " + what.name + ", " +
-                       duration(seconds_since(start_)));
-      return signals_.received() == 0;
-    });
-  }
-
-  const CommandRequest& command_;
-  std::vector<VerifyCase> cases_;
-  ProgressReport report_;
-  SignalWatch signals_;
-  Clock::time_point start_ = Clock::now();
-  VerifyRun run_;
-};
+  run.seconds = seconds_since(start);
+  run.interrupted = signals.received() != 0;
+  report.finish(std::to_string(run.rows.size()) + " cases done, " + duration(run.seconds));
+  return run;
+}
 
 }  // namespace
 
 int run_verify(const CommandRequest& command) {
   const auto table = assets_folder() / "verify" / "cases.json";
-  Verification verification(command, chosen_cases(read_verify_cases(table), command.operands));
-  const VerifyRun run = verification.run();
+  const std::vector<VerifyCase> cases = chosen_cases(read_verify_cases(table), command.operands);
+  const SignalWatch signals;
+  const VerifyRun run = verify(command, cases, signals);
   write_standard_output(command.json ? verify_json(run) : verify_table(run));
-  if (run.interrupted) return 128 + verification.signal();
+  if (run.interrupted) return 128 + signals.received();
   return passed(run) ? 0 : 1;
 }
 

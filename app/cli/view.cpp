@@ -21,7 +21,6 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <utility>
 
 namespace tyndall {
 namespace {
@@ -72,22 +71,18 @@ void check_memory(const Scene& scene) {
 #endif
 }
 
-[[noreturn]] void fail_without_display(const std::string& why, const std::string& instead) {
-  throw IoError(why + "; " + instead);
-}
-
 /// Opens the window; where there is none, says what to do instead. options: made only when it is needed.
 template <class Options>
 int open_window(const std::string& instead, [[maybe_unused]] const Options& options) {
-  if (!has_display()) fail_without_display("no display for a window", instead);
+  if (!has_display()) throw IoError("no display for a window; " + instead);
 #ifdef TYNDALL_WINDOW
   try {
     return run_window(options());
   } catch (const IoError& error) {
-    fail_without_display(error.what(), instead);
+    throw IoError(error.what() + ("; " + instead));
   }
 #else
-  fail_without_display("this build has no window", instead);
+  throw IoError("this build has no window; " + instead);
 #endif
 }
 

@@ -1,6 +1,6 @@
 #include "app/comparison/baseline.h"
 
-#include "app/comparison/noise.h"
+#include "app/comparison/pair.h"
 #include "app/comparison/picture_folder.h"
 #include "app/files/outputs.h"
 #include "app/text/values.h"
@@ -85,13 +85,6 @@ void add_notes(const fs::path& folder, const PictureFolder& found, std::vector<s
     notes.push_back(folder.string() + ": left out, as links to folders around them: " + listed(found.loops, 3));
 }
 
-/// What a picture that is named itself is called in the baseline: its file's own name and, where one was asked for, the
-/// layer.
-std::string name_of(const fs::path& image) {
-  const auto [file, layer] = picture_name(image);
-  return file.filename().string() + (layer ? ":" + *layer : "");
-}
-
 Pictures pictures_of(const BaselineRequest& request) {
   Pictures pictures;
   const auto add = [&files = pictures.files](const std::string& name, const fs::path& file) {
@@ -102,7 +95,9 @@ Pictures pictures_of(const BaselineRequest& request) {
   std::error_code error;  // what cannot be looked at fails when it is read
   for (const fs::path& image : request.images) {
     if (!fs::is_directory(image, error)) {
-      add(name_of(image), image);
+      // The file's own name and, where one was asked for, the layer.
+      const auto [file, layer] = picture_name(image);
+      add(file.filename().string() + (layer ? ":" + *layer : ""), image);
       continue;
     }
     whole = true;
@@ -143,7 +138,7 @@ void check(CheckedPicture& picture, PpmCurve ppm) {
   const auto start = std::chrono::steady_clock::now();
   try {
     check_ordinary(picture.image);
-    picture.comparison = compare_images(picture.image, picture.reference, {ppm, picture.limits.z.has_value()});
+    picture.comparison = compare_images(picture.image, picture.reference, ppm, picture.limits.z.has_value());
     picture.failures = too_large(*picture.comparison, picture.limits);
     const OutsideError& outside = picture.comparison->outside;
     if (picture.limits == usual_tolerance && !(outside.rel_mse <= usual_outside))
@@ -165,12 +160,6 @@ CheckedPicture nothing_compared(const BaselineRequest& request) {
   return none;
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw IoError(folder.string() + ": cannot make the folder: " + error.message());
-}
-
 /// The files of the pictures, which are whole files for layers too, and what becomes of each in the baseline. Throws
 /// IoError unless all of them can be written.
 std::map<fs::path, fs::path> copies_of(const std::map<std::string, fs::path>& pictures, const fs::path& folder) {
@@ -179,7 +168,8 @@ std::map<fs::path, fs::path> copies_of(const std::map<std::string, fs::path>& pi
     const auto [file, layer] = picture_name(image);
     const fs::path target = folder / (layer ? file.filename() : fs::path(name));
     std::error_code error;
-    make_folder(target.parent_path());
+    fs::create_directories(target.parent_path(), error);
+    if (error) throw IoError(target.parent_path().string() + ": cannot make the folder: " + error.message());
     if (fs::equivalent(file, target, error)) continue;
     check_can_write(target);
     copies[target] = file;

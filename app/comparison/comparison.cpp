@@ -1,6 +1,5 @@
 #include "app/comparison/comparison.h"
 
-#include "app/comparison/noise.h"
 #include "app/comparison/pair.h"
 #include "app/text/values.h"
 #include "core/accuracy/flip.h"
@@ -9,24 +8,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace tyndall {
 namespace {
-
-struct Picture {
-  const std::filesystem::path& file;
-  const LinearImage& image;
-};
-
-/// What is equal to nothing: says so in words, and in the map of FLIP, which takes such values for black or white.
-void find_not_finite(const Picture& image, const Picture& reference, Comparison& result) {
-  for (const Picture* one : {&image, &reference}) {
-    const std::string text = not_finite_text(one->image);
-    if (!text.empty()) result.not_finite.push_back(all_printable(one->file.string()) + ": " + text);
-  }
-  for (std::size_t i = 0; i < result.flip_map.size() && !result.not_finite.empty(); ++i)
-    if (!is_finite(image.image, i) || !is_finite(reference.image, i)) result.flip_map[i] = 1;
-}
 
 /// What differs by more than `limit` standard errors, a line for means, blocks and outliers.
 void find_more_than_noise(const NoiseScores& s, double limit, std::vector<std::string>& lines) {
@@ -54,12 +39,12 @@ void find_more_than_noise(const NoiseScores& s, double limit, std::vector<std::s
 
 }  // namespace
 
-Comparison compare_images(const std::filesystem::path& image, const std::filesystem::path& reference,
-                          const ComparisonOptions& options) {
-  PicturePair pair = read_pair(image, reference, options.ppm);
+Comparison compare_images(const std::filesystem::path& image, const std::filesystem::path& reference, PpmCurve ppm,
+                          bool noise) {
+  PicturePair pair = read_pair(image, reference, ppm);
   const Region place = pair.image_place, reference_place = pair.reference_place;
   Comparison result = compare_pair(std::move(pair), image, reference);
-  if (options.noise && result.not_finite.empty())
+  if (noise && result.not_finite.empty())
     result.noise = noise_scores(read_noisy_image(image, place), read_noisy_image(reference, reference_place));
   return result;
 }
@@ -83,7 +68,12 @@ Comparison compare_pair(PicturePair pair, const std::filesystem::path& image_fil
   result.has_ppm = pair.has_ppm, result.remarks = std::move(pair.remarks);
   result.flip_map = flip_map(image.rgb, reference.rgb, image.width, image.height);
   result.outside = outside_error(image.rgb, reference.rgb);
-  find_not_finite({image_file, image}, {reference_file, reference}, result);
+  // What is equal to nothing: says so in words, and in the map of FLIP, which takes such values for black or white.
+  for (const auto& [file, picture] : {std::pair(&image_file, &image), std::pair(&reference_file, &reference)})
+    if (const std::string text = not_finite_text(*picture); !text.empty())
+      result.not_finite.push_back(all_printable(file->string()) + ": " + text);
+  for (std::size_t i = 0; i < result.flip_map.size() && !result.not_finite.empty(); ++i)
+    if (!is_finite(image, i) || !is_finite(reference, i)) result.flip_map[i] = 1;
   for (const float value : result.flip_map) result.flip += static_cast<double>(value);
   result.flip /= static_cast<double>(result.flip_map.size());
   return result;

@@ -34,15 +34,10 @@ struct Comparison {
   std::optional<NoiseScores> noise{};  ///< where it was asked for, and all values are finite
 };
 
-/// How two files are compared.
-struct ComparisonOptions {
-  PpmCurve ppm = PpmCurve::srgb;  ///< how PPM files are read
-  bool noise = false;             ///< also by the noise that both carry (noise.h)
-};
-
-/// Reads and compares two images, and throws as read_pair() (pair.h) and read_noisy_image() (noise.h) do.
+/// Reads and compares two images. ppm: how PPM files are read; noise: also by the noise that both carry. Throws as
+/// read_pair() and read_noisy_image() do.
 Comparison compare_images(const std::filesystem::path& image, const std::filesystem::path& reference,
-                          const ComparisonOptions& options = {});
+                          PpmCurve ppm = PpmCurve::srgb, bool noise = false);
 
 struct PicturePair;
 /// Compares two pictures of a pair that was read from files of these names.

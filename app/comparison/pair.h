@@ -1,4 +1,5 @@
 #pragma once
+#include "core/accuracy/noise_test.h"
 #include "core/image/image.h"
 
 #include <filesystem>
@@ -31,5 +32,10 @@ PicturePair read_pair(const std::filesystem::path& image, const std::filesystem:
 /// Reads a picture that others are measured against: an EXR is cut to its display window, which it must fill. Throws
 /// UsageError if it does not or if its pixels are not square, ImageFileError, NoSuchLayer.
 PictureFile read_whole_picture(const std::filesystem::path& name);
+
+/// Reads a picture with its noise: an EXR with the film of Tyndall, else with a layer "Variance"; or a PFM, FILE.pfm,
+/// with its standard errors beside it in FILE.error.pfm. place: where its pixels lie, of its size. Throws UsageError,
+/// which says what to pass, for all others, and for a film with fewer than 2 samples in a pixel; ImageFileError.
+NoisyImage read_noisy_image(const std::filesystem::path& name, const Region& place);
 
 }  // namespace tyndall

@@ -36,11 +36,10 @@ std::string data_of(const LinearImage& image) {
   return "data:image/png;base64," + base64(encode_png(image.width, image.height, rgb.data()));
 }
 
-std::string limit_text(const std::optional<double>& limit) { return limit ? fmt::format("{:.6g}", *limit) : "–"; }
-
 std::string row(const char* name, double value, const std::optional<double>& limit) {
   const char* bad = limit && !(value <= *limit) ? " class=\"bad\"" : "";
-  return fmt::format("<tr{}><th>{}</th><td>{:.6g}</td><td>{}</td></tr>\n", bad, name, value, limit_text(limit));
+  return fmt::format("<tr{}><th>{}</th><td>{:.6g}</td><td>{}</td></tr>\n", bad, name, value,
+                     limit ? fmt::format("{:.6g}", *limit) : "–");
 }
 
 /// A line to copy.

@@ -7,7 +7,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -120,6 +119,9 @@ std::string curve_lines(const Plot& plot, const ErrorCurve& curve, const std::op
   return out;
 }
 
+/// What a curve's floor is called: "bias", or "floor" where it may as well be the reference's unknown noise.
+const char* floor_name(const Chart& chart) { return chart.reference_noise > 0 ? "bias" : "floor"; }
+
 /// The curves' names in the right margin, each as near to the height of its curve's end as the others leave room.
 std::string names(const Plot& plot, const Chart& chart) {
   constexpr double apart = 17;
@@ -153,8 +155,6 @@ std::string names(const Plot& plot, const Chart& chart) {
 }
 
 }  // namespace
-
-const char* floor_name(const Chart& chart) { return chart.reference_noise > 0 ? "bias" : "floor"; }
 
 std::string chart_csv(const Chart& chart) {
   std::string out = "method,spp,seconds,relmse\n";

@@ -15,9 +15,6 @@ struct Chart {
   double reference_noise = 0;  ///< relMSE of what errors were measured against; 0: not known
 };
 
-/// What a curve's floor is called: "bias", or "floor" where it may as well be the reference's unknown noise.
-const char* floor_name(const Chart& chart);
-
 /// A line method,spp,seconds,relmse for each point, below a line with these names.
 std::string chart_csv(const Chart& chart);
 

@@ -7,8 +7,6 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include <string_view>
-
 namespace tyndall {
 namespace blender {
 namespace {

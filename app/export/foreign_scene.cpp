@@ -43,24 +43,23 @@ void check_texture(const Texture& texture, const Refusal& refuse) {
       texture.kind);
 }
 
-void check_material(const Material& material, const Scene& scene, const Refusal& refuse) {
+/// Null: the material has none.
+const Texture* texture_of(const Material& material, const Scene& scene) {
   const auto* texture = std::get_if<TextureIndex>(&material.colour);
-  const bool is_image =
-      texture && std::holds_alternative<Image>(scene.textures[static_cast<std::size_t>(texture->index)].kind);
-  const bool coloured = colour_name(material.kind) != nullptr;
-  if (coloured && texture) check_texture(scene.textures[static_cast<std::size_t>(texture->index)], refuse);
+  return texture ? &scene.textures[static_cast<std::size_t>(texture->index)] : nullptr;
+}
+bool is_image(const Texture* texture) { return texture && std::holds_alternative<Image>(texture->kind); }
+
+void check_material(const Material& material, const Scene& scene, const Refusal& refuse) {
+  const Texture* texture = colour_name(material.kind) ? texture_of(material, scene) : nullptr;
+  if (texture) check_texture(*texture, refuse);
   if (const auto* metal = std::get_if<Metal<double>>(&material.kind)) {
     if (metal->fuzz > 0) refuse(place_of(material, "fuzz"), number_text(metal->fuzz), "0");
     if (!refuse.renderer.even_mirrors)
       refuse(place_of(material, "type"), "a mirror that reflects the same at every angle", "another material");
   }
-  if (coloured && texture && is_image && !std::holds_alternative<Lambertian<double>>(material.kind))
+  if (is_image(texture) && !std::holds_alternative<Lambertian<double>>(material.kind))
     refuse(place_of(material, "type"), "an image on what is not lambertian", "a colour");
-}
-
-void check_settings(const Scene& scene, const Refusal& refuse) {
-  if (scene.render.fresnel != FresnelKind::exact) refuse("/render/fresnel", "\"schlick\"", "\"exact\"");
-  if (scene.render.max_depth == 0 && !refuse.renderer.depth_zero) refuse("/render/max_depth", "0", "at least 1");
 }
 
 ForeignSphere sphere_of(const Sphere<>& sphere, const Placement& placement, const Camera& camera) {
@@ -90,9 +89,7 @@ ForeignGeometry shape_of(const auto& shape, const Placement& placement, const Ca
             }
             return faces;
           },
-          [&](const Triangle<>& t) -> Result {
-            return ForeignTriangle{place(placement, t.corner), rotate(placement, t.u), rotate(placement, t.v)};
-          },
+          [&](const Triangle<>& t) -> Result { return ForeignTriangle{flat_of(t.corner, t.u, t.v, placement)}; },
           [&](const Disk<>& d) -> Result {
             return ForeignDisk{place(placement, d.center), rotate(placement, d.u), rotate(placement, d.v), d.inner};
           }},
@@ -134,9 +131,7 @@ bool is_circle(const ForeignDisk& disk) {
 void check_disk(const ForeignDisk& disk, const Material& material, const Scene& scene, const Refusal& refuse) {
   if (!refuse.renderer.ellipses && !is_circle(disk)) refuse("/objects", "an ellipse", "a circle");
   if (!refuse.renderer.rings && disk.inner > 0) refuse("/objects", "a ring", "a disk without a hole");
-  const auto* texture = std::get_if<TextureIndex>(&material.colour);
-  if (texture && std::holds_alternative<Image>(scene.textures[static_cast<std::size_t>(texture->index)].kind))
-    refuse("/objects", "an image on a disk", "a colour");
+  if (is_image(texture_of(material, scene))) refuse("/objects", "an image on a disk", "a colour");
 }
 
 void check_sphere(const ForeignSphere& sphere, const Material& material, const Refusal& refuse) {
@@ -176,7 +171,8 @@ void add_media(const Scene& scene, const Flattened& flat, const Refusal& refuse,
 
 ForeignScene foreign_scene(const Scene& scene, const std::string& name, const ForeignRenderer& renderer) {
   const Refusal refuse{name, renderer};
-  check_settings(scene, refuse);
+  if (scene.render.fresnel != FresnelKind::exact) refuse("/render/fresnel", "\"schlick\"", "\"exact\"");
+  if (scene.render.max_depth == 0 && !renderer.depth_zero) refuse("/render/max_depth", "0", "at least 1");
   const Flattened flat = flatten(scene);
   ForeignScene out;
   std::set<int> used;
@@ -201,6 +197,12 @@ std::string numbers_of(Vec3d v, const char* between) {
   return number_text(v.x) + between + number_text(v.y) + between + number_text(v.z);
 }
 
+std::optional<Vec3d> plain_colour(const Material& material, const Scene& scene) {
+  if (const auto* colour = std::get_if<Vec3d>(&material.colour)) return *colour;
+  const auto* solid = std::get_if<Solid<>>(&texture_of(material, scene)->kind);
+  return solid ? std::optional(solid->color) : std::nullopt;
+}
+
 double focus_of(const Camera& camera) {
   return camera.focus_distance.value_or(length(camera.look_at - camera.look_from));
 }
@@ -221,6 +223,21 @@ LinearImage sky_in_rows(const Image::Pixels& sky, int rows, double (*place)(int 
         out.rgb.push_back(static_cast<float>(texel(above) + (at - above) * (texel(below) - texel(above))));
       }
   }
+  return out;
+}
+
+LinearImage sky_of_heights(const Background& sky, int width, int rows, const std::function<double(int, int)>& height) {
+  LinearImage out{width, rows, {}};
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < width; ++x) {
+      const double at = height(x, y);
+      const Vec3d c =
+          std::visit(Overloaded{[](const Vec3d& colour) { return colour; }, [](const SkyPicture&) { return Vec3d{}; },
+                                [at](const Gradient& g) { return g.bottom + (at + 1) / 2 * (g.top - g.bottom); },
+                                [at](const Hemispheres& h) { return at > 0 ? h.up : h.down; }},
+                     sky);
+      out.rgb.insert(out.rgb.end(), {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)});
+    }
   return out;
 }
 

@@ -2,6 +2,9 @@
 #include "core/compile/flatten.h"
 #include "core/image/image.h"
 
+#include <functional>
+#include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -18,9 +21,7 @@ struct ForeignFlat {
 };
 
 /// corner + a u + b v where a, b >= 0 and a + b <= 1; the normal is along u × v.
-struct ForeignTriangle {
-  Vec3d corner, u, v;
-};
+struct ForeignTriangle : ForeignFlat {};
 
 /// center + a u + b v where inner <= sqrt(a² + b²) <= 1; the normal is along u × v.
 struct ForeignDisk {
@@ -82,7 +83,7 @@ struct ForeignFile {
   /// there (a layer of an EXR), and others read the same files in other ways (EXPOSURE in .hdr, profiles,
   /// orientations).
   std::vector<std::pair<std::string, LinearImage>> pictures;
-  std::string mesh_name, mesh;  ///< of a mesh (PLY) beside the file, and its text; empty: none is needed
+  std::map<std::string, std::string> meshes{};  ///< names and texts of meshes (PLY) beside the file
 };
 /// file: where the text is to lie. Throw SceneError as foreign_scene() does.
 ForeignFile pbrt_file(const Scene& scene, const std::string& name, const std::string& file);
@@ -91,11 +92,17 @@ ForeignFile blender_file(const Scene& scene, const std::string& name, const std:
 
 /// "1 2 3", with `between` between the numbers.
 std::string numbers_of(Vec3d v, const char* between = " ");
+/// A material's colour, also one that a texture of one colour gives; nothing: it differs from point to point.
+std::optional<Vec3d> plain_colour(const Material& material, const Scene& scene);
 /// Distance of the plane in focus, along the axis.
 double focus_of(const Camera& camera);
 /// A sky's picture in rows of another number: as it is seen at the distances from its top, of 1, that `place` gives for
 /// each of them. At least two columns.
 LinearImage sky_in_rows(const Image::Pixels& sky, int rows, double (*place)(int row, int rows));
+/// A picture of a background that depends on the height of a direction (y of the unit vector) alone; height: of a
+/// pixel.
+LinearImage sky_of_heights(const Background& sky, int width, int rows,
+                           const std::function<double(int x, int y)>& height);
 /// The first name without folder and ending, with another ending: "a/box.pbrt" gives "box.exr".
 std::string beside(const std::string& file, const std::string& ending);
 

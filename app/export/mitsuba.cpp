@@ -20,15 +20,12 @@ namespace tyndall {
 namespace mitsuba {
 namespace {
 
-std::string number(const char* name, double value) {
-  return fmt::format("<float name=\"{}\" value=\"{}\"/>", name, number_text(value));
+std::string property(const char* type, const char* name, const std::string& value) {
+  return fmt::format("<{} name=\"{}\" value=\"{}\"/>", type, name, value);
 }
-std::string whole(const char* name, int value) {
-  return fmt::format("<integer name=\"{}\" value=\"{}\"/>", name, value);
-}
-std::string rgb(const char* name, Vec3d c) {
-  return fmt::format("<rgb name=\"{}\" value=\"{}\"/>", name, numbers_of(c, ", "));
-}
+std::string number(const char* name, double value) { return property("float", name, number_text(value)); }
+std::string whole(const char* name, int value) { return property("integer", name, std::to_string(value)); }
+std::string rgb(const char* name, Vec3d c) { return property("rgb", name, numbers_of(c, ", ")); }
 std::string point(const char* name, Vec3d p) {
   return fmt::format("<point name=\"{}\" x=\"{}\" y=\"{}\" z=\"{}\"/>", name, number_text(p.x), number_text(p.y),
                      number_text(p.z));
@@ -37,31 +34,16 @@ std::string point(const char* name, Vec3d p) {
 /// Where their rows lie, of 1: the first one straight above, the last one straight below.
 double place_of_row(int row, int rows) { return static_cast<double>(row) / (rows - 1); }
 
-/// Rows of a sky that depends on the height alone.
-LinearImage sky_of_heights(const Scene& scene) {
-  LinearImage out{4, 2049, {}};
-  for (int y = 0; y < out.height; ++y) {
-    const double height = std::cos(place_of_row(y, out.height) * std::numbers::pi);
-    const Vec3d colour =
-        std::visit(Overloaded{[](const Vec3d& c) { return c; },
-                              [&](const Gradient& g) { return g.bottom + (height + 1) / 2 * (g.top - g.bottom); },
-                              [&](const Hemispheres& h) { return height > 0 ? h.up : h.down; },
-                              [](const SkyPicture&) { return Vec3d{}; }},
-                   scene.background);
-    for (int x = 0; x < out.width; ++x)
-      for (const double c : {colour.x, colour.y, colour.z}) out.rgb.push_back(static_cast<float>(c));
-  }
-  return out;
-}
-
 std::string background(const Scene& scene, const std::string& file, ForeignFile& out) {
   if (const auto* colour = std::get_if<Vec3d>(&scene.background))
     return *colour == Vec3d{} ? "" : "  <emitter type=\"constant\">" + rgb("radiance", *colour) + "</emitter>\n";
   const auto* sky = std::get_if<SkyPicture>(&scene.background);
   const std::string name = beside(file, ".xml.sky.pfm");
   // Every second of their rows, from the second one on, lies where one of ours does.
-  out.pictures.emplace_back(
-      name, sky ? sky_in_rows(*sky->pixels, 2 * sky->pixels->height + 1, place_of_row) : sky_of_heights(scene));
+  constexpr int rows = 2049;  // of a sky that depends on the height alone
+  const auto height = [](int, int y) { return std::cos(place_of_row(y, rows) * std::numbers::pi); };
+  out.pictures.emplace_back(name, sky ? sky_in_rows(*sky->pixels, 2 * sky->pixels->height + 1, place_of_row)
+                                      : sky_of_heights(scene.background, 4, rows, height));
   return fmt::format(
       "  <emitter type=\"envmap\"><string name=\"filename\" value=\"{}\"/>{}<transform name=\"to_world\"><rotate "
       "y=\"1\" angle=\"{}\"/></transform></emitter>\n",
@@ -101,10 +83,7 @@ std::string diffuse(Vec3d colour) {
 }
 
 Vec3d colour_of(const Material& material, const Scene& scene) {
-  if (const auto* colour = std::get_if<Vec3d>(&material.colour)) return *colour;
-  const auto* solid = std::get_if<Solid<>>(
-      &scene.textures[static_cast<std::size_t>(std::get<TextureIndex>(material.colour).index)].kind);
-  return solid ? solid->color : Vec3d{};
+  return plain_colour(material, scene).value_or(Vec3d{});
 }
 
 std::string surface(const Material& material, const Scene& scene) {
@@ -193,7 +172,7 @@ std::string shape(const ForeignShape& s, const Scene& scene, const ForeignScene&
                    return text;
                  },
                  [&](const ForeignTriangle& triangle) {
-                   out.mesh_name = triangle_file, out.mesh = triangle_mesh;
+                   out.meshes[triangle_file] = triangle_mesh;
                    return write(flat_of(triangle));
                  },
                  [&](const ForeignDisk& disk) { return write(flat_of(disk)); }},

@@ -23,11 +23,7 @@ namespace pbrt {
 namespace {
 
 /// A string of the file: in quotes, with what would end it escaped.
-std::string in_pbrt(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : all_printable(text)) out += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
-  return out + "\"";
-}
+std::string in_pbrt(const std::string& text) { return in_quotes(all_printable(text)); }
 
 std::string rgb(const char* name, Vec3d colour) { return fmt::format("\"rgb {}\" [ {} ]", name, numbers_of(colour)); }
 std::string number(const char* name, double value) { return fmt::format("\"float {}\" {}", name, number_text(value)); }
@@ -43,17 +39,15 @@ Vec3d direction_of(double x, double y) {
   return {std::copysign(std::cos(phi), u) * out, std::copysign(std::sin(phi), v) * out, std::copysign(1 - r * r, rest)};
 }
 
-Vec3d seen(const Gradient& g, Vec3d direction) { return g.bottom + (direction.y + 1) / 2 * (g.top - g.bottom); }
-Vec3d seen(const Hemispheres& h, Vec3d direction) { return direction.y > 0 ? h.up : h.down; }
-Vec3d seen(const SkyPicture&, Vec3d) { return {}; }  // see add_sky_pixels()
-
-/// A sky's picture, in the layout that pbrt reads. Each pixel is a mean over some of its area, so that a sun of one
-/// texel keeps its light.
-void add_sky_pixels(const SkyPicture& picture, LinearImage& out) {
+/// A sky's picture, in the layout that pbrt reads: a square that has about as many pixels. Each pixel is a mean over
+/// some of its area, so that a sun of one texel keeps its light.
+LinearImage square_sky(const SkyPicture& picture) {
   const SkyColumns columns = sky_columns(picture, false, nullptr);
   const SkyView sky = view_of(columns);
   constexpr int parts = 4;
-  const int edge = out.width;
+  int edge = 512;
+  while (edge < picture.pixels->width && edge < 4096) edge *= 2;
+  LinearImage out{edge, edge, {}};
   for (int y = 0; y < edge; ++y)
     for (int x = 0; x < edge; ++x) {
       Vec3d sum;
@@ -63,31 +57,18 @@ void add_sky_pixels(const SkyPicture& picture, LinearImage& out) {
       }
       for (const double c : {sum.x, sum.y, sum.z}) out.rgb.push_back(static_cast<float>(c / (parts * parts)));
     }
-}
-
-/// The square, in pixels, that has about as many as the sky's picture.
-int edge_of(const SkyPicture& sky) {
-  int edge = 512;
-  while (edge < sky.pixels->width && edge < 4096) edge *= 2;
-  return edge;
+  return out;
 }
 
 std::string background(const Scene& scene, const std::string& file, ForeignFile& out) {
   if (const auto* colour = std::get_if<Vec3d>(&scene.background))
     return *colour == Vec3d{} ? "" : "LightSource \"infinite\" " + rgb("L", *colour) + "\n";
   const auto* picture = std::get_if<SkyPicture>(&scene.background);
-  const int edge = picture ? edge_of(*picture) : 512;
   const std::string name = beside(file, ".pbrt.sky.pfm");
-  LinearImage& sky = out.pictures.emplace_back(name, LinearImage{edge, edge, {}}).second;
-  if (picture) add_sky_pixels(*picture, sky);
-  for (int y = 0; y < edge && !picture; ++y)
-    for (int x = 0; x < edge; ++x) {
-      const Vec3d direction = direction_of((x + 0.5) / edge, (y + 0.5) / edge);
-      const Vec3d colour = std::visit(
-          Overloaded{[](const Vec3d& c) { return c; }, [&](const auto& kind) { return seen(kind, direction); }},
-          scene.background);
-      for (const double c : {colour.x, colour.y, colour.z}) sky.rgb.push_back(static_cast<float>(c));
-    }
+  constexpr int edge = 512;  // of a sky that depends on the height alone
+  const auto height = [](int x, int y) { return direction_of((x + 0.5) / edge, (y + 0.5) / edge).y; };
+  out.pictures.emplace_back(name,
+                            picture ? square_sky(*picture) : sky_of_heights(scene.background, edge, edge, height));
   return "LightSource \"infinite\" \"string filename\" " + in_pbrt(name) + "\n";
 }
 
@@ -165,12 +146,9 @@ std::string textures(const Scene& scene, const ForeignScene& foreign, const std:
 }
 
 std::string reflectance(const Material& material, const Scene& scene, bool round) {
-  const auto* index = std::get_if<TextureIndex>(&material.colour);
-  if (!index) return rgb("reflectance", std::get<Vec3d>(material.colour));
-  const auto at = static_cast<std::size_t>(index->index);
-  const auto& kind = scene.textures[at].kind;
-  if (const auto* solid = std::get_if<Solid<>>(&kind)) return rgb("reflectance", solid->color);
-  return "\"texture reflectance\" " + texture_name(at, round);
+  if (const auto colour = plain_colour(material, scene)) return rgb("reflectance", *colour);
+  const int texture = std::get<TextureIndex>(material.colour).index;
+  return "\"texture reflectance\" " + texture_name(static_cast<std::size_t>(texture), round);
 }
 
 /// The material of a surface, and its light.

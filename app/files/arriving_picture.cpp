@@ -1,6 +1,5 @@
 #include "app/files/arriving_picture.h"
 
-#include "app/text/values.h"
 #include "core/base/error.h"
 #include "core/base/seconds.h"
 #include "core/base/text.h"

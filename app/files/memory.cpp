@@ -35,8 +35,7 @@ void check_needed(const std::string& what, std::uint64_t needed, const FreeMemor
                                  advice));
 }
 
-}  // namespace
-
+/// The most memory that the process then has, bytes. The scene and its textures are not counted.
 std::uint64_t memory_needed(const MemoryPlan& plan) {
   const std::uint64_t film = bytes_per_pixel(plan.emission);
   const std::uint64_t picture = 12, estimate = 13, filter = plan.emission ? 153 : 129, shown = 12;
@@ -48,6 +47,7 @@ std::uint64_t memory_needed(const MemoryPlan& plan) {
   return program + pixel * pixels(plan.width, plan.height);
 }
 
+/// The memory that a window takes that renders one picture, bytes. Measured with OpenGL in software.
 std::uint64_t memory_needed(const WindowPlan& plan) {
   constexpr std::uint64_t libraries = 134'000'000;  // of the window, fonts and OpenGL
   const std::uint64_t pictures = 31, filter = 172, film = bytes_per_pixel(plan.emission);
@@ -56,6 +56,8 @@ std::uint64_t memory_needed(const WindowPlan& plan) {
   const std::uint64_t clean = plan.clean ? filter * all + (film + filter) * coarse : 0;
   return program + libraries + (film + pictures) * all + clean;
 }
+
+}  // namespace
 
 bool has_lights(const Scene& scene) {
   return std::any_of(scene.materials.begin(), scene.materials.end(),

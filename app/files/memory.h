@@ -23,17 +23,12 @@ struct MemoryPlan {
 /// Whether films of the scene record emission.
 bool has_lights(const Scene& scene);
 
-/// The most memory that the process then has, bytes. The scene and its textures are not counted.
-std::uint64_t memory_needed(const MemoryPlan& plan);
-
 /// What the memory of a window depends on.
 struct WindowPlan {
   std::int64_t width = 0, height = 0;  ///< of the picture
   bool emission = false;               ///< see MemoryPlan
   bool clean = false;                  ///< whether the clean view is on
 };
-/// The memory that a window takes that renders one picture, bytes. Measured with OpenGL in software.
-std::uint64_t memory_needed(const WindowPlan& plan);
 
 /// Throws UsageError, which says how many bytes the picture takes, if it does not fit into the memory that is free; and
 /// if it has more pixels than image files can hold.

@@ -1,10 +1,10 @@
 #include "app/files/outputs.h"
 
+#include "app/book/run_guarded.h"
 #include "app/text/standard_streams.h"
-#include "app/text/values.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/files/stats.h"
+#include "core/film/merge.h"
 #include "core/image/whole_file.h"
 #include "core/system/process.h"
 
@@ -46,12 +46,6 @@ fs::path free_name(const fs::path& file) {
     if (fs::symlink_status(name, error).type() == fs::file_type::not_found) return name;
   }
   return {};
-}
-
-/// The file's name in a new folder among the temporary files; empty: none can be made.
-fs::path temporary_name(const fs::path& file) {
-  const fs::path folder = make_temporary_folder("tyndall-");
-  return folder.empty() ? fs::path() : folder / file.filename();
 }
 
 bool succeeds(const std::function<void(const fs::path& file)>& write, const fs::path& file) {
@@ -158,17 +152,6 @@ std::vector<std::string> write_images(const Picture& picture, const std::vector<
   return problems;
 }
 
-std::vector<std::string> write_film(const Film& film, const Scene& scene, const FilmLabel& label,
-                                    const std::vector<std::filesystem::path>& files, const ImageForm& form,
-                                    const std::optional<CleanOfFilm>& clean) {
-  const auto embedded = [&](const std::filesystem::path& file) {
-    return Embedded{embedded_scene(scene, ".", film, file), clean ? clean_stats_text(film, clean->picture, 0) : "",
-                    label};
-  };
-  const LinearImage image{film.region.width(), film.region.height(), resolve(film)};
-  return write_images({film, image, scene.display, embedded, {}, clean ? &clean->picture : nullptr, form}, files);
-}
-
 void write_text_file(const fs::path& file, const std::string& text) {
   WholeFile out(file);
   out.write(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
@@ -188,10 +171,10 @@ void write_or_rescue(const fs::path& file, const std::function<void(const fs::pa
     const std::string problem = error.what();
     const fs::path near = free_name(file);
     if (succeeds(write, near)) throw at(problem, near);
-    const fs::path far = temporary_name(file);
-    if (succeeds(write, far)) throw at(problem, far);
+    const fs::path folder = make_temporary_folder("tyndall-"), far = folder / file.filename();  // "": none can be made
+    if (!folder.empty() && succeeds(write, far)) throw at(problem, far);
     std::error_code ignored;
-    if (!far.empty()) fs::remove(far.parent_path(), ignored);
+    if (!folder.empty()) fs::remove(folder, ignored);
     throw;
   }
 }
@@ -210,6 +193,32 @@ bool written_or_told(const std::function<void()>& write) {
     complain(printable(error.what(), 2000));
     return false;
   }
+}
+
+int told_exit_code() {
+  constexpr int wrong_usage = 2, input_output_error = 3;
+  const auto told = [](const std::exception& error, int code) {
+    complain(error.what());
+    return code;
+  };
+  try {
+    throw;
+  } catch (const UsageError& error) {
+    return told(error, wrong_usage);
+  } catch (const SceneError& error) {
+    return told(error, wrong_usage);
+  } catch (const MergeError& error) {
+    return told(error, wrong_usage);
+  } catch (const NoSuchLayer& error) {
+    return told(error, wrong_usage);
+  } catch (const ProgramInterrupted& error) {
+    return told(error, 128 + error.signal);
+  } catch (const std::bad_alloc&) {
+    complain("not enough memory" + memory_limit_text());
+  } catch (const std::exception& error) {
+    return told(error, input_output_error);
+  }
+  return input_output_error;
 }
 
 void write_copy(const fs::path& from, const fs::path& to) {

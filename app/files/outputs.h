@@ -3,7 +3,6 @@
 #include "core/files/picture_files.h"
 #include "core/image/file_place.h"
 #include "core/image/image_io.h"
-#include "core/scene/scene.h"
 
 #include <filesystem>
 #include <functional>
@@ -55,12 +54,6 @@ void check_outputs(const std::vector<Output>& outputs, const std::vector<std::fi
 /// see write_or_rescue().
 std::vector<std::string> write_images(const Picture& picture, const std::vector<std::filesystem::path>& files);
 
-/// Writes all images of a film that can be written; returns what went wrong, a line each. textures: see embedded_scene.
-/// Layers (albedo, normal, depth) are not written: such an EXR has none.
-std::vector<std::string> write_film(const Film& film, const Scene& scene, const FilmLabel& label,
-                                    const std::vector<std::filesystem::path>& files, const ImageForm& form,
-                                    const std::optional<CleanOfFilm>& clean);
-
 /// Writes text as a whole file or not at all. Throws ImageFileError.
 void write_text_file(const std::filesystem::path& file, const std::string& text);
 /// Makes `to` a copy of `from`, whole or not at all. Throws ImageFileError, IoError.
@@ -78,5 +71,9 @@ void write_text_or_rescue(const std::filesystem::path& file, const std::string& 
 /// Calls write(), for one of several outputs. Where that fails, says so in a line and returns false, so that the others
 /// are still written.
 bool written_or_told(const std::function<void()>& write);
+
+/// Within a handler: says in a line what was thrown, and returns the exit code for it: 2 where the user is at fault, 3
+/// where input or output fails, 128 and the number of the signal that ended it.
+int told_exit_code();
 
 }  // namespace tyndall

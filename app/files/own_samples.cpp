@@ -1,7 +1,6 @@
 #include "app/files/own_samples.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace tyndall {
 

@@ -62,6 +62,20 @@ std::optional<std::vector<std::string>> list_values(const std::string& text) {
   }
 }
 
+/// So many numbers from one to another, both included; rounded to 12 digits, so that they are those that users would
+/// type.
+std::vector<double> even_steps(double from, double to, int steps) {
+  std::vector<double> values;
+  for (int i = 0; i < steps; ++i) {
+    const double part = static_cast<double>(i) / (steps - 1);
+    const double exact = i + 1 == steps ? to : from + part * (to - from);
+    // What is left of two numbers that cancel is 0: -0.3:0.3:7 goes through 0, not through 5.6e-17.
+    const bool cancels = std::abs(exact) < 1e-12 * std::abs(to - from);
+    values.push_back(cancels ? 0 : std::strtod(fmt::format("{:.12g}", exact).c_str(), nullptr));
+  }
+  return values;
+}
+
 std::optional<std::vector<std::string>> number_values(const std::string& text) {
   const std::vector<std::string> parts = split_at(text, ':');
   double from = 0, to = 0;
@@ -74,18 +88,6 @@ std::optional<std::vector<std::string>> number_values(const std::string& text) {
 }
 
 }  // namespace
-
-std::vector<double> even_steps(double from, double to, int steps) {
-  std::vector<double> values;
-  for (int i = 0; i < steps; ++i) {
-    const double part = static_cast<double>(i) / (steps - 1);
-    const double exact = i + 1 == steps ? to : from + part * (to - from);
-    // What is left of two numbers that cancel is 0: -0.3:0.3:7 goes through 0, not through 5.6e-17.
-    const bool cancels = std::abs(exact) < 1e-12 * std::abs(to - from);
-    values.push_back(cancels ? 0 : std::strtod(fmt::format("{:.12g}", exact).c_str(), nullptr));
-  }
-  return values;
-}
 
 SweepAxis read_sweep_axis(const std::string& text) {
   constexpr const char* expected =

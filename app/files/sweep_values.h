@@ -16,7 +16,4 @@ inline constexpr int max_sweep_steps = 10000;
 /// POINTER=FROM:TO:STEPS, POINTER=[0,0.1,0.5] or POINTER=gold,glass. Throws UsageError `found "X", expected Y`.
 SweepAxis read_sweep_axis(const std::string& text);
 
-/// STEPS numbers from FROM to TO, both included; rounded to 12 digits, so that they are those that users would type.
-std::vector<double> even_steps(double from, double to, int steps);
-
 }  // namespace tyndall

@@ -11,11 +11,6 @@ namespace {
 
 constexpr std::string_view frame_header = "FRAME\n";
 
-std::vector<std::uint8_t> screen_bytes(const LinearImage& image, const Display& display) {
-  if (!display.dither) return tone_map(image.rgb, display.exposure, display.tone_map);
-  return tone_map_dithered(image.rgb, display.exposure, display.tone_map, image.width, {});
-}
-
 }  // namespace
 
 std::vector<std::uint8_t> ycbcr_planes(const std::vector<std::uint8_t>& rgb) {
@@ -95,7 +90,9 @@ void Y4mFile::write(const std::string& bytes) {
 }
 
 void Y4mFile::add(const LinearImage& image, const Display& display) {
-  const std::vector<std::uint8_t> planes = ycbcr_planes(screen_bytes(image, display));
+  const std::vector<std::uint8_t> planes =
+      ycbcr_planes(display.dither ? tone_map_dithered(image.rgb, display.exposure, display.tone_map, image.width, {})
+                                  : tone_map(image.rgb, display.exposure, display.tone_map));
   write(std::string(frame_header) + std::string(planes.begin(), planes.end()));
   if (!stream_) check(bytes_.synchronise());
   ++frames_;

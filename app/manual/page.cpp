@@ -1,5 +1,6 @@
 #include "app/manual/page.h"
 
+#include "app/text/markup.h"
 #include "core/base/text.h"
 
 #include <algorithm>
@@ -31,9 +32,6 @@ std::string capitals(std::string text) {
   return text;
 }
 
-/// Lines that keep their breaks.
-std::string as_typed(const std::string& text) { return ".nf\n" + escaped(text) + "\n.fi\n"; }
-
 std::string option_text(const OptionPage& option) {
   std::string names;
   for (const std::string& name : option.names) names += (names.empty() ? "\\fB" : ", \\fB") + escaped(name) + "\\fR";
@@ -55,19 +53,16 @@ std::string command_text(const CommandPage& command) {
     group = option.group;
     text += option_text(option);
   }
-  return command.examples.empty() ? text : text + ".SS Notes\n" + as_typed(command.examples);
+  // .nf to .fi: lines keep their breaks.
+  return command.examples.empty() ? text : text + ".SS Notes\n.nf\n" + escaped(command.examples) + "\n.fi\n";
 }
 
-/// The help up to its first "; ", colon or line end, in single quotes for a shell.
+/// The help up to its first "; ", colon or line end.
 std::string short_help(const std::string& help) {
-  std::string text = help.substr(0, std::min({help.find('\n'), help.find("; "), help.find(": "), help.find(" [")}));
-  for (std::size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 4) text.replace(at, 1, "'\\''");
-  return text;
+  return help.substr(0, std::min({help.find('\n'), help.find("; "), help.find(": "), help.find(" [")}));
 }
 
 bool takes_file(const OptionPage& option) { return option.unit.rfind("FILE", 0) == 0 || option.unit == "DIR"; }
-
-bool takes_words(const CommandPage& command) { return !command.arguments.empty(); }
 
 std::vector<std::string> names_of(const std::vector<CommandPage>& commands) {
   std::vector<std::string> names;
@@ -131,7 +126,7 @@ std::string zsh_option(const OptionPage& option) {
     value = ":" + unit + ":" + (takes_file(option) ? "_files" : choices);
   }
   const std::string names = option.names.size() > 1 ? "{" + joined(option.names, ",") + "}" : option.names[0];
-  return "        '*'" + names + "'[" + help + "]" + value + "'";
+  return "        '*'" + names + in_shell("[" + help + "]" + value);
 }
 
 }  // namespace
@@ -181,14 +176,14 @@ std::string zsh_completion(const std::vector<CommandPage>& commands) {
       "  _alternative 'scenes:built-in scene:compadd -a scenes' 'files:file:_files'\n}\n"
       "_tyndall() {\n  if (( CURRENT == 2 )); then\n    local -a commands\n    commands=(\n";
   for (const CommandPage& command : commands)
-    text += "      '" + command.name + ":" + short_help(command.summary) + "'\n";
+    text += "      " + in_shell(command.name + ":" + short_help(command.summary)) + "\n";
   text +=
       "    )\n    _describe command commands\n    _tyndall_words\n    return\n  fi\n"
       "  shift words\n  (( CURRENT-- ))\n  case $words[1] in\n";
   for (const CommandPage& command : commands) {
     text += "    " + command.name + ")\n      _arguments -S";
     for (const OptionPage& option : command.options) text += " \\\n" + zsh_option(option);
-    text += std::string(takes_words(command) ? " \\\n        '*:file:_tyndall_words'" : "") + "\n      ;;\n";
+    text += std::string(command.arguments.empty() ? "" : " \\\n        '*:file:_tyndall_words'") + "\n      ;;\n";
   }
   return text + "    *) _tyndall_words ;;\n  esac\n}\n_tyndall \"$@\"\n";
 }
@@ -198,7 +193,7 @@ std::string fish_completion(const std::vector<CommandPage>& commands) {
   const std::string one = "complete -c tyndall -n ";
   text += "complete -c tyndall -a '(tyndall scenes 2>/dev/null | string split -f 1 \" \")' -d scene\n";
   for (const CommandPage& command : commands)
-    text += one + "__fish_use_subcommand -a " + command.name + " -d '" + short_help(command.summary) + "'\n";
+    text += one + "__fish_use_subcommand -a " + command.name + " -d " + in_shell(short_help(command.summary)) + "\n";
   for (const CommandPage& command : commands)
     for (const OptionPage& option : command.options) {
       text += one + "'__fish_seen_subcommand_from " + command.name + "'";
@@ -208,7 +203,7 @@ std::string fish_completion(const std::vector<CommandPage>& commands) {
       }
       if (!option.choices.empty()) text += " -x -a '" + joined(option.choices, " ") + "'";
       if (option.choices.empty() && !option.unit.empty()) text += takes_file(option) ? " -r -F" : " -x";
-      text += " -d '" + short_help(option.help) + "'\n";
+      text += " -d " + in_shell(short_help(option.help)) + "\n";
     }
   return text;
 }

@@ -14,6 +14,13 @@ namespace {
 namespace py = pybind11;
 using WithoutLock = py::call_guard<py::gil_scoped_release>;
 
+/// What f() returns, without the interpreter's lock.
+template <class F>
+auto unlocked(const F& f) {
+  const py::gil_scoped_release released;
+  return f();
+}
+
 /// Floats of a picture, as an array that cannot be written to. owner: keeps them alive.
 py::array_t<float> look_into(const std::vector<float>& values, std::initializer_list<py::ssize_t> shape,
                              const py::object& owner) {
@@ -27,16 +34,12 @@ using Values = const std::vector<float>& (tyndall::Picture::*)() const;
 template <Values values, py::ssize_t channels>
 py::array_t<float> array_of(const py::object& self) {
   const auto& picture = self.cast<const tyndall::Picture&>();
-  const std::vector<float>* found = nullptr;
-  {
-    const py::gil_scoped_release unlocked;
-    found = &(picture.*values)();
-  }
+  const std::vector<float>& found = *unlocked([&] { return &(picture.*values)(); });
   const py::ssize_t height = picture.height(), width = picture.width();
   if constexpr (channels == 1)
-    return look_into(*found, {height, width}, self);
+    return look_into(found, {height, width}, self);
   else
-    return look_into(*found, {height, width, channels}, self);
+    return look_into(found, {height, width, channels}, self);
 }
 
 /// Renders without the interpreter's lock. Between passes it looks whether Ctrl-C was pressed, and calls `progress`.
@@ -51,13 +54,11 @@ tyndall::Picture render(const tyndall::Scene& scene, tyndall::RenderOptions opti
     if (truth < 0) throw py::error_already_set();
     return truth != 0;
   };
-  const py::gil_scoped_release unlocked;
-  return tyndall::render(scene, options);
+  return unlocked([&] { return tyndall::render(scene, options); });
 }
 
-std::vector<float> numbers(const py::array_t<float, py::array::c_style | py::array::forcecast>& array) {
-  return {array.data(), array.data() + array.size()};
-}
+using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
+std::vector<float> numbers(const Floats& array) { return {array.data(), array.data() + array.size()}; }
 
 /// Names of files need not be UTF-8: Python's own functions give the same text for them.
 py::object text_of(const std::string& bytes) {
@@ -154,10 +155,7 @@ void add_picture(py::module_& module) {
       .def_property_readonly("scene", &Picture::scene, "The scene that it shows.")
       .def("_save", &Picture::save, WithoutLock())
       .def("_png", [](const Picture& picture) {
-        const std::vector<unsigned char> bytes = [&] {
-          const py::gil_scoped_release unlocked;
-          return picture.png();
-        }();
+        const std::vector<unsigned char> bytes = unlocked([&] { return picture.png(); });
         return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
       });
 }
@@ -180,38 +178,22 @@ void add_render(py::module_& module) {
   module.def("render", &render);
 }
 
+/// In the order of the fields of the package's own Comparison.
+py::tuple fields_of(const tyndall::Comparison& c) {
+  const auto channels = [](const tyndall::Vec3& v) { return py::make_tuple(v.x, v.y, v.z); };
+  return py::make_tuple(c.mse, c.rmse, c.relmse, c.psnr, c.flip, channels(c.mean_image), channels(c.mean_reference),
+                        c.blocks, c.block_score, c.block_limit, c.worst_z, c.only_noise, c.z, c.unclear_blocks,
+                        c.enough_spp);
+}
+
 void add_compare(py::module_& module) {
-  using tyndall::Comparison;
-  const auto tuple = [](const tyndall::Vec3& v) { return py::make_tuple(v.x, v.y, v.z); };
-  py::class_<Comparison>(module, "Comparison")
-      .def_readonly("mse", &Comparison::mse)
-      .def_readonly("rmse", &Comparison::rmse)
-      .def_readonly("relmse", &Comparison::relmse)
-      .def_readonly("psnr", &Comparison::psnr)
-      .def_readonly("flip", &Comparison::flip)
-      .def_readonly("blocks", &Comparison::blocks)
-      .def_readonly("block_score", &Comparison::block_score)
-      .def_readonly("block_limit", &Comparison::block_limit)
-      .def_readonly("worst_z", &Comparison::worst_z)
-      .def_readonly("only_noise", &Comparison::only_noise)
-      .def_readonly("z", &Comparison::z)
-      .def_readonly("unclear_blocks", &Comparison::unclear_blocks)
-      .def_readonly("enough_spp", &Comparison::enough_spp)
-      .def_property_readonly("mean_image", [tuple](const Comparison& c) { return tuple(c.mean_image); })
-      .def_property_readonly("mean_reference", [tuple](const Comparison& c) { return tuple(c.mean_reference); });
-  module.def(
-      "compare_pictures",
-      [](const tyndall::Picture& image, const tyndall::Picture& reference) {
-        return tyndall::compare(image, reference);
-      },
-      WithoutLock());
-  module.def("compare_arrays",
-             [](const py::array_t<float, py::array::c_style | py::array::forcecast>& image,
-                const py::array_t<float, py::array::c_style | py::array::forcecast>& reference, int width, int height) {
-               const std::vector<float> a = numbers(image), b = numbers(reference);
-               const py::gil_scoped_release unlocked;
-               return tyndall::compare(a, b, width, height);
-             });
+  module.def("compare_pictures", [](const tyndall::Picture& image, const tyndall::Picture& reference) {
+    return fields_of(unlocked([&] { return tyndall::compare(image, reference); }));
+  });
+  module.def("compare_arrays", [](const Floats& image, const Floats& reference, int width, int height) {
+    const std::vector<float> a = numbers(image), b = numbers(reference);
+    return fields_of(unlocked([&] { return tyndall::compare(a, b, width, height); }));
+  });
 }
 
 }  // namespace

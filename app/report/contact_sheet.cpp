@@ -61,7 +61,7 @@ struct SheetLayout {
 
 }  // namespace
 
-SheetCell sheet_cell(int width, int height, int columns) {
+Size sheet_cell(int width, int height, int columns) {
   const int max_width = std::max(1, max_sheet_width / columns);
   if (width >= min_cell_width || max_width < 2 * width) {
     const int cell = std::min(width, max_width);
@@ -83,7 +83,7 @@ int sheet_columns(int width, int height, int count) {
   return best;
 }
 
-ScreenPicture on_sheet(const LinearImage& image, const Display& display, SheetCell cell) {
+ScreenPicture on_sheet(const LinearImage& image, const Display& display, Size cell) {
   LinearImage shown{cell.width, cell.height, {}};
   shown.rgb.reserve(3 * static_cast<std::size_t>(cell.width) * static_cast<std::size_t>(cell.height));
   const auto at = [](int i, int of, int size) { return static_cast<int>(std::int64_t{i} * size / of); };

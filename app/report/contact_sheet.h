@@ -1,5 +1,6 @@
 #pragma once
 #include "app/report/lettering.h"
+#include "app/text/values.h"
 #include "core/image/image.h"
 #include "core/scene/settings.h"
 
@@ -18,15 +19,12 @@ struct SheetPicture {
 
 /// Pixels that a picture has on a sheet of `count` pictures in so many columns: large ones are made smaller, so that
 /// the sheet stays below about 4,000 pixels, and very small ones larger by a whole factor.
-struct SheetCell {
-  int width = 0, height = 0;
-};
-SheetCell sheet_cell(int width, int height, int columns);
+Size sheet_cell(int width, int height, int columns);
 /// The number of columns with which a sheet of such pictures is about as wide as a screen.
 int sheet_columns(int width, int height, int count);
 
 /// The picture in these pixels, as a screen shows it. Light is averaged where it is made smaller.
-ScreenPicture on_sheet(const LinearImage& image, const Display& display, SheetCell cell);
+ScreenPicture on_sheet(const LinearImage& image, const Display& display, Size cell);
 
 /// The pictures, which have one size, row by row.
 ScreenPicture contact_sheet(const std::vector<SheetPicture>& pictures, int columns, const std::string& heading,

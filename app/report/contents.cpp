@@ -3,14 +3,9 @@
 #include "core/base/text.h"
 
 #include <type_traits>
-#include <variant>
 
 namespace tyndall {
 namespace {
-
-bool emits(const Scene& scene, int material) {
-  return std::holds_alternative<Light<double>>(scene.materials[static_cast<std::size_t>(material)].kind);
-}
 
 template <class Kinds>
 const char* type_of(const Kinds& kind) {
@@ -18,7 +13,8 @@ const char* type_of(const Kinds& kind) {
 }
 
 void count(const Scene& scene, const Solid3d& solid, Contents& contents) {
-  const int lights = emits(scene, solid.material) ? 1 : 0;
+  const Material& material = scene.materials[static_cast<std::size_t>(solid.material)];
+  const int lights = std::holds_alternative<Light<double>>(material.kind) ? 1 : 0;
   if (const auto* sphere = std::get_if<Sphere<>>(&solid.shape)) {
     ++contents.shapes[sphere->center_end ? "moving sphere" : "sphere"];
     contents.lights += lights;
@@ -29,14 +25,14 @@ void count(const Scene& scene, const Solid3d& solid, Contents& contents) {
   }
 }
 
-void count(const Scene& scene, const std::vector<Object>& objects, Contents& contents) {
-  for (const Object& object : objects) {
-    if (const auto* solid = std::get_if<Solid3d>(&object.kind)) count(scene, *solid, contents);
-    if (const auto* group = std::get_if<Group>(&object.kind)) count(scene, group->objects, contents);
-    if (const auto* volume = std::get_if<Volume>(&object.kind)) {
-      ++contents.media;
-      if (volume->medium.g != 0) ++contents.phase_functions;
-    }
+void add_leaves(const std::vector<Object>& objects, ObjectPath& path, std::vector<ObjectPath>& out) {
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    path.push_back(static_cast<int>(i));
+    if (const Group* group = std::get_if<Group>(&objects[i].kind))
+      add_leaves(group->objects, path, out);
+    else
+      out.push_back(path);
+    path.pop_back();
   }
 }
 
@@ -49,9 +45,33 @@ std::string background_of(const Scene& scene) {
 
 }  // namespace
 
+const Object* find_object(const Scene& scene, const ObjectPath& path) {
+  const std::vector<Object>* objects = &scene.objects;
+  const Object* object = nullptr;
+  for (const int index : path) {
+    if (!objects || index < 0 || static_cast<std::size_t>(index) >= objects->size()) return nullptr;
+    object = &(*objects)[static_cast<std::size_t>(index)];
+    const Group* group = std::get_if<Group>(&object->kind);
+    objects = group ? &group->objects : nullptr;
+  }
+  return object;
+}
+
+std::vector<ObjectPath> leaves(const Scene& scene) {
+  std::vector<ObjectPath> out;
+  ObjectPath path;
+  add_leaves(scene.objects, path, out);
+  return out;
+}
+
 Contents contents_of(const Scene& scene) {
   Contents contents;
-  count(scene, scene.objects, contents);
+  each_object(scene.objects, [&](const Object& object) {
+    if (const auto* solid = std::get_if<Solid3d>(&object.kind)) count(scene, *solid, contents);
+    const auto* volume = std::get_if<Volume>(&object.kind);
+    contents.media += volume ? 1 : 0;
+    contents.phase_functions += volume && volume->medium.g != 0 ? 1 : 0;
+  });
   for (const Material& material : scene.materials) ++contents.materials[type_of(material.kind)];
   for (const Texture& texture : scene.textures) {
     ++contents.textures[type_of(texture.kind)];

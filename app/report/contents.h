@@ -3,10 +3,29 @@
 
 #include <map>
 #include <string>
+#include <variant>
 #include <vector>
 
 /// This room finds out what both the window and the commands tell about scenes, pictures and kernels.
 namespace tyndall {
+
+/// Indices into Scene::objects and, for each further one, into the group's objects. Empty: nothing.
+using ObjectPath = std::vector<int>;
+
+/// The object at a path; null for an empty path and for one that leads nowhere.
+const Object* find_object(const Scene& scene, const ObjectPath& path);
+
+/// Every object that is no group, in file order.
+std::vector<ObjectPath> leaves(const Scene& scene);
+
+/// Calls f with each object of a list, groups and what is in them, too.
+template <class Objects, class F>
+void each_object(Objects& objects, const F& f) {
+  for (auto& object : objects) {
+    f(object);
+    if (auto* group = std::get_if<Group>(&object.kind)) each_object(group->objects, f);
+  }
+}
 
 /// What a scene contains, counted through all groups.
 struct Contents {

@@ -25,7 +25,6 @@ class Lettering {
   Lettering(const Lettering&) = delete;
   Lettering& operator=(const Lettering&) = delete;
 
-  int height() const { return height_; }
   /// Pixels that the text takes in a row.
   int width_of(const std::string& text) const;
   /// The text, or its beginning and "…", in at most that many pixels.

@@ -1,5 +1,6 @@
 #include "app/report/replay.h"
 
+#include "app/report/contents.h"
 #include "core/base/random.h"
 #include "core/base/text.h"
 
@@ -11,39 +12,9 @@
 namespace tyndall {
 namespace {
 
-/// The innermost object on a path of indices, and its place in the file.
-struct Named {
-  const Object* object;
-  std::string pointer;
-};
-Named object_at(const Scene& scene, const std::vector<int>& path) {
-  const std::vector<Object>* list = &scene.objects;
-  Named named{nullptr, ""};
-  for (const int index : path) {
-    named.object = &(*list)[static_cast<std::size_t>(index)];
-    named.pointer += "/objects/" + std::to_string(index);
-    if (const auto* group = std::get_if<Group>(&named.object->kind)) list = &group->objects;
-  }
-  return named;
-}
-
 Vec3d exact(Vec3f v) { return {v.x, v.y, v.z}; }
 
 std::string text_of(Vec3d v) { return fmt::format("{:.9g} {:.9g} {:.9g}", v.x, v.y, v.z); }
-
-void list_media(const std::vector<Object>& objects, std::vector<int> path, std::vector<std::vector<int>>& out) {
-  path.push_back(0);
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    path.back() = static_cast<int>(i);
-    if (const auto* group = std::get_if<Group>(&objects[i].kind)) list_media(group->objects, path, out);
-    const auto* volume = std::get_if<Volume>(&objects[i].kind);
-    if (volume && volume->medium.density > 0) out.push_back(path);
-  }
-}
-
-std::string medium_text(const Scene& scene, int medium) {
-  return object_text(scene, media_of(scene)[static_cast<std::size_t>(medium)]);
-}
 
 const char* fate_text(Fate fate) {
   switch (fate) {
@@ -66,16 +37,8 @@ const char* fate_text(Fate fate) {
 }
 
 std::string what_is_met(const Scene& scene, const RenderScene& compiled, const PathVertex& v) {
-  return v.met == Met::medium ? "the medium " + medium_text(scene, v.medium)
-                              : object_text(scene, compiled.object_of(v.element));
-}
-
-std::string heading(const Scene& scene, const RenderScene& compiled, const PathVertex& v) {
-  const std::string fate = fate_text(v.fate);
-  if (v.met == Met::nothing) return v.fate == Fate::escapes ? fate : "meets nothing, " + fate;
-  const char* side = v.inside ? " on its inner side" : "";
-  return fmt::format("after {:.9g} meets {}, {}{}", static_cast<double>(v.distance), what_is_met(scene, compiled, v),
-                     fate, side);
+  if (v.met != Met::medium) return object_text(scene, compiled.object_of(v.element));
+  return "the medium " + object_text(scene, media_of(scene)[static_cast<std::size_t>(v.medium)]);
 }
 
 double luminance(Vec3f light) {
@@ -91,6 +54,12 @@ std::string vertex_text(const Scene& scene, const RenderScene& compiled, const P
   return what_is_met(scene, compiled, vertex) + ", " + fate + (vertex.inside ? " on its inner side" : "");
 }
 
+std::string heading(const Scene& scene, const RenderScene& compiled, const PathVertex& v) {
+  const std::string text = vertex_text(scene, compiled, v);
+  if (v.met == Met::nothing) return (v.fate == Fate::escapes ? "" : "meets nothing, ") + text;
+  return fmt::format("after {:.9g} meets {}", static_cast<double>(v.distance), text);
+}
+
 /// "branch from 2: " where a branch begins, which leaves glass where vertex 2 is; else nothing.
 std::string branch_text(const PathVertex& v) { return v.branch ? fmt::format("branch from {}: ", v.before + 1) : ""; }
 
@@ -98,14 +67,18 @@ std::string branch_text(const PathVertex& v) { return v.branch ? fmt::format("br
 
 std::vector<std::vector<int>> media_of(const Scene& scene) {
   std::vector<std::vector<int>> media;
-  list_media(scene.objects, {}, media);
+  for (const ObjectPath& path : leaves(scene)) {
+    const auto* volume = std::get_if<Volume>(&find_object(scene, path)->kind);
+    if (volume && volume->medium.density > 0) media.push_back(path);
+  }
   return media;
 }
 
 std::string object_text(const Scene& scene, const std::vector<int>& path) {
-  const Named named = object_at(scene, path);
-  const std::string name = named.object->name.empty() ? named.pointer : in_quotes(named.object->name);
-  const auto* solid = std::get_if<Solid3d>(&named.object->kind);
+  const Object& object = *find_object(scene, path);
+  std::string name = object.name.empty() ? "" : in_quotes(object.name);
+  for (std::size_t k = 0; k < path.size() && object.name.empty(); ++k) name += "/objects/" + std::to_string(path[k]);
+  const auto* solid = std::get_if<Solid3d>(&object.kind);
   if (!solid) return printable(name);
   return printable(name + " (" + scene.materials[static_cast<std::size_t>(solid->material)].name + ")");
 }

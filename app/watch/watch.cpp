@@ -5,7 +5,6 @@
 #include "app/files/outputs.h"
 #include "app/files/watched_function.h"
 #include "app/text/standard_streams.h"
-#include "app/text/values.h"
 #include "app/watch/host.h"
 #include "app/window/window.h"
 #include "core/base/error.h"
@@ -23,8 +22,6 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
-#include <new>
-#include <optional>
 #include <string>
 
 /// The library for programs of others: what <tyndall/watch.h> promises, by the parts of the program.
@@ -180,25 +177,11 @@ int run(int width, int height, tyndall_watch_function function, void* user, cons
 
 int tyndall_watch(int width, int height, tyndall_watch_function function, void* user,
                   const tyndall_watch_options* options) {
-  constexpr int wrong_usage = 2, input_output_error = 3;
-  const auto fail = [](const std::exception& error, int code) {
-    tyndall::complain(error.what());
-    return code;
-  };
   try {
     return tyndall::run(width, height, function, user, options);
-  } catch (const tyndall::UsageError& error) {
-    return fail(error, wrong_usage);
-  } catch (const tyndall::SceneError& error) {
-    return fail(error, wrong_usage);
-  } catch (const tyndall::NoSuchLayer& error) {
-    return fail(error, wrong_usage);
-  } catch (const std::bad_alloc&) {
-    tyndall::complain("not enough memory" + tyndall::memory_limit_text());
-  } catch (const std::exception& error) {
-    return fail(error, input_output_error);
+  } catch (const std::exception&) {
+    return tyndall::told_exit_code();
   }
-  return input_output_error;
 }
 
 void tyndall_watch_fail(const char* reason) {

@@ -416,7 +416,7 @@ def compare(image: Any, reference: Any) -> Comparison:
         if a.shape != b.shape:
             raise _fail("image", f"shape {a.shape}", f"that of the reference, {b.shape}")
         found = _tyndall.compare_arrays(a, b, a.shape[1], a.shape[0])
-    return Comparison(*(getattr(found, field) for field in Comparison._fields))
+    return Comparison(*found)
 
 
 def _pixels(place: str, thing: Any) -> numpy.ndarray:

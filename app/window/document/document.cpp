@@ -59,18 +59,6 @@ ObjectPath path_after(const Objects& before, const Objects& after, const ObjectP
 
 }  // namespace
 
-const Object* find_object(const Scene& scene, const ObjectPath& path) {
-  const std::vector<Object>* objects = &scene.objects;
-  const Object* object = nullptr;
-  for (const int index : path) {
-    if (!objects || index < 0 || static_cast<std::size_t>(index) >= objects->size()) return nullptr;
-    object = &(*objects)[static_cast<std::size_t>(index)];
-    const Group* group = std::get_if<Group>(&object->kind);
-    objects = group ? &group->objects : nullptr;
-  }
-  return object;
-}
-
 Object* find_object(Scene& scene, const ObjectPath& path) {
   return const_cast<Object*>(find_object(static_cast<const Scene&>(scene), path));
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include "app/report/contents.h"
 #include "core/scene/scene.h"
 
 #include <cstdint>
@@ -33,12 +34,8 @@ struct Document {
 /// Whether the scene differs from what its file holds.
 inline bool edited(const Document& document) { return !(document.scene == document.origin->saved); }
 
-/// Indices into Scene::objects and, for each further one, into the group's objects. Empty: nothing.
-using ObjectPath = std::vector<int>;
 using ObjectPaths = std::vector<ObjectPath>;
 
-/// The object at a path; null for an empty path and for one that leads nowhere.
-const Object* find_object(const Scene& scene, const ObjectPath& path);
 Object* find_object(Scene& scene, const ObjectPath& path);
 
 /// Where objects of a scene are in another state of it: those that are equal, else those of the same name, else those

@@ -54,7 +54,7 @@ Gallery::Gallery(const std::function<void()>& wake)
     : thumbnails(thumbnails_folder(), wake), list_(recent_files_list()), recent_(read_recent_files(list_)) {}
 
 bool Gallery::collect() {
-  return thumbnails.collect([this](const std::string& scene, const Thumbnail& picture) {
+  return thumbnails.collect([this](const std::string& scene, const ScreenPicture& picture) {
     const bool any = !picture.rgb.empty();
     pictures_[scene] =
         any ? std::make_unique<const PictureTexture>(picture.width, picture.height, picture.rgb) : nullptr;

@@ -38,7 +38,7 @@ std::pair<int, int> thumbnail_size(const Scene& scene) {
 
 /// Renders one, for a second or two, with one thread of the caller's priority. Nothing if go_on() says no, which is
 /// asked every 50 ms.
-std::optional<Thumbnail> render_thumbnail(const Scene& scene, const std::function<bool()>& go_on) {
+std::optional<ScreenPicture> render_thumbnail(const Scene& scene, const std::function<bool()>& go_on) {
   Scene small = scene;
   std::tie(small.width, small.height) = thumbnail_size(scene);
   RenderOptions options;
@@ -50,13 +50,13 @@ std::optional<Thumbnail> render_thumbnail(const Scene& scene, const std::functio
   const RenderResult result = render(*prepared, options, [&](const RenderProgress&) { return go_on(); });
   if (result.interrupted) return {};
   const std::vector<float> rgb = result.clean ? result.clean->rgb : finished_picture(*prepared, result).image.rgb;
-  return Thumbnail{small.width, small.height, tone_map(rgb, scene.display.exposure, scene.display.tone_map)};
+  return ScreenPicture{small.width, small.height, tone_map(rgb, scene.display.exposure, scene.display.tone_map)};
 }
 
 /// The picture from the cache, or rendered and put there; an empty one where the scene cannot be read, nothing if it
 /// was given up.
-std::optional<Thumbnail> make(const std::string& scene, const std::filesystem::path& folder,
-                              const std::function<bool()>& go_on) {
+std::optional<ScreenPicture> make(const std::string& scene, const std::filesystem::path& folder,
+                                  const std::function<bool()>& go_on) {
   try {
     const LoadedScene loaded = load_scene(scene);
     const std::filesystem::path file = folder / (thumbnail_key(loaded) + ".png");
@@ -65,7 +65,7 @@ std::optional<Thumbnail> make(const std::string& scene, const std::filesystem::p
     if (picture && !folder.empty()) write_thumbnail(file, *picture);
     return picture;
   } catch (const std::exception&) {
-    return Thumbnail{};
+    return ScreenPicture{};
   }
 }
 
@@ -86,23 +86,21 @@ std::string thumbnail_key(const LoadedScene& loaded) {
   return fmt::format("{:016x}", hash);
 }
 
-std::optional<Thumbnail> read_thumbnail(const fs::path& file) {
+std::optional<ScreenPicture> read_thumbnail(const fs::path& file) {
   try {
     const LinearImage picture = read_image(file);
     if (picture.width > thumbnail_width || picture.height > thumbnail_height) return {};
-    return Thumbnail{picture.width, picture.height, tone_map(picture.rgb, 0, ToneMap::srgb)};
+    return ScreenPicture{picture.width, picture.height, tone_map(picture.rgb, 0, ToneMap::srgb)};
   } catch (const std::exception&) {
     return {};
   }
 }
 
-void write_thumbnail(const fs::path& file, const Thumbnail& picture) {
-  LinearImage linear{picture.width, picture.height, {}};
-  for (const std::uint8_t byte : picture.rgb) linear.rgb.push_back(srgb_decode(static_cast<float>(byte) / 255.0f));
+void write_thumbnail(const fs::path& file, const ScreenPicture& picture) {
   std::error_code ignored;
   fs::create_directories(file.parent_path(), ignored);
   try {
-    write_png(file, linear, 0, ToneMap::srgb, {});
+    write_png(file, light_of(picture), 0, ToneMap::srgb, {});
   } catch (const std::exception&) {
     return;  // it will be made again
   }
@@ -125,7 +123,7 @@ void Thumbnails::begin_next() {
   }
 }
 
-bool Thumbnails::collect(const std::function<void(const std::string& scene, const Thumbnail& picture)>& take) {
+bool Thumbnails::collect(const std::function<void(const std::string& scene, const ScreenPicture& picture)>& take) {
   if (!jobs_.collect()) return false;
   const auto came = std::exchange(came_, {});
   for (const auto& [scene, picture] : came) take(scene, picture);

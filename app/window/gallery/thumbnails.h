@@ -1,9 +1,9 @@
 #pragma once
+#include "app/report/contact_sheet.h"
 #include "app/window/document/job_queue.h"
 #include "core/scene/load.h"
 
 #include <atomic>
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -16,12 +16,6 @@
 /// next.
 namespace tyndall {
 
-/// A small picture as the screen shows it: 8-bit sRGB, 3 bytes a pixel, top row first.
-struct Thumbnail {
-  int width = 0, height = 0;
-  std::vector<std::uint8_t> rgb;
-};
-
 /// $XDG_CACHE_HOME/tyndall/thumbnails, else ~/.cache/tyndall/thumbnails; empty where neither variable is an absolute
 /// path.
 std::filesystem::path thumbnails_folder();
@@ -31,9 +25,9 @@ std::filesystem::path thumbnails_folder();
 std::string thumbnail_key(const LoadedScene& loaded);
 
 /// A picture of the cache. Nothing if it is not there, or is damaged.
-std::optional<Thumbnail> read_thumbnail(const std::filesystem::path& file);
+std::optional<ScreenPicture> read_thumbnail(const std::filesystem::path& file);
 /// Puts a picture into the cache; fails silently, as it can be made again.
-void write_thumbnail(const std::filesystem::path& file, const Thumbnail& picture);
+void write_thumbnail(const std::filesystem::path& file, const ScreenPicture& picture);
 
 /// Finds pictures in the cache folder, and renders those that are not there, one at a time and at low priority. For
 /// the main thread.
@@ -49,7 +43,7 @@ class Thumbnails {
   void want(std::vector<std::string> scenes);
   /// Calls `take` for each picture that has come; an empty one where a scene has none, because it cannot be read.
   /// Whether there were any.
-  bool collect(const std::function<void(const std::string& scene, const Thumbnail& picture)>& take);
+  bool collect(const std::function<void(const std::string& scene, const ScreenPicture& picture)>& take);
   /// The scene's file has changed: its picture is made again when it is wanted.
   void forget(const std::string& scene) { known_.erase(scene); }
   /// Whether nothing is being made.
@@ -61,7 +55,7 @@ class Thumbnails {
   std::filesystem::path folder_;
   std::vector<std::string> wanted_;
   std::set<std::string> known_;  ///< made, or being made
-  std::map<std::string, Thumbnail> came_;
+  std::map<std::string, ScreenPicture> came_;
   std::atomic<bool> closing_ = false;
   JobQueue jobs_;  // last: its jobs use the others
 };

@@ -47,17 +47,6 @@ BoundingSphere joined(const BoundingSphere& a, const BoundingSphere& b) {
   return {a.center + ((radius - a.radius) / apart) * (b.center - a.center), radius};
 }
 
-void add_leaves(const std::vector<Object>& objects, ObjectPath& path, std::vector<ObjectPath>& out) {
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    path.push_back(static_cast<int>(i));
-    if (const Group* group = std::get_if<Group>(&objects[i].kind))
-      add_leaves(group->objects, path, out);
-    else
-      out.push_back(path);
-    path.pop_back();
-  }
-}
-
 }  // namespace
 
 const char* kind_name(const Object& object) {
@@ -91,13 +80,6 @@ int users_of(const Scene& scene, int material) {
     users += solid && solid->material == material;
   });
   return users;
-}
-
-std::vector<ObjectPath> leaves(const Scene& scene) {
-  std::vector<ObjectPath> out;
-  ObjectPath path;
-  add_leaves(scene.objects, path, out);
-  return out;
 }
 
 Placement placement_at(const Scene& scene, const ObjectPath& path) {

@@ -23,17 +23,6 @@ const Material* material_of(const Scene& scene, const Object& object);
 /// How many objects (in groups too) have the material.
 int users_of(const Scene& scene, int material);
 
-/// Calls f with each object of a list, groups and what is in them, too.
-template <class Objects, class F>
-void each_object(Objects& objects, const F& f) {
-  for (auto& object : objects) {
-    f(object);
-    if (auto* group = std::get_if<Group>(&object.kind)) each_object(group->objects, f);
-  }
-}
-/// Every object that is no group, in file order.
-std::vector<ObjectPath> leaves(const Scene& scene);
-
 /// Calls f with the shape of a solid or the boundary of a medium; groups have none.
 template <class Item, class F>
 void with_shape(Item& object, const F& f) {

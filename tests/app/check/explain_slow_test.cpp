@@ -1,4 +1,4 @@
-#include "app/check/report.h"
+#include "app/check/explain.h"
 #include "tests/app/check/verdicts.h"
 
 #include <doctest/doctest.h>

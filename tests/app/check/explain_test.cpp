@@ -1,4 +1,4 @@
-#include "app/check/report.h"
+#include "app/check/explain.h"
 #include "tests/app/check/verdicts.h"
 
 #include <doctest/doctest.h>
@@ -96,7 +96,7 @@ TEST_CASE("check: no mistake is named where there was no time to try them all, a
   LinearImage light{picture.width, picture.height, picture.numbers};
   for (float& value : light.rgb) value *= value;
   const Reference reference = render_reference(scene, light, {0, 64}, [] { return true; });
-  const Findings verdict = explain(picture, scene, reference, {5, 0, 8}, [] { return false; });
+  const Findings verdict = explain(picture, scene, reference, {5, 8}, [] { return false; });
   CHECK_FALSE(verdict.agrees);
   CHECK_FALSE(verdict.mistake);
   CHECK(verdict.untried > 5);

@@ -19,8 +19,7 @@ std::vector<BookSample> grey(const std::vector<float>& values) {
 /// A picture of `pixels` x `pixels` of one grey with noise, compared with the grey.
 struct NoisyPicture {
   Lattice lattice{64, 64, 1};
-  BlockGrid grid = grid_of(lattice);
-  Regions regions = regions_of(grid);
+  Regions regions = blocks_of(lattice, edge_of_blocks(lattice));
   std::vector<float> light, expected, tolerance, variance;
   NoisyPicture(unsigned seed, double noise) {
     std::mt19937 random(seed);
@@ -71,13 +70,13 @@ TEST_CASE("check: noise makes no difference, a shift of one block does") {
   for (unsigned seed = 0; seed < 200; ++seed) CHECK(NoisyPicture(seed, 0.1).misfit().different == 0);
   NoisyPicture shifted(1, 0.02);
   for (std::size_t pixel = 0; pixel < shifted.lattice.pixels(); ++pixel)
-    if (shifted.grid.block_of(pixel) == 10) shifted.light[3 * pixel + 1] += 0.03f;
+    if (shifted.regions.of_pixel[pixel] == 10) shifted.light[3 * pixel + 1] += 0.03f;
   CHECK(shifted.misfit().different == 1);
   CHECK(shifted.misfit().amount > 0);
   for (int& region : shifted.regions.of_pixel)
     if (region == 10) region = -1;
   CHECK(shifted.misfit().different == 0);
-  CHECK(shifted.misfit().blocks == static_cast<int>(shifted.grid.count()) - 1);
+  CHECK(shifted.misfit().blocks == shifted.regions.count - 1);
 }
 
 TEST_CASE("check: without noise a difference of less than a step of 8 bits is none") {

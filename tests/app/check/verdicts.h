@@ -30,7 +30,7 @@ inline Findings verdict_of(const Scene& scene, const PictureNumbers& picture, st
   LinearImage light{picture.width, picture.height, picture.numbers};
   for (float& value : light.rgb) value *= value;
   const Reference reference = render_reference(scene, light, {endless, spp}, always);
-  return explain(picture, scene, reference, {endless, 0, 24}, always);
+  return explain(picture, scene, reference, {endless, 24}, always);
 }
 inline Findings verdict_of(const Scene& scene, const BookProgramPlan& plan, std::uint32_t spp) {
   return verdict_of(scene, numbers_of_bytes(scene.width, scene.height, book_picture(scene, plan)), spp);

@@ -1,6 +1,6 @@
 #include "app/files/y4m.h"
 
-#include "app/files/frame_list.h"
+#include "app/cli/kept_pictures.h"
 #include "core/base/error.h"
 #include "tests/support/paths.h"
 

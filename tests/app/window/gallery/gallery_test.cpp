@@ -23,12 +23,12 @@ void write_sphere(const fs::path& file, double red) {
 }
 
 /// What comes when these scenes are to be seen.
-std::map<std::string, Thumbnail> pictures_of(const fs::path& cache, const std::vector<std::string>& scenes) {
+std::map<std::string, ScreenPicture> pictures_of(const fs::path& cache, const std::vector<std::string>& scenes) {
   test::News news;
   Thumbnails thumbnails(cache, [&] { news.tell(); });
   thumbnails.want(scenes);
-  std::map<std::string, Thumbnail> came;
-  const auto take = [&](const std::string& scene, const Thumbnail& picture) { came[scene] = picture; };
+  std::map<std::string, ScreenPicture> came;
+  const auto take = [&](const std::string& scene, const ScreenPicture& picture) { came[scene] = picture; };
   CHECK(news.wait_until([&] {
     thumbnails.collect(take);
     return came.size() == scenes.size();
@@ -47,7 +47,7 @@ TEST_CASE("a thumbnail is rendered once and then comes from the cache, by what t
   const fs::path folder = scratch_folder("gallery_test"), cache = folder / "a" / "cache";
   const std::string scene = (folder / "ball.json").string();
   write_sphere(scene, 0.9);
-  const Thumbnail first = pictures_of(cache, {scene})[scene];
+  const ScreenPicture first = pictures_of(cache, {scene})[scene];
   CHECK(first.width == 128);
   CHECK(first.height == 40);
   REQUIRE(files_in(cache).size() == 1);
@@ -60,7 +60,7 @@ TEST_CASE("a thumbnail is rendered once and then comes from the cache, by what t
   CHECK(pictures_of(cache, {scene})[scene].rgb == std::vector<std::uint8_t>{10, 20, 30, 40, 50, 60});
 
   std::ofstream(file) << "damaged";  // is no error
-  const Thumbnail again = pictures_of(cache, {scene})[scene];
+  const ScreenPicture again = pictures_of(cache, {scene})[scene];
   CHECK(again.rgb.size() == first.rgb.size());
   CHECK(read_thumbnail(file)->rgb == again.rgb);
 
