@@ -158,9 +158,8 @@ std::string surface(const Material& material, const Scene& scene, bool round) {
                    return "  Material \"dielectric\" " + number("eta", glass.refractive_index) + "\n";
                  },
                  [&](const Light<double>&) {
-                   const auto* colour = std::get_if<Vec3d>(&material.colour);
                    return "  Material \"diffuse\" " + rgb("reflectance", {}) + "\n  AreaLightSource \"diffuse\" " +
-                          rgb("L", colour ? *colour : Vec3d{}) + " \"bool twosided\" true\n";
+                          rgb("L", plain_colour(material, scene).value()) + " \"bool twosided\" true\n";
                  },
                  [&](const auto&) { return "  Material \"diffuse\" " + reflectance(material, scene, round) + "\n"; }},
       material.kind);

@@ -45,6 +45,13 @@ done
 # Blender: versions that were not tried are not promised; names that newer ones lack are not used.
 grep -q 'Blender 3.4 to 3.6' scene.py || fail 'the script does not say for which versions it is'
 for gone in SHARP colorspace_settings images.load; do ! grep -q "$gone" scene.py || fail "the script uses $gone"; done
+cat >lamp.json <<'JSON'
+{ "tyndall": 1, "textures": { "warm": { "type": "solid", "color": [0.5, 0.25, 0.125] } },
+  "materials": { "lamp": { "type": "light", "radiance": "warm" } },
+  "objects": [{ "type": "sphere", "center": [0, 0, -2], "radius": 0.5, "material": "lamp" }] }
+JSON
+expect 0 "$tyndall" convert lamp.json -o lamp.pbrt
+grep -qF '"rgb L" [ 0.5 0.25 0.125 ]' lamp.pbrt || fail "a lamp whose colour is a texture: $(grep Area lamp.pbrt)"
 expect 0 "$tyndall" convert cornell-smoke -o smoke.pbrt
 same 'media of pbrt' 2 "$(grep -c '^MakeNamedMedium' smoke.pbrt)"
 
