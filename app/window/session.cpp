@@ -2,7 +2,7 @@
 
 #include "app/curves/chart.h"
 #include "app/window/accuracy/views.h"
-#include "app/window/document/open_document.h"
+#include "app/window/document/document.h"
 #include "core/base/error.h"
 #include "core/base/target.h"
 #include "core/scene/scene.h"

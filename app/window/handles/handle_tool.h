@@ -1,5 +1,5 @@
 #pragma once
-#include "app/window/document/edited_scene.h"
+#include "app/window/document/document.h"
 #include "app/window/handles/handles.h"
 #include "app/window/system/input_events.h"
 

@@ -9,10 +9,6 @@
 namespace tyndall {
 namespace {
 
-void histogram_panel(Ui& ui, PanelState& state) {
-  histogram_section(ui, state.histogram, state.now.frame.get(), state.scene->display);
-}
-
 constexpr Section sections[] = {
     {"Object", "", "properties, selected object", has_tab | of_scene, object_panel},
     {"Camera", "Camera", "camera settings", has_tab | of_scene, camera_panel},

@@ -1,13 +1,15 @@
 #pragma once
-#include "app/window/document/edited_scene.h"
+#include "app/window/document/document.h"
 #include "app/window/edit/material_edits.h"
 #include "app/window/panels/camera_slots.h"
 #include "app/window/panels/context.h"
-#include "app/window/panels/histogram.h"
 #include "app/window/panels/widgets.h"
 #include "app/window/system/preferences.h"
 #include "app/window/tools/selection.h"
+#include "core/render/frame.h"
 
+#include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -17,6 +19,30 @@
 
 /// The column of panels. Panels change the scene that they are given and leave requests; they start nothing.
 namespace tyndall {
+
+/// How many of a picture's pixels have which value on the screen.
+struct Histogram {
+  static constexpr std::size_t bins = 64;
+  std::array<std::array<std::uint32_t, bins>, 3> counts{};  ///< of red, green, blue: from black to white
+  std::uint32_t pixels = 0;                                 ///< that were counted
+  double white = 0;  ///< fraction of the pixels with a channel that the screen cannot show brighter
+  double black = 0;  ///< fraction of the pixels that are shown black
+};
+
+/// rgba: linear, 4 floats a pixel. Counts about 16,000 pixels, evenly spread.
+Histogram histogram_of(const std::vector<float>& rgba, const Display& display);
+
+/// The histogram of what is on the screen, kept until that changes.
+class LiveHistogram {
+ public:
+  const Histogram& of(const Frame& frame, const Display& display);
+
+ private:
+  std::uint64_t pass_ = 0;
+  const void* clean_ = nullptr;
+  Display display_;
+  Histogram histogram_;
+};
 
 /// How the list of objects is shown.
 struct ObjectsView {
@@ -90,6 +116,7 @@ std::vector<RowEntry> rows_of_column(const Ui& ui, const PanelState& state);
 
 void object_panel(Ui& ui, PanelState& state);
 void camera_panel(Ui& ui, PanelState& state);
+void histogram_panel(Ui& ui, PanelState& state);
 void background_panel(Ui& ui, PanelState& state);
 void image_panel(Ui& ui, PanelState& state);
 /// Only of a scene with an animation.
