@@ -3,8 +3,6 @@
 #include "app/window/accuracy/views.h"
 #include "app/window/edit/object_list.h"
 
-#include <utility>
-
 /// The table of commands, in the order of the palette and of the help table.
 namespace tyndall {
 namespace {

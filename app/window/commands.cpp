@@ -4,7 +4,6 @@
 #include "app/window/document/document.h"
 #include "app/window/tools/camera_control.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace tyndall {

@@ -1,6 +1,6 @@
 #pragma once
 #include "app/window/commands.h"
-#include "app/window/edit/linked_objects.h"
+#include "app/window/edit/arrange.h"
 #include "app/window/rendering/picture_view.h"
 #include "app/window/timeline/timeline.h"
 #include "app/window/tools/camera_control.h"

@@ -6,7 +6,6 @@
 #include "core/base/text.h"
 #include "core/system/process.h"
 
-#include <memory>
 #include <string>
 #include <utility>
 

@@ -16,8 +16,6 @@
 #include <exception>
 #include <fstream>
 #include <iterator>
-#include <optional>
-#include <utility>
 
 namespace tyndall {
 

@@ -1,12 +1,8 @@
 #include "app/window/document/editor.h"
 
-#include "core/scene/load.h"
 #include "core/scene/slots.h"
 
 #include <map>
-#include <memory>
-#include <string>
-#include <utility>
 
 namespace tyndall {
 

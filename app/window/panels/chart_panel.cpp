@@ -1,4 +1,3 @@
-#include "app/window/panels/chart_plot.h"
 #include "app/window/panels/panels.h"
 #include "app/window/system/imgui_compat.h"
 

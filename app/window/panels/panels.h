@@ -1,9 +1,11 @@
 #pragma once
+#include "app/curves/curve.h"
 #include "app/window/document/document.h"
 #include "app/window/edit/material_edits.h"
 #include "app/window/panels/camera_slots.h"
 #include "app/window/panels/context.h"
 #include "app/window/panels/widgets.h"
+#include "app/window/system/layout.h"
 #include "app/window/system/preferences.h"
 #include "app/window/tools/selection.h"
 #include "core/render/frame.h"
@@ -13,6 +15,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -136,5 +139,36 @@ std::vector<AccuracyLine> accuracy_lines(const LiveAccuracy& accuracy);
 
 inline constexpr float chart_height = 166;  ///< of the chart itself, units of the design
 void chart_panel(Ui& ui, PanelState& state);
+
+inline constexpr double target_rel_mse = 1e-4;  ///< of 1 % relative error
+
+/// The axes of the chart in a rectangle of the window: seconds to the right, relMSE upwards.
+struct ChartAxes {
+  Decades times{-1, 1}, errors{-4, 0};
+  Rect frame;
+
+  float x(double seconds) const;
+  float y(double rel_mse) const;
+  double seconds(float x) const;
+  double rel_mse(float y) const;
+};
+
+/// Axes that hold all curves and the target.
+ChartAxes axes_for(std::span<const ErrorCurve* const> curves, const Rect& frame);
+
+/// Where names of these widths stand: side by side from the left, `gap` apart, and in further rows beneath. first: the
+/// first row; a name that is wider has a row of its own.
+std::vector<Rect> rows_of_names(std::span<const float> widths, const Rect& first, float gap);
+
+/// A place on one of the curves.
+struct CurveReading {
+  std::size_t curve = 0;  ///< its index
+  ErrorPoint at;
+};
+
+/// The curve that is nearest above or beneath a place, at that time; a curve that ends less than `reach` beside it
+/// counts with its end. Nothing where there is none.
+std::optional<CurveReading> nearest_curve(std::span<const ErrorCurve* const> curves, const ChartAxes& axes, float x,
+                                          float y, float reach);
 
 }  // namespace tyndall

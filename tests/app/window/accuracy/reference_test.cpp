@@ -1,4 +1,4 @@
-#include "app/window/accuracy/reference.h"
+#include "app/window/accuracy/comparison.h"
 
 #include "app/text/values.h"
 #include "app/window/document/document.h"
