@@ -1,9 +1,8 @@
-#include "app/window/appearance.h"
-
-#include "app/window/tools/selection.h"
+#include "app/window/main_window.h"
 
 #include <algorithm>
 
+/// How the window looks: theme, size of texts, and fonts for the names that the scene has.
 namespace tyndall {
 namespace {
 
@@ -17,34 +16,39 @@ std::string found_text(const Fonts& fonts, const Characters& more) {
 }  // namespace
 
 /// Looks for characters that the fonts were not loaded for. Returns whether there are any.
-bool Appearance::find_characters(const std::vector<std::filesystem::path>& files) {
-  bool added = add_characters(ui_.edit.text, more_);
-  added = add_characters(session_.messages.current().text, more_) || added;
-  if (files.size() != files_)
-    for (const auto& file : files) added = add_characters(file.string(), more_) || added;
-  files_ = files.size();
-  if (session_.editor.changes() == changes_) return added;
-  changes_ = session_.editor.changes();
+bool MainWindow::find_characters() {
+  const std::vector<std::filesystem::path>& files = gallery_.recent();
+  bool added = add_characters(ui_.edit.text, more_characters_);
+  added = add_characters(session_.messages.current().text, more_characters_) || added;
+  if (files.size() != named_files_)
+    for (const auto& file : files) added = add_characters(file.string(), more_characters_) || added;
+  named_files_ = files.size();
+  if (session_.editor.changes() == named_changes_) return added;
+  named_changes_ = session_.editor.changes();
   const Scene& scene = session_.editor.scene();
-  added = add_characters(session_.editor.document().origin->title, more_) || added;
-  for (const Material& material : scene.materials) added = add_characters(material.name, more_) || added;
-  for (const Texture& texture : scene.textures) added = add_characters(texture.name, more_) || added;
-  each_object(scene.objects, [&](const Object& object) { added = add_characters(object.name, more_) || added; });
+  added = add_characters(session_.editor.document().origin->title, more_characters_) || added;
+  for (const Material& material : scene.materials) added = add_characters(material.name, more_characters_) || added;
+  for (const Texture& texture : scene.textures) added = add_characters(texture.name, more_characters_) || added;
+  each_object(scene.objects,
+              [&](const Object& object) { added = add_characters(object.name, more_characters_) || added; });
   return added;
 }
 
-void Appearance::update(const Preferences& look, const std::vector<std::filesystem::path>& files) {
-  const WindowSize size = platform_.size();
+/// Puts into effect what the user chose, what the screen's density asks for, and what names need. To be called before
+/// Dear ImGui's frame begins.
+void MainWindow::update_look() {
+  const Preferences& look = session_.preferences;
+  const WindowSize size = platform_->size();
   const auto larger = static_cast<float>(look.text_size);
   const float pixels = larger * size.pixels, scale = larger * size.scale;
   const bool resized = pixels != ui_.pixels || scale != ui_.scale;
   if (resized || look.theme != theme_) set_style(scale, theme_ = look.theme);
-  if (!find_characters(files) && !resized) return;
-  ui_.fonts = load_fonts(pixels, scale, more_);
-  if (ui_.pixels != 0) platform_.renew_fonts();
+  if (!find_characters() && !resized) return;
+  ui_.fonts = load_fonts(pixels, scale, more_characters_);
+  if (ui_.pixels != 0) platform_->renew_fonts();
   ui_.pixels = pixels;
   ui_.scale = scale;
-  if (ui_.log) ui_.log->changed("fonts", found_text(ui_.fonts, more_));
+  if (ui_.log) ui_.log->changed("fonts", found_text(ui_.fonts, more_characters_));
 }
 
 }  // namespace tyndall

@@ -3,8 +3,6 @@
 #include "app/window/accuracy/views.h"
 #include "app/window/edit/object_list.h"
 
-#include <utility>
-
 /// The table of commands, in the order of the palette and of the help table.
 namespace tyndall {
 namespace {
@@ -83,7 +81,11 @@ std::vector<Command> Commands::table_of_picture() {
   return {
       {"frame the selection", "zoom to, centre, center, frame selected, view selected, zoom selected", plain('F'),
        in_object_menu, [](Commands& c, auto&) { c.frame_selection(); }, requires_selection},
-      {"reset the camera", "home, reset view", home_key, beside_previous, [](Commands& c, auto&) { c.reset_camera(); },
+      {"reset the camera", "home, reset view", home_key, beside_previous,
+       [](Commands& c, auto&) {
+         Editor& editor = c.session_.editor;
+         editor.change([&](Scene& scene) { scene.camera = editor.document().origin->saved.camera; });
+       },
        requires_scene},
       {"inspect pixels", "pick, probe, pixel value, eyedropper, color picker", plain('I'), 0,
        [](Commands& c, auto&) { c.picture_.inspector.set_on(!c.picture_.inspector.on()); }, nullptr,
@@ -149,26 +151,27 @@ std::vector<Command> Commands::table_of_views() {
 }
 
 std::vector<Command> Commands::table_of_window() {
-  return {
-      {"hide the panels", "show the panels, show the column, sidebar, toggle sidebar, hide ui", tab_key, 0,
-       [](Commands& c, auto&) { c.shows_panels_ = !c.shows_panels_; }},
-      {"full screen", "maximize, maximise", f11_key, beside_previous,
-       [](Commands& c, auto&) { c.platform_.toggle_full_screen(); }},
-      {"larger text", "font size, larger font, bigger text, preferences, settings", ctrl('+'), 0,
-       [](Commands& c, auto&) { c.step_text_size(1); }},
-      {"smaller text", "smaller font", ctrl('-'), beside_previous, [](Commands& c, auto&) { c.step_text_size(-1); }},
-      {"usual text", "reset font size", ctrl('0'), beside_previous,
-       [](Commands& c, auto&) { c.session_.preferences.text_size = 1; }},
-      {"dark or light theme", "dark mode, light mode, colours of the window, colors of the window", no_key, 0,
-       [](Commands& c, auto&) {
-         Theme& theme = c.session_.preferences.theme;
-         theme = other_theme(theme);
-       }},
-      {"close the window", "exit, quit", ctrl('Q'), 0, [](Commands& c, auto&) { c.ask_to_close(); }},
-      {"all actions by name", "", ctrl('K'), 0, [](Commands& c, auto&) { c.open_palette(); }, nullptr,
-       "and all rows: ior, roughness, fov"},
-      {"this table", "help, keys, shortcuts, hotkeys, keymap, manual", f1_key, 0,
-       [](Commands& c, auto&) { c.shows_help_ = !c.shows_help_; }, nullptr, "", plain('H')}};
+  return {{"hide the panels", "show the panels, show the column, sidebar, toggle sidebar, hide ui", tab_key, 0,
+           [](Commands& c, auto&) { c.shows_panels_ = !c.shows_panels_; }},
+          {"full screen", "maximize, maximise", f11_key, beside_previous,
+           [](Commands& c, auto&) { c.platform_.toggle_full_screen(); }},
+          {"larger text", "font size, larger font, bigger text, preferences, settings", ctrl('+'), 0,
+           [](Commands& c, auto&) { step_text_size(c.session_.preferences, 1); }},
+          {"smaller text", "smaller font", ctrl('-'), beside_previous,
+           [](Commands& c, auto&) { step_text_size(c.session_.preferences, -1); }},
+          {"usual text", "reset font size", ctrl('0'), beside_previous,
+           [](Commands& c, auto&) { c.session_.preferences.text_size = 1; }},
+          {"dark or light theme", "dark mode, light mode, colours of the window, colors of the window", no_key, 0,
+           [](Commands& c, auto&) {
+             Theme& theme = c.session_.preferences.theme;
+             theme = other_theme(theme);
+           }},
+          {"close the window", "exit, quit", ctrl('Q'), 0, [](Commands& c, auto&) { c.ask_to_close(); }},
+          {"all actions by name", "", ctrl('K'), 0,
+           [](Commands& c, auto&) { c.objects_.look_under_mouse(), c.opens_palette_ = true; }, nullptr,
+           "and all rows: ior, roughness, fov"},
+          {"this table", "help, keys, shortcuts, hotkeys, keymap, manual", f1_key, 0,
+           [](Commands& c, auto&) { c.shows_help_ = !c.shows_help_; }, nullptr, "", plain('H')}};
 }
 
 /// What only controls, answers to questions and lines of the palette ask for.
@@ -187,7 +190,10 @@ std::vector<Command> Commands::unlisted_table() {
       {"say", "", no_key, unlisted,  // what a row that the column does not show needs first: "Camera/Focus: " and that
        [](Commands& c, const std::string& row) { c.session_.messages.say(row.substr(row.find('/') + 1)); },
        requires_of_part},
-      {"vary", "", no_key, unlisted, [](Commands& c, const std::string& pointer) { c.vary(pointer); }},
+      {"vary", "", no_key, unlisted,
+       [](Commands& c, const std::string& pointer) {
+         if (const auto slot = find_slot(c.session_.editor.scene(), pointer)) c.strip_.vary(*slot);
+       }},
       {"key", "", no_key, unlisted, [](Commands& c, const std::string& pointer) { c.add_key(pointer); },
        requires_scene},
       {"scene", "", no_key, unlisted,  // argument: as load_scene takes it

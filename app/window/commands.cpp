@@ -1,11 +1,9 @@
 #include "app/window/commands.h"
 
 #include "app/window/accuracy/views.h"
-#include "app/window/document/open_document.h"
-#include "app/window/palette_list.h"
+#include "app/window/document/document.h"
 #include "app/window/tools/camera_control.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace tyndall {
@@ -65,11 +63,6 @@ void Commands::open_menu(const std::string& title, CommandFlag which) {
   menu_.open(objects_.mouse().x, objects_.mouse().y, title, std::move(items));
 }
 
-void Commands::open_palette() {
-  objects_.look_under_mouse();
-  opens_palette_ = true;
-}
-
 void Commands::go_to_row(const std::string& place) {
   const std::size_t slash = place.find('/');
   seek_row(ui_, {place.substr(0, slash), place.substr(slash + 1)});
@@ -84,17 +77,6 @@ void Commands::add_key(const std::string& pointer) {
   session_.editor.change([&](Scene& scene) { tyndall::add_key(scene, *slot, timeline_.frame()); });
 }
 
-void Commands::vary(const std::string& pointer) {
-  if (const auto slot = find_slot(session_.editor.scene(), pointer)) strip_.vary(*slot);
-}
-
-std::vector<std::string> Commands::listed_scenes() const {
-  std::vector<std::string> all;
-  for (const BuiltIn& scene : panels_.now.scenes) all.push_back(scene.name);
-  for (const std::filesystem::path& file : panels_.now.recent) all.push_back(file.string());
-  return all;
-}
-
 void Commands::play() {
   if (!session_.editor.scene().animation)
     return session_.messages.say("no value has keys: right click on a row, or store cameras and film through them");
@@ -107,11 +89,6 @@ void Commands::key_cameras() {
   session_.editor.change([&](Scene& scene) { tyndall::key_cameras(scene, slots); });
 }
 
-void Commands::reset_camera() {
-  const Camera saved = session_.editor.document().origin->saved.camera;
-  session_.editor.change([&](Scene& scene) { scene.camera = saved; });
-}
-
 void Commands::frame_selection() {
   const auto sphere = bounding_sphere(session_.editor.scene(), panels_.selected);
   if (!sphere) return;  // an empty group
@@ -119,11 +96,6 @@ void Commands::frame_selection() {
     const double aspect = static_cast<double>(scene.width) / scene.height;
     scene.camera = frame_sphere(scene.camera, sphere->center, sphere->radius, aspect);
   });
-}
-
-void Commands::step_text_size(int by) {
-  double& size = session_.preferences.text_size;
-  size = stepped_text_size(size, by);
 }
 
 void Commands::save_as() {
@@ -198,8 +170,12 @@ void Commands::escape() {
 void Commands::draw(const Rect& area) {
   shows_menu_ = menu_.is_open();
   if (auto chosen = menu_.draw(ui_, area)) ui_.requests.push_back(std::move(*chosen));
-  if (std::exchange(opens_palette_, false))
-    palette_.open(palette_items(listed_rows(rows_of_column(ui_, panels_)), listed_scenes()));
+  if (std::exchange(opens_palette_, false)) {
+    std::vector<std::string> scenes;  // what can be opened by a click
+    for (const BuiltIn& scene : panels_.now.scenes) scenes.push_back(scene.name);
+    for (const std::filesystem::path& file : panels_.now.recent) scenes.push_back(file.string());
+    palette_.open(palette_items(listed_rows(rows_of_column(ui_, panels_)), scenes));
+  }
   if (auto chosen = palette_.draw(ui_, area)) ui_.requests.push_back(std::move(*chosen));
   if (shows_help_) draw_help(ui_, shows_help_);
   if (session_.editor.offers_reload() && !has_question())
@@ -210,10 +186,6 @@ void Commands::draw(const Rect& area) {
   if (dialog_.kind == Dialog::Kind::halves && !session_.split()) dialog_.kind = Dialog::Kind::none;
   closing_.draw(ui_, area, dialog_);
   if (auto answer = draw_dialog(ui_, area, dialog_)) ui_.requests.push_back(std::move(*answer));
-}
-
-void Commands::carry_out() {
-  for (const Request& request : std::exchange(ui_.requests, {})) act(request);
 }
 
 }  // namespace tyndall

@@ -39,7 +39,7 @@ class Commands {
 
   /// Does what the user has asked for since the last drawing.
   void take(const InputEvents& events);
-  /// Carries out one request.
+  /// Carries out one request; those of a drawing at its end, when the panels' scene was handed to the editor.
   void act(const Request& request);
   /// The user wants to close the window: asks about what is not saved.
   void ask_to_close();
@@ -47,10 +47,6 @@ class Commands {
   bool closed() const { return closing_.done(); }
   /// Draws menu, palette, help table and the question that waits for an answer.
   void draw(const Rect& area);
-
-  /// To be called at the end of each drawing, when the panels' scene was handed to the editor: carries out what was
-  /// asked for in it.
-  void carry_out();
 
   /// Whether a dialog waits for an answer: until then nothing else takes clicks.
   bool has_dialog() const { return dialog_.kind != Dialog::Kind::none; }
@@ -78,24 +74,18 @@ class Commands {
   std::string why_not(const Command& command, const std::string& argument) const;
   bool take_key(const KeyPress& press);
   void open_menu(const std::string& title, CommandFlag which);
-  void step_text_size(int by);
   void play();
   void key_cameras();
-  void reset_camera();
   void frame_selection();
-  void open_palette();
   /// Brings up a row of the column, "Camera/Focus".
   void go_to_row(const std::string& place);
   void add_key(const std::string& pointer);
-  void vary(const std::string& pointer);
   /// Ends the split view; asks which half to keep where they differ.
   void end_split();
   void save();
   void save_as();
   void save_to(const std::filesystem::path& file);
   void save_named(std::filesystem::path file);
-  /// What can be opened by a click: the built-in scenes, and the files that were opened before.
-  std::vector<std::string> listed_scenes() const;
   void escape();
 
   Session& session_;

@@ -7,7 +7,6 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <utility>
 
@@ -166,15 +165,6 @@ Dialog halves_dialog(const std::string& method_a, const std::string& method_b) {
           2};
 }
 
-Dialog close_dialog(const Origin& unsaved) {
-  return {Dialog::Kind::close,
-          "Save the edits of " + unsaved.title + "?",
-          "The file of the scene does not have them.",
-          {{"dialog.save", "Save", Request{"save and close"}},
-           {"dialog.discard", "Discard", Request{"discard and close"}},
-           {"dialog.cancel", "Cancel"}}};
-}
-
 std::optional<Request> draw_dialog(Ui& ui, const Rect& area, Dialog& dialog) {
   if (dialog.kind == Dialog::Kind::none) return {};
   begin_dialog(ui, area);
@@ -197,7 +187,12 @@ void Closing::begin(Dialog& dialog) {
   const Document* unsaved = session_.unsaved();
   if (!unsaved) return finish();
   step_ = Step::asking;
-  dialog = close_dialog(*unsaved->origin);
+  dialog = {Dialog::Kind::close,
+            "Save the edits of " + unsaved->origin->title + "?",
+            "The file of the scene does not have them.",
+            {{"dialog.save", "Save", Request{"save and close"}},
+             {"dialog.discard", "Discard", Request{"discard and close"}},
+             {"dialog.cancel", "Cancel"}}};
 }
 
 void Closing::draw(Ui& ui, const Rect& area, const Dialog& dialog) {

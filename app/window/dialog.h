@@ -41,7 +41,6 @@ Dialog picture_dialog(const std::filesystem::path& file);
 Dialog changed_file_dialog(const Origin& origin);
 /// method_a, method_b: how the halves of the split view are rendered.
 Dialog halves_dialog(const std::string& method_a, const std::string& method_b);
-Dialog close_dialog(const Origin& unsaved);
 
 /// Draws the question, which goes once it is answered. Returns what the answer asks for.
 std::optional<Request> draw_dialog(Ui& ui, const Rect& area, Dialog& dialog);

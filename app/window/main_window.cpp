@@ -22,24 +22,19 @@ std::string what_of(const Origin& origin) {
   return origin.file.empty() ? origin.what : std::filesystem::absolute(origin.file, ignored).string();
 }
 
-std::unique_ptr<UiLog> open_log(const std::filesystem::path& file) {
-  return file.empty() ? nullptr : std::make_unique<UiLog>(file);
-}
-
 }  // namespace
-
-void FrameAlarm::on_frame(Platform& platform) {
-  if (clock_seconds() >= due && !rang.exchange(true)) platform.wake();
-}
 
 MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Reference> reference,
                        std::unique_ptr<Platform> platform)
-    : log_(open_log(options.ui_log)),
+    : log_(options.ui_log.empty() ? nullptr : std::make_unique<UiLog>(options.ui_log)),
       platform_(std::move(platform)),
       session_(
-          options, wake_, [this] { alarm_.on_frame(*platform_); }, log_.get()),
+          options, wake_,
+          [this] {
+            if (clock_seconds() >= frame_due_ && !frame_rang_.exchange(true)) platform_->wake();
+          },
+          log_.get()),
       picture_(session_.renderers, session_.accuracy),
-      appearance_(*platform_, session_, ui_),
       objects_(session_, panels_),
       picture_tools_(session_, panels_, wake_),
       commands_(session_, *platform_, ui_, panels_, objects_, picture_tools_, strip_, timeline_) {
@@ -64,9 +59,6 @@ bool MainWindow::send(double now, bool scene_too) {
   return true;
 }
 
-/// Whether the picture of an edit is so near that drawing the window before would only hold it up.
-bool MainWindow::awaits_picture(double now) const { return now < awaits_until_; }
-
 bool MainWindow::picture_due(double now) const {
   const auto frame = picture_.unseen();
   if (!frame || now < session_.pacing.next_drawing()) return false;
@@ -82,13 +74,13 @@ double MainWindow::waiting_time(double now) {
   if (takes_in_again_) return 0;
   const double sends = std::max(0.0, session_.timer.latest() - now);
   if (hidden()) {  // nothing to draw until an event shows the window again
-    alarm_.due = std::numeric_limits<double>::infinity();
+    frame_due_ = std::numeric_limits<double>::infinity();
     return sends;
   }
   // The order matters: a frame that comes from here on, after its time, wakes the window. One that came before is seen
   // below. One that comes in between is seen when its time has come.
   const double due = std::max(session_.pacing.picture_due(), session_.pacing.next_drawing());
-  alarm_.due = due;
+  frame_due_ = due;
   const auto frame = picture_.unseen();
   double wait = std::max(session_.pacing.wait(now), awaits_until_ - now);
   if (frame)
@@ -107,14 +99,6 @@ void MainWindow::use_preferences() {
   if (!read_mouse().any_down()) session_.keep_preferences();
 }
 
-/// What was opened or saved is among the recent files from then on.
-void MainWindow::note_files() {
-  if (session_.shows_picture()) return;
-  const std::shared_ptr<const Origin>& origin = session_.editor.document().origin;
-  if (std::exchange(noted_, origin) == origin) return;
-  gallery_.note_file(origin->what);
-}
-
 void MainWindow::draw(double now) {
   const double cpu_before = thread_cpu_seconds();
   session_.pacing.on_drawing();
@@ -123,8 +107,9 @@ void MainWindow::draw(double now) {
     send(now);
     return session_.pacing.on_drawn(now);
   }
-  note_files();
-  appearance_.update(session_.preferences, gallery_.recent());
+  const std::shared_ptr<const Origin>& origin = session_.editor.document().origin;
+  if (!session_.shows_picture() && std::exchange(noted_, origin) != origin) gallery_.note_file(origin->what);
+  update_look();
   platform_->begin_frame();
   ui_.wake_in = 1e300;
   ui_.has_question = commands_.has_dialog();
@@ -326,7 +311,7 @@ void MainWindow::apply_panels(double now) {
   take_edit();
   session_.editor.select(all_selected(panels_));
   if (!ui_.problem.empty()) session_.messages.say(ui_.problem, true);
-  commands_.carry_out();
+  for (const Request& request : std::exchange(ui_.requests, {})) commands_.act(request);
   gallery_.thumbnails.want(panels_.wanted_pictures);
   use_preferences();
   if (shows_errors(session_.view()) && !session_.can_show_errors())

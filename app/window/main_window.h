@@ -1,9 +1,7 @@
 #pragma once
-#include "app/window/appearance.h"
 #include "app/window/commands.h"
-#include "app/window/edit/linked_objects.h"
+#include "app/window/edit/arrange.h"
 #include "app/window/rendering/picture_view.h"
-#include "app/window/system/lost_display.h"
 #include "app/window/timeline/timeline.h"
 #include "app/window/tools/camera_control.h"
 #include "app/window/tools/pointer.h"
@@ -17,15 +15,6 @@
 
 /// The window's main loop, which ties together all that the other files of this folder do.
 namespace tyndall {
-
-/// Wakes the window when a renderer has made a frame; called by the renderers' threads. Once it has rung, further
-/// frames do not wake the window until it has looked.
-struct FrameAlarm {
-  std::atomic<double> due = 0;  ///< clock second from which on a frame wakes the window
-  std::atomic<bool> rang = false;
-
-  void on_frame(Platform& platform);
-};
 
 /// The window: waits for events, draws when there is something new, and hands edits to the session.
 class MainWindow {
@@ -56,19 +45,19 @@ class MainWindow {
   void draw_strip(const Rect& rect);
   void draw_timeline(const Rect& rect);
   bool send(double now, bool scene_too = true);
-  bool awaits_picture(double now) const;
   void keep_message(double now);
-  int end_of_signal();
   void finish_drawing(double now, double cpu_before, bool fresh);
   Layout layout_for(const WindowSize& size, int image_width, int image_height) const;
   void follow_window_size();
   void use_preferences();
-  void note_files();
+  bool find_characters();
+  void update_look();
 
   std::unique_ptr<UiLog> log_;
   std::unique_ptr<Platform> platform_;
   std::function<void()> wake_ = [this] { platform_->wake(); };  ///< called from any thread
-  FrameAlarm alarm_;
+  std::atomic<double> frame_due_ = 0;     ///< clock second from which on a renderer's frame wakes the window
+  std::atomic<bool> frame_rang_ = false;  ///< one has; further ones do not until the window has looked
   Session session_;
   std::optional<SignalWatch> signals_;  ///< none where signals are left to the program that the window belongs to
   PictureView picture_;
@@ -79,7 +68,10 @@ class MainWindow {
   Gallery gallery_{wake_};
   Ui ui_;
   PanelState panels_;
-  Appearance appearance_;
+  Theme theme_ = Theme::dark;
+  Characters more_characters_;                       ///< beyond the usual ones, that the names have
+  std::uint64_t named_changes_ = ~std::uint64_t{0};  ///< Editor::changes() when the scene's names were looked at
+  std::size_t named_files_ = 0;                      ///< of the recent files, whose names were looked at
   PointerTool pointer_;
   Flight flight_;
   GestureStart start_;

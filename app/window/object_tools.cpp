@@ -1,8 +1,6 @@
 #include "app/window/object_tools.h"
 
-#include "app/window/edit/arrange.h"
 #include "app/window/edit/material_edits.h"
-#include "app/window/handles/handles.h"
 #include "app/window/overlays.h"
 #include "app/window/tools/camera_control.h"
 

@@ -1,7 +1,7 @@
 #pragma once
-#include "app/window/edit/linked_objects.h"
+#include "app/window/edit/arrange.h"
 #include "app/window/edit/object_list.h"
-#include "app/window/handles/handle_tool.h"
+#include "app/window/handles/handles.h"
 #include "app/window/panels/panels.h"
 #include "app/window/session.h"
 #include "app/window/tools/pointer.h"

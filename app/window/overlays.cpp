@@ -141,7 +141,6 @@ void draw_status(Ui& ui, const Rect& rect, const std::vector<StatusCell>& cells)
                      gap);
   float x = rect.x0 + 14 * s;
   const float y = rect.y0 + (rect.height() - ImGui::GetTextLineHeight()) / 2;
-  std::string line;
   for (const std::size_t i : fitting_cells(cells, widths, rect.width() - 28 * s + gap)) {
     const StatusCell& cell = cells[i];
     draw->AddText({x, y}, shade(palette::dim), cell.key.c_str());
@@ -149,7 +148,6 @@ void draw_status(Ui& ui, const Rect& rect, const std::vector<StatusCell>& cells)
     const Tone colour = cell.warning ? palette::amber : i == 0 ? palette::blue : palette::text;
     draw->AddText({value_at, y}, shade(colour), cell.value.c_str());
     x += widths[i];
-    line += (line.empty() ? "" : " | ") + cell.key + (cell.key.empty() ? "" : " ") + cell.value;
   }
   ImGui::PopFont();
   if (ui.log) ui.log->changed("state", cells.front().value);

@@ -1,13 +1,11 @@
 #include "app/window/main_window.h"
 
 #include "app/text/standard_streams.h"
-#include "app/window/document/open_document.h"
-#include "app/window/system/lost_display.h"
+#include "app/window/document/document.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/system/process.h"
 
-#include <memory>
 #include <string>
 #include <utility>
 
@@ -37,7 +35,13 @@ int MainWindow::run() {
   while (step()) {
   }
   platform_->hide();  // a comparison or a snapshot may still take a second
-  return end_of_signal();
+  // Says what becomes of edits that no file has, which there are where a signal ends the window.
+  const int signal = signals_ ? signals_->received() : 0;
+  session_.wanted.paused = true;
+  session_.send(clock_seconds(), false);
+  if (const std::string edits = session_.flush_edits(); !edits.empty()) complain(printable(edits, 2000));
+  if (const std::string files = session_.finish_files(); !files.empty()) complain(printable(files, 2000));
+  return signal == 0 ? 0 : 128 + signal;
 }
 
 bool MainWindow::step() {
@@ -48,7 +52,7 @@ bool MainWindow::step() {
   const double wait = waiting_time(clock_seconds());
   if (at_rest && wait >= 1) log_->rest();
   platform_->wait(wait);
-  alarm_.rang = false;
+  frame_rang_ = false;
   if (platform_->take_close_wish()) commands_.ask_to_close();
   const InputEvents events = platform_->take_events();
   if (input_since_ <= 0) input_since_ = events.first;
@@ -62,7 +66,7 @@ bool MainWindow::step() {
   if (session_.accuracy.collect()) session_.pacing.wake_at(now);
   const bool due = picture_due(now), again = std::exchange(takes_in_again_, false);
   if (!due && !again) send(now);
-  if (due || again || (session_.pacing.wait(now) <= 0 && !awaits_picture(now))) draw(now);
+  if (due || again || (session_.pacing.wait(now) <= 0 && now >= awaits_until_)) draw(now);
   return true;
 }
 
@@ -71,18 +75,6 @@ void MainWindow::rest(bool rests) {
   if (rests) paused_before_ = paused;
   paused = rests || paused_before_;
   session_.send(clock_seconds(), false);
-}
-
-/// Says what becomes of edits that no file has, which there are where a signal ends the window. Returns the exit code.
-int MainWindow::end_of_signal() {
-  const int signal = signals_ ? signals_->received() : 0;
-  session_.wanted.paused = true;
-  session_.send(clock_seconds(), false);
-  const std::string edits = session_.flush_edits();
-  if (!edits.empty()) complain(printable(edits, 2000));
-  const std::string files = session_.finish_files();
-  if (!files.empty()) complain(printable(files, 2000));
-  return signal == 0 ? 0 : 128 + signal;
 }
 
 int run_window(const WindowOptions& options) {

@@ -2,7 +2,7 @@
 
 #include "app/curves/chart.h"
 #include "app/window/accuracy/views.h"
-#include "app/window/document/open_document.h"
+#include "app/window/document/document.h"
 #include "core/base/error.h"
 #include "core/base/target.h"
 #include "core/scene/scene.h"
@@ -168,13 +168,9 @@ void Session::pause_at_limits(const Frame& frame) {
 }
 
 bool Session::collect() {
-  bool came = loading_.collect();
-  came = saving.collect() || came;
-  came = editor.collect() || came;
-  came = references.collect() || came;
-  came = tell_of_keeping() || came;
-  came = collect_rows() || came;
-  came = collect_problem() || came;
+  // All of them, one after another.
+  const bool came = std::max({loading_.collect(), saving.collect(), editor.collect(), references.collect(),
+                              tell_of_keeping(), collect_rows(), collect_problem()});
   const auto problem = renderers.reply().problem;
   if (problem == told_problem_) return came;
   told_problem_ = problem;
@@ -193,23 +189,16 @@ void Session::show_view(int number) {
   accuracy.set_view(view_entry(number).error);
 }
 
-namespace {
-
-/// aside: where a damaged file was put; empty: it could not be moved.
-std::string fate_of(const std::filesystem::path& aside) {
-  return aside.empty() ? ", and the file cannot be moved out of the way"
-                       : ", the file is now " + aside.filename().string();
-}
-
-}  // namespace
-
 /// A damaged file is told of once, if it can be set aside.
 void Session::read_preferences_file() {
   const std::filesystem::path file = preferences_file();
-  if (const auto read = read_preferences(file))
+  if (const auto read = read_preferences(file)) {
     preferences = kept_preferences_ = *read;
-  else
-    messages.say(file.string() + " is damaged; the window begins with its defaults" + fate_of(set_aside(file)));
+    return;
+  }
+  const std::string aside = set_aside(file).filename().string();
+  messages.say(file.string() + " is damaged; the window begins with its defaults" +
+               (aside.empty() ? ", and the file cannot be moved out of the way" : ", the file is now " + aside));
 }
 
 void Session::keep_preferences() {

@@ -1,6 +1,6 @@
 #include "app/window/session.h"
 
-#include "app/window/document/open_document.h"
+#include "app/window/document/document.h"
 #include "core/system/processors.h"
 
 #include <fmt/core.h>

@@ -15,12 +15,7 @@ std::optional<ReferenceFit> fit_to(const std::shared_ptr<const Reference>& refer
 
 LiveAccuracy::LiveAccuracy(const std::function<void()>& on_result, std::function<double()> clock)
     : clock_(std::move(clock)),
-      measured_{{{ProcessorBudget(0.003)},
-                 {ProcessorBudget(0.003)},
-                 {ProcessorBudget(0.002)},
-                 {ProcessorBudget(0.01)},
-                 {ProcessorBudget(0.1)},
-                 {ProcessorBudget(0.008)}}},
+      measured_{{{0.003}, {0.003}, {0.002}, {0.01}, {0.1}, {0.008}}},
       quick_{JobQueue(on_result)},
       slow_{JobQueue(on_result)} {}
 
@@ -119,15 +114,13 @@ bool LiveAccuracy::wanted(Measurement what) const {
 }
 
 ComparisonOrder LiveAccuracy::order_of(Measurement what) const {
-  const bool between_halves = split_ && !is_truth(what);
   const ComparedHalf& measured = half(half_of(what));
   ComparisonOrder order;
   order.frame = measured.frame;
-  if (between_halves)
-    order.kept = half(Half::kept).frame;
-  else
+  if (!split_ || is_truth(what))
     order.reference = reference_;
-  if (between_halves && !order.kept) return {};
+  else
+    order.kept = half(Half::kept).frame;
   if (what == Measurement::map || what == Measurement::flip_map) order.map = view_;
   order.flip = what == Measurement::flip;
   const ErrorCurve& known = measured.clean_truth.current();

@@ -3,7 +3,6 @@
 #include "app/text/numbers.h"
 
 #include <exception>
-#include <utility>
 
 namespace tyndall {
 

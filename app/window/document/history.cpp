@@ -1,12 +1,8 @@
-#include "app/window/document/history.h"
+#include "app/window/document/editor.h"
 
-#include "core/scene/load.h"
 #include "core/scene/slots.h"
 
 #include <map>
-#include <memory>
-#include <string>
-#include <utility>
 
 namespace tyndall {
 
@@ -65,16 +61,9 @@ void History::set_origin(const std::shared_ptr<const Origin>& origin) {
   }
 }
 
-namespace {
-
-/// By the name of a texture's or sky's file: the picture that it holds now.
-using Pictures = std::map<std::string, std::shared_ptr<const Image::Pixels>>;
-
-}  // namespace
-
 bool History::take_pictures(const Scene& read) {
   const std::shared_ptr<const Origin> before = current().origin;
-  Pictures changed, now;
+  std::map<std::string, std::shared_ptr<const Image::Pixels>> changed, now;  // by the name of a texture's or sky's file
   each_picture(read, [&](const auto& image) { now[image.file] = image.pixels; });
   each_picture(before->saved, [&](const auto& image) {
     const auto found = now.find(image.file);

@@ -3,7 +3,6 @@
 
 #include <deque>
 #include <functional>
-#include <mutex>
 #include <vector>
 
 /// Work in the background.

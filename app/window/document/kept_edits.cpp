@@ -1,6 +1,5 @@
-#include "app/window/document/kept_edits.h"
+#include "app/window/document/autosave.h"
 
-#include "app/window/document/open_document.h"
 #include "core/base/error.h"
 #include "core/system/files.h"
 

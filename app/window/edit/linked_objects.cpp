@@ -1,4 +1,3 @@
-#include "app/window/edit/linked_objects.h"
 
 #include "app/window/edit/arrange.h"
 
@@ -16,11 +15,10 @@ bool is_inner_sphere(const Scene& scene, const Object& object, const Object& lea
          std::abs(inner->radius) < std::abs(outer->radius);
 }
 
+/// leader: a solid.
 bool belongs_to(const Scene& scene, const Object& object, const Object& leader) {
-  const Solid3d* solid = std::get_if<Solid3d>(&leader.kind);
-  if (!solid) return false;
   const Volume* volume = std::get_if<Volume>(&object.kind);
-  return (volume && fills(*volume, *solid)) || is_inner_sphere(scene, object, leader);
+  return (volume && fills(*volume, std::get<Solid3d>(leader.kind))) || is_inner_sphere(scene, object, leader);
 }
 
 /// Gives the companion the changes between two states of its sphere. linked: as it was before.

@@ -1,7 +1,6 @@
 #include "app/window/edit/material_edits.h"
 
 #include "app/window/edit/arrange.h"
-#include "app/window/edit/linked_objects.h"
 #include "core/base/kinds.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 #include "app/window/edit/object_list.h"
 
 #include "app/window/edit/arrange.h"
-#include "app/window/edit/linked_objects.h"
 #include "app/window/tools/camera_control.h"
 #include "core/base/kinds.h"
 #include "core/base/math.h"

@@ -1,7 +1,6 @@
-#include "app/window/handles/handle_tool.h"
+#include "app/window/handles/handles.h"
 
 #include "app/text/numbers.h"
-#include "app/window/edit/arrange.h"
 #include "app/window/tools/camera_control.h"
 #include "core/base/math.h"
 
@@ -162,14 +161,12 @@ void HandleTool::grab(const Mouse& mouse, const ObjectPaths& selected, const Sce
   grabbed_ = moved_ = true;
 }
 
-void HandleTool::choose_axis(HandleKind kind) {
-  drag_->handle.kind = drag_->handle.kind == kind ? HandleKind::plane : kind;  // the same key again: free once more
-}
-
 bool HandleTool::take_key(int key) {
   if (!drag_) return false;
+  const auto axis = static_cast<HandleKind>(static_cast<int>(HandleKind::along_x) + key - 'X');
+  HandleKind& kind = drag_->handle.kind;
   if (grabbed_ && key >= 'X' && key <= 'Z')
-    choose_axis(static_cast<HandleKind>(static_cast<int>(HandleKind::along_x) + key - 'X'));
+    kind = kind == axis ? HandleKind::plane : axis;  // the same key again: free once more
   else if (key == key_enter || key == key_keypad_enter)
     confirmed_ = true;
   else if (key == key_backspace && !typed_.empty())

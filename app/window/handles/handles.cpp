@@ -16,8 +16,6 @@ constexpr double arrow_start = 14, arrow = 50, short_arrow_end = 34, ring_radius
 constexpr double min_seen = 0.05;  // of PictureFrame::seen_direction(): with less, it has no direction
 constexpr int ring_points = 64;
 
-bool can_rotate(const Scene& scene, const ObjectPath& path) { return !shape_of<Sphere<>>(*find_object(scene, path)); }
-
 double distance(WindowPoint a, WindowPoint b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 double distance_to_line(WindowPoint p, WindowPoint a, WindowPoint b) {
@@ -54,15 +52,14 @@ void add_ring(const PictureFrame& frame, Vec3d origin, std::vector<Handle>& out)
   out.push_back(std::move(ring));
 }
 
-bool is_arrow(const Handle& handle) { return handle.points.size() == 2; }
-
 /// Where a grip can be taken: at its place, or as far outside along its way as it needs to keep off the middle and the
 /// arrows. A grip that is seen from its end stays. Nothing where it is not in front of the camera.
 std::optional<WindowPoint> place_of_grip(const PictureFrame& frame, const SizeGrip& grip, WindowPoint middle,
                                          const std::vector<Handle>& handles) {
   const auto free = [&](WindowPoint at) {
     const auto near = [&](const Handle& other) {
-      return is_arrow(other) && distance_to_line(at, other.points[0], other.points[1]) < grip_room * frame.scale;
+      return other.points.size() == 2 &&
+             distance_to_line(at, other.points[0], other.points[1]) < grip_room * frame.scale;
     };
     return distance(at, middle) >= min_grip * frame.scale && std::none_of(handles.begin(), handles.end(), near);
   };
@@ -163,9 +160,8 @@ std::vector<Handle> handles_of(const Scene& scene, const PictureFrame& frame, co
     handles.push_back({HandleKind::plane, 0, {*middle}});
     for (const HandleKind kind : {HandleKind::along_x, HandleKind::along_y, HandleKind::along_z})
       add_arrow(frame, origin, *middle, kind, handles);
-    const bool rotates =
-        std::all_of(selected.begin(), selected.end(), [&](const auto& p) { return can_rotate(scene, p); });
-    if (rotates) add_ring(frame, origin, handles);
+    const auto is_sphere = [&](const ObjectPath& p) { return shape_of<Sphere<>>(*find_object(scene, p)) != nullptr; };
+    if (std::none_of(selected.begin(), selected.end(), is_sphere)) add_ring(frame, origin, handles);
   }
   if (selected.size() == 1) add_grips(scene, frame, selected.front(), handles);
   return handles;
@@ -175,9 +171,8 @@ std::optional<Handle> handle_at(const std::vector<Handle>& handles, WindowPoint 
   const Handle* best = nullptr;
   double minimum = reach * scale;
   for (const Handle& handle : handles) {
-    double away = handle.points.size() == 1 ? distance(at, handle.points[0]) : 1e9;
-    const std::size_t lines = handle.points.size() == 2 ? 1 : handle.points.size() > 2 ? handle.points.size() : 0;
-    for (std::size_t k = 0; k < lines; ++k)
+    double away = 1e9;
+    for (std::size_t k = 0; k < handle.points.size(); ++k)  // a point alone is a line from and to itself
       away = std::min(away, distance_to_line(at, handle.points[k], handle.points[(k + 1) % handle.points.size()]));
     if (handle.kind == HandleKind::size) away -= 2 * scale;  // a grip on an arrow is meant
     if (handle.kind == HandleKind::rotate) away += 3 * scale;

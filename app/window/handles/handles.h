@@ -1,6 +1,8 @@
 #pragma once
+#include "app/window/document/document.h"
 #include "app/window/edit/arrange.h"
 #include "app/window/edit/object_list.h"
+#include "app/window/system/input_events.h"
 #include "app/window/system/layout.h"
 #include "app/window/system/ui_log.h"
 #include "app/window/tools/projection.h"
@@ -9,7 +11,9 @@
 #include <string>
 #include <vector>
 
-/// This room lets the user move, turn and size the selected objects with the mouse, right in the picture.
+/// This room lets the user move, turn and size the selected objects with the mouse, right in the picture; and by the
+/// keyboard: G, then X, Y or Z, then the mouse or a number. What that does to a scene is pure: the scene at the
+/// beginning and two places of the mouse give the scene.
 namespace tyndall {
 
 /// A place of the window, y down, window units.
@@ -64,5 +68,78 @@ void draw_handles(const PictureFrame& frame, const std::vector<Handle>& handles,
 void draw_handle_text(const PictureFrame& frame, const std::string& text);
 /// Tells the log where each handle can be taken. names: of the handles.
 void log_handles(UiLog& log, const std::vector<Handle>& handles, const std::vector<std::string>& names, double scale);
+
+/// A drag of a handle.
+struct HandleDrag {
+  Handle handle;
+  ObjectPaths selected;         ///< at least one; the first is the one whose numbers snapping rounds
+  Vec3d origin;                 ///< where the handles were, in the world
+  WindowPoint from, to;         ///< of the mouse
+  bool snap = false;            ///< to round numbers: about a fiftieth of the picture's height, or 5 degrees
+  bool fine = false;            ///< a tenth of these
+  std::optional<double> typed;  ///< in place of the mouse: scene units along the axis, the angle, or the size
+
+  bool moved() const { return typed || to.x != from.x || to.y != from.y; }
+};
+
+/// What was done, for the line that tells the user of it.
+struct DragResult {
+  Vec3d moved;       ///< how far the objects went, world
+  std::string said;  ///< "x +0.35"
+};
+
+/// Does it to `scene`, which is the scene at the beginning of the drag.
+DragResult apply_drag(Scene& scene, const PictureFrame& frame, const HandleDrag& drag);
+
+/// Moves, turns and sizes the selected objects.
+class HandleTool {
+ public:
+  /// To be called in each drawing, before the tool that orbits; changes the objects of the scene. free: nothing else
+  /// has the mouse. Returns whether the handles have it.
+  bool update(const Mouse& mouse, const Layout& layout, float scale, bool free, const ObjectPaths& selected,
+              EditedScene& scene);
+
+  /// Begins to move the selection with the mouse, without a button: until a click or Enter, or Esc or a right click,
+  /// which takes it back. Nothing happens without a selection.
+  void grab(const Mouse& mouse, const ObjectPaths& selected, const Scene& scene);
+  /// A key while something is moved; key: GLFW's number. Returns whether it was meant for this.
+  bool take_key(int key);
+  /// A character of a number or a sum that is typed meanwhile ("1/4", "2*pi"). Returns whether it was meant for this.
+  bool take_character(char character);
+  /// Gives up what is being done, and takes it back with the next drawing.
+  void cancel() { cancelled_ = drag_.has_value(); }
+
+  /// Whether something is being moved, turned or sized.
+  bool active() const { return drag_.has_value(); }
+  bool grabbing() const { return drag_ && grabbed_; }
+  /// The handle under the mouse, or the one that is dragged.
+  const std::optional<Handle>& hovered() const { return hovered_; }
+  /// Whether a handle was pressed and let go without moving it, in this drawing: a click on what lies behind it.
+  bool clicked_through() const { return clicked_through_; }
+  /// What is being done: "x +0.35"; "": nothing.
+  const std::string& said() const { return said_; }
+
+  /// Where the handles are: in the middle of the first object, or where it was clicked if its middle is not in the
+  /// picture.
+  Vec3d origin(const Scene& scene, const PictureFrame& frame, const ObjectPaths& selected) const;
+  /// Remembers where the user clicked on an object.
+  void clicked(const Scene& scene, const ObjectPath& object, Vec3d point);
+
+ private:
+  bool begin(const Mouse& mouse, const PictureFrame& frame, const ObjectPaths& selected, const Scene& scene);
+  void follow_mouse(const Mouse& mouse, const PictureFrame& frame, EditedScene& scene);
+  void read_typed();
+  void end();
+
+  std::optional<HandleDrag> drag_;
+  std::vector<Object> start_;  ///< the objects when it began
+  std::vector<Material> materials_;
+  std::optional<Handle> hovered_;
+  std::string said_, typed_;
+  bool grabbed_ = false, moved_ = false, confirmed_ = false, cancelled_ = false;
+  bool waits_for_release_ = false, clicked_through_ = false;
+  ObjectPath clicked_;
+  Vec3d click_;  ///< from the middle of that object
+};
 
 }  // namespace tyndall

@@ -1,6 +1,6 @@
 #include "app/window/panels/camera_slots.h"
 
-#include "app/window/accuracy/reference.h"
+#include "app/window/accuracy/comparison.h"
 
 #include <algorithm>
 #include <cmath>

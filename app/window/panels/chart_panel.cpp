@@ -1,4 +1,3 @@
-#include "app/window/panels/chart_plot.h"
 #include "app/window/panels/panels.h"
 #include "app/window/system/imgui_compat.h"
 
@@ -27,6 +26,7 @@ constexpr ThemeTone earlier_tones[Convergence::max_earlier]{{{0.50f, 0.72f, 0.52
                                                             {{0.82f, 0.51f, 0.62f, 1}, {0.62f, 0.25f, 0.38f, 1}},
                                                             {{0.68f, 0.66f, 0.42f, 1}, {0.43f, 0.41f, 0.12f, 1}}};
 
+/// How a named curve is drawn. index: among all of them, of which the earlier ones come first.
 ChartLine line_of(const NamedCurve& named, std::size_t index) {
   using Role = NamedCurve::Role;
   if (named.role == Role::earlier)
@@ -35,13 +35,6 @@ ChartLine line_of(const NamedCurve& named, std::size_t index) {
                     : named.role == Role::clean ? palette::text
                                                 : palette::blue;
   return {named.curve, named.name, shade(tone), named.role == Role::current ? 2.5f : 2.0f};
-}
-
-/// How the named curves are drawn; the earlier ones come first among them.
-std::vector<ChartLine> lines_of(const std::vector<NamedCurve>& named) {
-  std::vector<ChartLine> lines;
-  for (const NamedCurve& one : named) lines.push_back(line_of(one, lines.size()));
-  return lines;
 }
 
 ImU32 target_colour() { return shade(palette::blue, 0.4f); }
@@ -108,18 +101,16 @@ void draw_guides(const Plot& plot, const ErrorCurve& curve) {
   }
 }
 
-void draw_curve(const Plot& plot, const ChartLine& line) {
-  std::vector<ImVec2> points;
-  for (const ErrorPoint& p : line.curve->points) points.push_back(plot.at(p));
-  if (points.size() > 1)
-    plot.draw->AddPolyline(points.data(), static_cast<int>(points.size()), line.colour, 0, line.width * plot.ui.scale);
-}
-
 void draw_lines(const Plot& plot) {
   const Rect& f = plot.axes.frame;
   plot.draw->PushClipRect({f.x0, f.y0}, {f.x1, f.y1}, true);
   draw_guides(plot, *plot.curves.back());
-  for (const ChartLine& line : plot.lines) draw_curve(plot, line);
+  for (const ChartLine& line : plot.lines) {
+    std::vector<ImVec2> points;
+    for (const ErrorPoint& p : line.curve->points) points.push_back(plot.at(p));
+    const auto count = static_cast<int>(points.size());
+    if (count > 1) plot.draw->AddPolyline(points.data(), count, line.colour, 0, line.width * plot.ui.scale);
+  }
   plot.draw->PopClipRect();
   for (const ChartLine& line : plot.lines)
     if (!line.curve->points.empty())
@@ -164,18 +155,15 @@ void read_out(Ui& ui, const Plot& plot) {
   const ErrorPoint& p = found->at;
   plot.draw->AddCircleFilled(plot.at(p), 4.5f * ui.scale, shade(palette::ink));
   plot.draw->AddCircle(plot.at(p), 4.5f * ui.scale, shade(palette::text), 0, 1.5f * ui.scale);
-  const std::string numbers = fmt::format("{:.2g} s, ", p.seconds) + format_count(p.spp) + " spp\nrelMSE " +
-                              fmt::format("{:.2g}", p.rel_mse) + ", error " +
-                              fmt::format("{:.2g} %", 100 * std::sqrt(p.rel_mse));
+  const std::string numbers = fmt::format("{:.2g} s, {} spp\nrelMSE {:.2g}, error {:.2g} %", p.seconds,
+                                          format_count(p.spp), p.rel_mse, 100 * std::sqrt(p.rel_mse));
   compat::push_font(ui.fonts.small);
   ImGui::BeginTooltip();
   ImGui::TextUnformatted(line.name.c_str());
   ImGui::TextColored(palette::dim, "%s", numbers.c_str());
   ImGui::EndTooltip();
   ImGui::PopFont();
-  if (ui.log)
-    ui.log->changed("reading",
-                    line.name + ": " + fmt::format("{:.4g} s ", p.seconds) + fmt::format("{:.4g}", p.rel_mse));
+  if (ui.log) ui.log->changed("reading", fmt::format("{}: {:.4g} s {:.4g}", line.name, p.seconds, p.rel_mse));
 }
 
 void draw_chart(Ui& ui, const PanelState& state, ImVec2 size) {
@@ -187,7 +175,8 @@ void draw_chart(Ui& ui, const PanelState& state, ImVec2 size) {
   compat::push_font(ui.fonts.small);
   const ImVec2 end{at.x + size.x, at.y + size.y};
   ImGui::GetWindowDrawList()->AddRectFilled(at, end, shade(palette::ink), 6 * s);
-  const std::vector<ChartLine> lines = lines_of(accuracy.named_curves());
+  std::vector<ChartLine> lines;
+  for (const NamedCurve& one : accuracy.named_curves()) lines.push_back(line_of(one, lines.size()));
   const Legend legend(ui, lines, at.x + 10 * s, end.x - 10 * s);
   const float foot = end.y - legend.height() - 6 * s;
   const Plot plot(ui, lines, {at.x + 38 * s, at.y + 10 * s, end.x - 14 * s, std::max(at.y + 40 * s, foot - 22 * s)});
@@ -215,6 +204,58 @@ AccuracyLine reference_line(const LiveAccuracy& accuracy) {
 }
 
 }  // namespace
+
+ChartAxes axes_for(std::span<const ErrorCurve* const> curves, const Rect& frame) {
+  ChartAxes axes;
+  axes.frame = frame;
+  double first = 1e300, last = 0, minimum = target_rel_mse, maximum = target_rel_mse;
+  for (const ErrorCurve* curve : curves)
+    for (const ErrorPoint& p : curve->points) {
+      first = std::min(first, p.seconds), last = std::max(last, p.seconds);
+      minimum = std::min(minimum, p.rel_mse), maximum = std::max(maximum, p.rel_mse);
+    }
+  if (last > 0) axes.times = decades_around(std::max(first, 1e-3), last, 2);
+  axes.errors = decades_around(std::min(minimum * 0.7, 1e-5), maximum, 3);
+  return axes;
+}
+
+float ChartAxes::x(double seconds) const {
+  return frame.x0 + static_cast<float>(times.part_of(seconds)) * frame.width();
+}
+float ChartAxes::y(double rel_mse) const {
+  return frame.y1 - static_cast<float>(errors.part_of(rel_mse)) * frame.height();
+}
+double ChartAxes::seconds(float x) const { return times.value_at(static_cast<double>((x - frame.x0) / frame.width())); }
+double ChartAxes::rel_mse(float y) const {
+  return errors.value_at(static_cast<double>((frame.y1 - y) / frame.height()));
+}
+
+std::optional<CurveReading> nearest_curve(std::span<const ErrorCurve* const> curves, const ChartAxes& axes, float x,
+                                          float y, float reach) {
+  std::optional<CurveReading> nearest;
+  float minimum = 0;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const ErrorCurve& curve = *curves[i];
+    if (curve.points.empty()) continue;
+    const ErrorPoint &first = curve.points.front(), &last = curve.points.back();
+    if (x < axes.x(first.seconds) - reach || x > axes.x(last.seconds) + reach) continue;
+    const auto at = point_at(curve, std::clamp(axes.seconds(x), first.seconds, last.seconds));
+    const float distance = std::abs(axes.y(at->rel_mse) - y);
+    if (!nearest || distance < minimum) nearest = CurveReading{i, *at}, minimum = distance;
+  }
+  return nearest;
+}
+
+std::vector<Rect> rows_of_names(std::span<const float> widths, const Rect& first, float gap) {
+  std::vector<Rect> rows;
+  float x = first.x0, y = first.y0;
+  for (const float width : widths) {
+    if (x > first.x0 && x + width > first.x1) x = first.x0, y += first.height();
+    rows.push_back({x, y, x + width, y + first.height()});
+    x += width + gap;
+  }
+  return rows;
+}
 
 std::vector<AccuracyLine> accuracy_lines(const LiveAccuracy& accuracy) {
   std::vector<AccuracyLine> lines;

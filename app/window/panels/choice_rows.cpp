@@ -3,7 +3,6 @@
 #include "core/base/text.h"
 
 #include <algorithm>
-#include <vector>
 
 /// Rows of choices: buttons side by side, and lists that drop down.
 namespace tyndall {

@@ -3,15 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
-#include <utility>
 
 namespace tyndall {
 namespace {
-
-void histogram_panel(Ui& ui, PanelState& state) {
-  histogram_section(ui, state.histogram, state.now.frame.get(), state.scene->display);
-}
 
 constexpr Section sections[] = {
     {"Object", "", "properties, selected object", has_tab | of_scene, object_panel},

@@ -1,4 +1,4 @@
-#include "app/window/panels/histogram.h"
+#include "app/window/panels/panels.h"
 
 #include "app/window/system/imgui_compat.h"
 
@@ -59,9 +59,9 @@ const Histogram& LiveHistogram::of(const Frame& frame, const Display& display) {
   return histogram_;
 }
 
-void histogram_section(Ui& ui, LiveHistogram& live, const Frame* frame, const Display& display) {
-  if (!section(ui, "Histogram", "what is shown, logarithmic") || !frame) return;
-  const Histogram& histogram = live.of(*frame, display);
+void histogram_panel(Ui& ui, PanelState& state) {
+  if (!section(ui, "Histogram", "what is shown, logarithmic") || !state.now.frame) return;
+  const Histogram& histogram = state.histogram.of(*state.now.frame, state.scene->display);
   const float s = ui.scale, width = ImGui::GetWindowContentRegionMax().x - ImGui::GetCursorPosX();
   const ImVec2 at = ImGui::GetCursorScreenPos(), size{std::max(width, 1.0f), 64 * s};
   ImGui::InvisibleButton("histogram", size);

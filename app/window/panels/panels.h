@@ -1,22 +1,51 @@
 #pragma once
-#include "app/window/document/edited_scene.h"
+#include "app/curves/curve.h"
+#include "app/window/document/document.h"
 #include "app/window/edit/material_edits.h"
 #include "app/window/panels/camera_slots.h"
 #include "app/window/panels/context.h"
-#include "app/window/panels/histogram.h"
 #include "app/window/panels/widgets.h"
+#include "app/window/system/layout.h"
 #include "app/window/system/preferences.h"
 #include "app/window/tools/selection.h"
+#include "core/render/frame.h"
 
+#include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 /// The column of panels. Panels change the scene that they are given and leave requests; they start nothing.
 namespace tyndall {
+
+/// How many of a picture's pixels have which value on the screen.
+struct Histogram {
+  static constexpr std::size_t bins = 64;
+  std::array<std::array<std::uint32_t, bins>, 3> counts{};  ///< of red, green, blue: from black to white
+  std::uint32_t pixels = 0;                                 ///< that were counted
+  double white = 0;  ///< fraction of the pixels with a channel that the screen cannot show brighter
+  double black = 0;  ///< fraction of the pixels that are shown black
+};
+
+/// rgba: linear, 4 floats a pixel. Counts about 16,000 pixels, evenly spread.
+Histogram histogram_of(const std::vector<float>& rgba, const Display& display);
+
+/// The histogram of what is on the screen, kept until that changes.
+class LiveHistogram {
+ public:
+  const Histogram& of(const Frame& frame, const Display& display);
+
+ private:
+  std::uint64_t pass_ = 0;
+  const void* clean_ = nullptr;
+  Display display_;
+  Histogram histogram_;
+};
 
 /// How the list of objects is shown.
 struct ObjectsView {
@@ -90,6 +119,7 @@ std::vector<RowEntry> rows_of_column(const Ui& ui, const PanelState& state);
 
 void object_panel(Ui& ui, PanelState& state);
 void camera_panel(Ui& ui, PanelState& state);
+void histogram_panel(Ui& ui, PanelState& state);
 void background_panel(Ui& ui, PanelState& state);
 void image_panel(Ui& ui, PanelState& state);
 /// Only of a scene with an animation.
@@ -109,5 +139,36 @@ std::vector<AccuracyLine> accuracy_lines(const LiveAccuracy& accuracy);
 
 inline constexpr float chart_height = 166;  ///< of the chart itself, units of the design
 void chart_panel(Ui& ui, PanelState& state);
+
+inline constexpr double target_rel_mse = 1e-4;  ///< of 1 % relative error
+
+/// The axes of the chart in a rectangle of the window: seconds to the right, relMSE upwards.
+struct ChartAxes {
+  Decades times{-1, 1}, errors{-4, 0};
+  Rect frame;
+
+  float x(double seconds) const;
+  float y(double rel_mse) const;
+  double seconds(float x) const;
+  double rel_mse(float y) const;
+};
+
+/// Axes that hold all curves and the target.
+ChartAxes axes_for(std::span<const ErrorCurve* const> curves, const Rect& frame);
+
+/// Where names of these widths stand: side by side from the left, `gap` apart, and in further rows beneath. first: the
+/// first row; a name that is wider has a row of its own.
+std::vector<Rect> rows_of_names(std::span<const float> widths, const Rect& first, float gap);
+
+/// A place on one of the curves.
+struct CurveReading {
+  std::size_t curve = 0;  ///< its index
+  ErrorPoint at;
+};
+
+/// The curve that is nearest above or beneath a place, at that time; a curve that ends less than `reach` beside it
+/// counts with its end. Nothing where there is none.
+std::optional<CurveReading> nearest_curve(std::span<const ErrorCurve* const> curves, const ChartAxes& axes, float x,
+                                          float y, float reach);
 
 }  // namespace tyndall

@@ -2,7 +2,6 @@
 #include "app/report/contents.h"
 #include "app/text/values.h"
 #include "app/window/accuracy/views.h"
-#include "app/window/panels/meaning.h"
 #include "app/window/panels/rows.h"
 #include "app/window/tools/camera_control.h"
 #include "core/base/kinds.h"
@@ -186,8 +185,6 @@ const char* missing_for_view(const Context& now, int number) {
   return shows_errors(number) && !now.can_show_errors ? "needs a reference: see Speed and accuracy" : nullptr;
 }
 
-std::string kernel_note(const Frame* frame) { return frame ? frame->isa + " × " + std::to_string(frame->lanes) : ""; }
-
 }  // namespace
 
 void camera_panel(Ui& ui, PanelState& state) {
@@ -245,7 +242,8 @@ void film_panel(Ui& ui, PanelState& state) {
 }
 
 void render_panel(Ui& ui, PanelState& state) {
-  if (!section(ui, "Render", kernel_note(state.now.frame.get()))) return;
+  const Frame* frame = state.now.frame.get();
+  if (!section(ui, "Render", frame ? frame->isa + " × " + std::to_string(frame->lanes) : "")) return;
   const Scope scope(ui, "render");
   const auto said = [&](const Slot& slot, const std::string&) { return setting_meaning(state, slot.name); };
   part_rows(

@@ -11,14 +11,11 @@
 namespace tyndall {
 namespace {
 
-Tone frame_colour() {
-  return ImGui::IsItemActive()    ? palette::field_active
-         : ImGui::IsItemHovered() ? palette::field_hovered
-                                  : palette::field;
-}
-
 void draw_frame(const Ui& ui) {
-  ImGui::GetWindowDrawList()->AddRectFilled(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), shade(frame_colour()),
+  const Tone colour = ImGui::IsItemActive()    ? palette::field_active
+                      : ImGui::IsItemHovered() ? palette::field_hovered
+                                               : palette::field;
+  ImGui::GetWindowDrawList()->AddRectFilled(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), shade(colour),
                                             4 * ui.scale);
 }
 

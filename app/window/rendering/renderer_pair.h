@@ -7,7 +7,6 @@
 #include <atomic>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 
 /// This room makes the pictures and shows them: the renderers behind the window, one or two while the view is split,

@@ -1,7 +1,9 @@
 #pragma once
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <limits>
+#include <utility>
 
 /// Time in the window: its clocks, and when to draw and to send.
 namespace tyndall {
@@ -23,7 +25,7 @@ inline constexpr double echo_interval = 0.04;
 
 /// How long a new picture of an edit waits after the one before it: the first three of an edit not at all, then 0.1 s,
 /// growing with the age of the edit to 0.5 s. age: seconds since the edit; shown: pictures of it shown so far.
-double picture_interval(double age, int shown);
+inline double picture_interval(double age, int shown) { return shown < 3 ? 0.0 : std::clamp(0.1 * age, 0.1, 0.5); }
 
 /// Decides when the window is drawn: after an event at once and twice more a little later, for a picture when it is
 /// due, else never.
@@ -32,25 +34,37 @@ class Pacing {
   /// Something was pressed, moved, resized: draw, and draw further frames for what appears one frame later.
   void on_event() { frames_ = event_frames; }
   /// A picture of `edit` was shown.
-  void on_picture(unsigned long long edit, double now);
+  void on_picture(unsigned long long edit, double now) {
+    if (edit == edit_) ++shown_;
+    due_ = now + picture_interval(now - edit_time_, shown_);
+  }
   /// An edit was made: its pictures are due at once.
-  void on_edit(unsigned long long edit, double now);
+  void on_edit(unsigned long long edit, double now) {
+    if (std::exchange(edit_, edit) != edit) on_new_start(now);
+  }
   /// Other pictures of the same edit are due at once: another view, a new start.
-  void on_new_start(double now);
+  void on_new_start(double now) { edit_time_ = due_ = now, shown_ = 0; }
   /// The window is about to be drawn: forgets wake_at.
   void on_drawing() { wake_ = 1e300; }
   /// The window was drawn.
-  void on_drawn(double now);
+  void on_drawn(double now) {
+    drawn_ = now;
+    if (frames_ > 0) --frames_;
+  }
   /// The window should be drawn again at that time at the latest (a message goes, a key is held). Asked for anew in
   /// each drawing.
-  void wake_at(double time);
+  void wake_at(double time) { wake_ = std::min(wake_, time); }
 
   /// When a newer picture may be shown; a finished one always may.
   double picture_due() const { return due_; }
   /// The earliest time at which it may be drawn again.
   double next_drawing() const { return drawn_ + min_frame_interval; }
   /// Seconds to wait for events before drawing: 0 draw now; infinite: until something happens.
-  double wait(double now) const;
+  double wait(double now) const {
+    const double next = frames_ == event_frames ? now : frames_ > 0 ? std::min(wake_, drawn_ + echo_interval) : wake_;
+    if (next > 1e299) return std::numeric_limits<double>::infinity();
+    return std::max({next - now, next_drawing() - now, 0.0});
+  }
 
  private:
   static constexpr int event_frames = 3;

@@ -4,6 +4,8 @@
 #include "app/window/system/platform_events.h"
 #include "app/window/system/style.h"
 #include "core/base/error.h"
+#include "core/system/process.h"
+#include "core/system/signals.h"
 #include "shaders.h"
 
 #include <glad/gl.h>
@@ -14,6 +16,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 namespace tyndall {
@@ -222,6 +226,23 @@ void GlfwPlatform::renew_fonts() {
 
 std::unique_ptr<Platform> open_platform(int image_width, int image_height) {
   return std::make_unique<GlfwPlatform>(image_width, image_height);
+}
+
+void end_when_display_is_lost(std::function<std::string()> before_end) {
+  static std::function<std::string()> last_wish;  // the X library's handler gets no argument of its own
+  last_wish = std::move(before_end);
+  ignore_lost_pipes();  // the signal comes first when the connection breaks
+  // Ends the program, as X demands of such a handler. Destructors are left out: they would talk to the lost server.
+  using Handler = int (*)(void* display);
+  const Handler on_lost = [](void*) -> int {
+    const std::string more = last_wish ? last_wish() : "";
+    const std::string text = "tyndall: the display went away\n" + (more.empty() ? "" : "tyndall: " + more + "\n");
+    std::fputs(text.c_str(), stderr);
+    std::_Exit(3);
+  };
+  // The window library loads X by itself; linking it here would tie the program to it.
+  void* function = loaded_function("libX11.so.6", "XSetIOErrorHandler");
+  if (function) reinterpret_cast<Handler (*)(Handler)>(function)(on_lost);
 }
 
 }  // namespace tyndall

@@ -1,6 +1,7 @@
 #pragma once
 #include "app/window/system/input_events.h"
 
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
@@ -55,5 +56,11 @@ class Platform {
 
 /// A window whose image area has the given size at scale 1, smaller if the screen is. Throws IoError.
 std::unique_ptr<Platform> open_platform(int image_width, int image_height);
+
+/// From now on the program says so in one line and ends with exit code 3 when the X server goes away, instead of the X
+/// library's words and exit code 1. Nothing happens where no X library is loaded. Call after the window was opened.
+/// before_end: called first, from whichever thread has noticed it; must not use the display; may be empty. What it
+/// returns is said in a line of its own, unless it is "".
+void end_when_display_is_lost(std::function<std::string()> before_end);
 
 }  // namespace tyndall

@@ -1,6 +1,5 @@
 #pragma once
 #include "app/window/system/input_events.h"
-#include "app/window/system/input_queue.h"
 #include "app/window/system/layout.h"
 
 #include <GLFW/glfw3.h>

@@ -77,9 +77,10 @@ std::filesystem::path set_aside(const std::filesystem::path& file) {
   return error ? std::filesystem::path() : aside;
 }
 
-double stepped_text_size(double size, int steps) {
+void step_text_size(Preferences& preferences, int steps) {
+  double& size = preferences.text_size;
   const auto at = std::lower_bound(text_sizes.begin(), text_sizes.end(), size) - text_sizes.begin();
-  return text_sizes[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(at + steps, 0, text_sizes.size() - 1))];
+  size = text_sizes[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(at + steps, 0, text_sizes.size() - 1))];
 }
 
 std::filesystem::path user_folder(const char* xdg_variable, const char* below) {

@@ -37,8 +37,8 @@ void write_preferences(const std::filesystem::path& file, const Preferences& pre
 /// Gives a damaged file another name, so that it is told of once; returns that name, empty if that failed.
 std::filesystem::path set_aside(const std::filesystem::path& file);
 
-/// The size that is so many steps larger, or smaller, than the one that is next to `size`.
-double stepped_text_size(double size, int steps);
+/// Makes texts so many steps larger, or smaller.
+void step_text_size(Preferences& preferences, int steps);
 
 /// What an XDG variable such as "XDG_STATE_HOME" names, else $HOME/below, for example ".local/state". Relative paths
 /// are no names of folders (XDG Base Directory Specification) and count as not set. Empty: neither variable is set.

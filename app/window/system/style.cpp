@@ -3,7 +3,6 @@
 #include "app/text/fonts.h"
 #include "core/system/files.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <vector>

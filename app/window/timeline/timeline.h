@@ -4,7 +4,6 @@
 #include "core/scene/slots.h"
 
 #include <optional>
-#include <string>
 
 /// This room holds the film in the window: the bar to play it and to go to a frame, and edits of keys.
 namespace tyndall {

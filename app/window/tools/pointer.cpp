@@ -1,7 +1,6 @@
 #include "app/window/tools/pointer.h"
 
 #include "app/window/tools/camera_control.h"
-#include "app/window/tools/projection.h"
 #include "core/base/math.h"
 
 #include <algorithm>
@@ -15,7 +14,11 @@ PressedButton PointerTool::update(const Mouse& mouse, const Layout& layout, floa
   if (button_ < 0 && over && free)
     for (int button = 0; button < 3; ++button)
       if (mouse.clicked[button]) button_ = button, moved_ = false;
-  if (over) scroll(mouse, now, camera);
+  if (over && mouse.wheel != 0) {
+    wheel_time_ = now;
+    const double notches = static_cast<double>(mouse.wheel);
+    camera = mouse.control ? zoom(camera, std::pow(0.95, notches)) : dolly(camera, std::pow(0.9, notches));
+  }
   if (button_ < 0) return PressedButton::none;
   float dx = mouse.dx, dy = mouse.dy;
   if (!moved_) {
@@ -36,13 +39,6 @@ void PointerTool::drag(const Layout& layout, double dx, double dy, Camera& camer
   if (button_ == 0) camera = orbit(camera, pi * x, pi * y);
   if (button_ == 1) camera = dolly(camera, std::exp(3 * y));
   if (button_ == 2) camera = pan(camera, -x, y);
-}
-
-void PointerTool::scroll(const Mouse& mouse, double now, Camera& camera) {
-  if (mouse.wheel == 0) return;
-  wheel_time_ = now;
-  const double notches = static_cast<double>(mouse.wheel);
-  camera = mouse.control ? zoom(camera, std::pow(0.95, notches)) : dolly(camera, std::pow(0.9, notches));
 }
 
 PictureClick click_at(const Rect& image, float mouse_x, float mouse_y, int width, int height) {

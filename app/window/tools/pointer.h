@@ -31,7 +31,6 @@ class PointerTool {
   static bool is_over(const Mouse& mouse, const Layout& layout) {
     return !mouse.taken && layout.area.contains(mouse.x, mouse.y);
   }
-  void scroll(const Mouse& mouse, double now, Camera& camera);
   void drag(const Layout& layout, double dx, double dy, Camera& camera) const;
 
   int button_ = -1;  ///< -1: nothing is pressed

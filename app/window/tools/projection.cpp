@@ -34,22 +34,18 @@ class Projector {
 };
 
 /// The circle where lines from the eye touch the sphere.
-void add_sphere(Projector& out, Vec3d center, double radius) {
-  const Vec3d to_eye = out.eye() - center;
-  const double distance2 = dot(to_eye, to_eye), radius2 = radius * radius;
+void add_shape(Projector& out, const Sphere<>& sphere, const Placement& at) {
+  const Vec3d center = place(at, sphere.center), to_eye = out.eye() - center;
+  const double distance2 = dot(to_eye, to_eye), radius2 = sphere.radius * sphere.radius;
   if (distance2 <= radius2) return;
   const Vec3d middle = center + (radius2 / distance2) * to_eye;
-  const double around = std::abs(radius) * std::sqrt(1 - radius2 / distance2);
+  const double around = std::abs(sphere.radius) * std::sqrt(1 - radius2 / distance2);
   const Basis<double> basis = basis_around(normalize(to_eye));
   const auto point = [&](int k) {
     const double angle = 2 * pi * k / circle_points;
     return middle + (around * std::cos(angle)) * basis.s + (around * std::sin(angle)) * basis.t;
   };
   for (int k = 0; k < circle_points; ++k) out.add(point(k), point(k + 1));
-}
-
-void add_shape(Projector& out, const Sphere<>& sphere, const Placement& at) {
-  add_sphere(out, place(at, sphere.center), sphere.radius);
 }
 
 void add_shape(Projector& out, const Quad<>& quad, const Placement& at) {

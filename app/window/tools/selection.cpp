@@ -10,12 +10,6 @@
 namespace tyndall {
 namespace {
 
-using Shape = decltype(Solid3d::shape);
-
-Shape shape_of(const Volume& volume) {
-  return std::visit([](const auto& boundary) { return Shape{boundary}; }, volume.boundary);
-}
-
 BoundingSphere own_bounding_sphere(const Sphere<>& sphere) {
   if (!sphere.center_end) return {sphere.center, std::abs(sphere.radius)};
   const Vec3d motion = *sphere.center_end - sphere.center;
@@ -30,12 +24,6 @@ BoundingSphere own_bounding_sphere(const Disk<>& disk) {
 }
 BoundingSphere own_bounding_sphere(const Box<>& box) {
   return {0.5 * (box.min + box.max), 0.5 * length(box.max - box.min)};
-}
-
-BoundingSphere sphere_of(const Shape& shape, const Placement& placement) {
-  BoundingSphere sphere = std::visit([](const auto& s) { return own_bounding_sphere(s); }, shape);
-  sphere.center = place(placement, sphere.center);
-  return sphere;
 }
 
 /// A sphere that holds both spheres.
@@ -98,14 +86,16 @@ Placement placement_at(const Scene& scene, const ObjectPath& path) {
 std::optional<BoundingSphere> bounding_sphere(const Scene& scene, const ObjectPath& path) {
   const Object* object = find_object(scene, path);
   if (!object) return {};
-  if (const Solid3d* solid = std::get_if<Solid3d>(&object->kind))
-    return sphere_of(solid->shape, placement_at(scene, path));
-  if (const Volume* volume = std::get_if<Volume>(&object->kind))
-    return sphere_of(shape_of(*volume), placement_at(scene, path));
   std::optional<BoundingSphere> all;
+  with_shape(*object, [&](const auto& shape) {
+    all = own_bounding_sphere(shape);
+    all->center = place(placement_at(scene, path), all->center);
+  });
+  const Group* group = std::get_if<Group>(&object->kind);
+  if (!group) return all;
   ObjectPath child = path;
   child.push_back(0);
-  const auto count = static_cast<int>(std::get<Group>(object->kind).objects.size());
+  const auto count = static_cast<int>(group->objects.size());
   for (; child.back() < count; ++child.back())
     if (const auto sphere = bounding_sphere(scene, child)) all = all ? joined(*all, *sphere) : *sphere;
   return all;

@@ -1,4 +1,4 @@
-#include "app/window/palette_list.h"
+#include "app/window/command.h"
 
 #include "tests/app/window/panels/column.h"
 #include "tests/support/skies.h"

@@ -1,4 +1,4 @@
-#include "app/window/document/edited_scene.h"
+#include "app/window/document/document.h"
 #include "tests/app/window/opened_session.h"
 #include "tests/support/allocations.h"
 

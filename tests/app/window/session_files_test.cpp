@@ -1,4 +1,4 @@
-#include "app/window/document/open_document.h"
+#include "app/window/document/document.h"
 #include "core/image/image_io.h"
 #include "core/image/tonemap.h"
 #include "tests/app/window/opened_session.h"

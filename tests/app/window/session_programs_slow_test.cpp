@@ -1,6 +1,6 @@
 #include "app/files/open_scene.h"
-#include "app/window/document/kept_edits.h"
-#include "app/window/document/open_document.h"
+#include "app/window/document/autosave.h"
+#include "app/window/document/document.h"
 #include "app/window/gallery/gallery.h"
 #include "tests/app/window/opened_session.h"
 #include "tests/support/paths.h"

@@ -1,7 +1,7 @@
-#include "app/window/accuracy/reference.h"
+#include "app/window/accuracy/comparison.h"
 
 #include "app/text/values.h"
-#include "app/window/document/open_document.h"
+#include "app/window/document/document.h"
 #include "core/accuracy/error.h"
 #include "core/files/film_files.h"
 #include "tests/support/paths.h"

@@ -1,6 +1,6 @@
 #include "app/window/document/autosave.h"
 
-#include "app/window/document/open_document.h"
+#include "app/window/document/document.h"
 #include "tests/support/scratch.h"
 
 #include <doctest/doctest.h>

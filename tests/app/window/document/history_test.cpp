@@ -1,4 +1,4 @@
-#include "app/window/document/history.h"
+#include "app/window/document/editor.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "app/window/document/open_document.h"
+#include "app/window/document/document.h"
 
 #include "tests/support/scratch.h"
 

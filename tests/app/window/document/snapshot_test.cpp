@@ -1,6 +1,6 @@
 #include "app/window/document/numbered_files.h"
 
-#include "app/window/document/open_document.h"
+#include "app/window/document/document.h"
 #include "core/image/image_io.h"
 #include "tests/support/scratch.h"
 

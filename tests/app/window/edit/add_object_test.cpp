@@ -1,6 +1,6 @@
 #include "app/window/edit/object_list.h"
 
-#include "app/window/edit/linked_objects.h"
+#include "app/window/edit/arrange.h"
 #include "core/scene/check.h"
 #include "core/scene/json.h"
 

@@ -1,4 +1,3 @@
-#include "app/window/edit/linked_objects.h"
 
 #include "app/window/edit/arrange.h"
 

@@ -1,6 +1,6 @@
 #include "app/window/edit/material_edits.h"
 
-#include "app/window/edit/linked_objects.h"
+#include "app/window/edit/arrange.h"
 #include "core/base/kinds.h"
 #include "core/scene/check.h"
 

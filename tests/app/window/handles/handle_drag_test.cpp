@@ -1,4 +1,4 @@
-#include "app/window/handles/handle_tool.h"
+#include "app/window/handles/handles.h"
 
 #include "app/window/edit/arrange.h"
 #include "app/window/tools/camera_control.h"

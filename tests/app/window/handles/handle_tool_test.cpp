@@ -1,4 +1,4 @@
-#include "app/window/handles/handle_tool.h"
+#include "app/window/handles/handles.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "app/window/panels/chart_plot.h"
+#include "app/window/panels/panels.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "app/window/edit/linked_objects.h"
+#include "app/window/edit/arrange.h"
 #include "core/scene/check.h"
 #include "tests/app/window/panels/column.h"
 

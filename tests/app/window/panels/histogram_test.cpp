@@ -1,4 +1,4 @@
-#include "app/window/panels/histogram.h"
+#include "app/window/panels/panels.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "app/window/panels/meaning.h"
+#include "app/window/panels/rows.h"
 
 #include "core/base/math.h"
 

@@ -1,4 +1,4 @@
-#include "app/window/system/input_queue.h"
+#include "app/window/system/input_events.h"
 
 #include "tests/app/window/panels/null_imgui.h"
 

@@ -59,10 +59,15 @@ TEST_CASE("preferences: what cannot be written is forgotten without a word") {
 }
 
 TEST_CASE("preferences: texts grow and shrink by steps, up to the ends") {
-  CHECK(stepped_text_size(1, 1) == 1.1);
-  CHECK(stepped_text_size(1, -1) == 0.9);
-  CHECK(stepped_text_size(2, 1) == 2);
-  CHECK(stepped_text_size(0.8, -1) == 0.8);
+  Preferences preferences;
+  step_text_size(preferences, 1);
+  CHECK(preferences.text_size == 1.1);
+  step_text_size(preferences, -2);
+  CHECK(preferences.text_size == 0.9);
+  step_text_size(preferences, 9);
+  CHECK(preferences.text_size == 2);
+  step_text_size(preferences, -9);
+  CHECK(preferences.text_size == 0.8);
 }
 
 }  // namespace tyndall::test::preferences_test

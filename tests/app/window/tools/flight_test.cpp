@@ -1,6 +1,6 @@
 #include "app/window/tools/camera_control.h"
 
-#include "app/window/document/history.h"
+#include "app/window/document/editor.h"
 
 #include <doctest/doctest.h>
 
