@@ -18,20 +18,19 @@ std::string found_text(const Fonts& fonts, const Characters& more) {
 /// Looks for characters that the fonts were not loaded for. Returns whether there are any.
 bool MainWindow::find_characters() {
   const std::vector<std::filesystem::path>& files = gallery_.recent();
-  bool added = add_characters(ui_.edit.text, more_characters_);
-  added = add_characters(session_.messages.current().text, more_characters_) || added;
-  if (files.size() != named_files_)
-    for (const auto& file : files) added = add_characters(file.string(), more_characters_) || added;
-  named_files_ = files.size();
-  if (session_.editor.changes() == named_changes_) return added;
-  named_changes_ = session_.editor.changes();
-  const Scene& scene = session_.editor.scene();
-  added = add_characters(session_.editor.document().origin->title, more_characters_) || added;
-  for (const Material& material : scene.materials) added = add_characters(material.name, more_characters_) || added;
-  for (const Texture& texture : scene.textures) added = add_characters(texture.name, more_characters_) || added;
-  each_object(scene.objects,
-              [&](const Object& object) { added = add_characters(object.name, more_characters_) || added; });
-  return added;
+  const std::size_t before = more_characters_.size();
+  add_characters(ui_.edit.text, more_characters_);
+  add_characters(session_.messages.current().text, more_characters_);
+  if (std::exchange(named_files_, files.size()) != files.size())
+    for (const auto& file : files) add_characters(file.string(), more_characters_);
+  if (const auto changes = session_.editor.changes(); std::exchange(named_changes_, changes) != changes) {
+    const auto& [scene, origin] = session_.editor.document();
+    add_characters(origin->title, more_characters_);
+    for (const Material& material : scene.materials) add_characters(material.name, more_characters_);
+    for (const Texture& texture : scene.textures) add_characters(texture.name, more_characters_);
+    each_object(scene.objects, [&](const Object& object) { add_characters(object.name, more_characters_); });
+  }
+  return more_characters_.size() > before;
 }
 
 /// Puts into effect what the user chose, what the screen's density asks for, and what names need. To be called before

@@ -1,7 +1,5 @@
 #include "app/window/panels/panels.h"
 
-#include "app/window/system/imgui_compat.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>

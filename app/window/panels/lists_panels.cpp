@@ -9,11 +9,6 @@ namespace {
 
 constexpr double pause = 0.5;  // seconds without the wheel after which it is a new movement
 
-/// Whether a movement of the wheel that another window has is still going on.
-bool belongs_to_other(const Ui& ui, ImGuiID id) {
-  return ui.wheel.owner != id && ui.wheel.owner != 0 && ImGui::GetTime() < ui.wheel.last + pause;
-}
-
 void scroll(Ui& ui, ImGuiID id, float notches) {
   ui.wheel = {id, ImGui::GetTime(), true};
   const float step = std::min(5 * ImGui::GetFontSize(), 0.67f * ImGui::GetWindowHeight());
@@ -23,7 +18,9 @@ void scroll(Ui& ui, ImGuiID id, float notches) {
 void scroll_list(Ui& ui) {
   const ImGuiIO& io = ImGui::GetIO();
   const ImGuiID id = ImGui::GetID("wheel");
-  if (io.MouseWheel == 0 || io.KeyCtrl || !ImGui::IsWindowHovered() || belongs_to_other(ui, id)) return;
+  // Whether a movement of the wheel that another window has is still going on.
+  const bool of_other = ui.wheel.owner != id && ui.wheel.owner != 0 && ImGui::GetTime() < ui.wheel.last + pause;
+  if (io.MouseWheel == 0 || io.KeyCtrl || !ImGui::IsWindowHovered() || of_other) return;
   const bool at_end = io.MouseWheel > 0 ? ImGui::GetScrollY() <= 0 : ImGui::GetScrollY() >= ImGui::GetScrollMaxY();
   if (!at_end) scroll(ui, id, io.MouseWheel);
 }
@@ -177,11 +174,8 @@ struct SceneRow {
 std::string said_after(const std::string& about, const std::string& word, const std::string& next) {
   const std::size_t at = about.find(word);
   if (at == std::string::npos) return "";
-  const std::size_t from = at + word.size(), end = std::min(about.find(next, from), about.size());
-  return about.substr(from, end - from);
-}
-
-std::string without_blanks(const std::string& text) {
+  const std::size_t from = at + word.size();
+  const std::string text = about.substr(from, about.find(next, from) - from);
   const std::size_t first = text.find_first_not_of(' ');
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
 }
@@ -219,7 +213,7 @@ bool scene_row(Ui& ui, PanelState& state, const SceneRow& row) {
 std::vector<SceneRow> rows_of(const std::vector<BuiltIn>& scenes) {
   std::vector<SceneRow> rows;
   for (const BuiltIn& scene : scenes) {
-    const std::string fails = without_blanks(said_after(scene.about, "Fails:", "Right:"));
+    const std::string fails = said_after(scene.about, "Fails:", "Right:");
     rows.push_back({scene.name, scene.name, scene.name, fails.empty() ? scene.title : "Fails: " + fails,
                     scene.about.empty() ? scene.title : scene.about});
   }
