@@ -110,11 +110,7 @@ void ObjectTools::select(const PictureClick& click, const Renderer::Pick& pick, 
     select_all(found.empty() ? ObjectPaths{} : ObjectPaths{found});
   } else if (!found.empty()) {
     ObjectPaths all = selected();
-    const auto had = std::find(all.begin(), all.end(), found);
-    if (had != all.end())
-      all.erase(had);
-    else
-      all.insert(all.begin(), found);
+    if (std::erase(all, found) == 0) all.insert(all.begin(), found);
     select_all(all);
   }
   if (!found.empty())

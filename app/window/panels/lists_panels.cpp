@@ -3,6 +3,7 @@
 #include "core/base/text.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tyndall {
 namespace {
@@ -110,12 +111,8 @@ void unfold_around(PanelState& state, const ObjectPath& path) {
 /// A click in the list: selects, with Ctrl as well, or deselects.
 void choose(PanelState& state, const ObjectPath& path, bool on) {
   const bool more = ImGui::GetIO().KeyCtrl && !state.selected.empty();
-  const auto had = std::find(state.also.begin(), state.also.end(), path);
-  if (more && had != state.also.end()) {
-    state.also.erase(had);
-  } else if (more && path != state.selected) {
-    state.also.insert(state.also.begin(), state.selected);
-    state.selected = path;
+  if (more && path != state.selected) {
+    if (std::erase(state.also, path) == 0) state.also.insert(state.also.begin(), std::exchange(state.selected, path));
   } else {
     state.also.clear();
     state.selected = on ? ObjectPath{} : path;
