@@ -1,19 +1,10 @@
 #include "app/window/main_window.h"
 
 #include <algorithm>
+#include <utility>
 
 /// How the window looks: theme, size of texts, and fonts for the names that the scene has.
 namespace tyndall {
-namespace {
-
-/// "2 of 3": how many of the characters the fonts have.
-std::string found_text(const Fonts& fonts, const Characters& more) {
-  const auto found =
-      std::count_if(more.begin(), more.end(), [&](ImWchar c) { return fonts.body->FindGlyphNoFallback(c) != nullptr; });
-  return std::to_string(found) + " of " + std::to_string(more.size());
-}
-
-}  // namespace
 
 /// Looks for characters that the fonts were not loaded for. Returns whether there are any.
 bool MainWindow::find_characters() {
@@ -47,7 +38,10 @@ void MainWindow::update_look() {
   if (ui_.pixels != 0) platform_->renew_fonts();
   ui_.pixels = pixels;
   ui_.scale = scale;
-  if (ui_.log) ui_.log->changed("fonts", found_text(ui_.fonts, more_characters_));
+  if (!ui_.log) return;
+  const auto found = std::count_if(more_characters_.begin(), more_characters_.end(),
+                                   [this](ImWchar c) { return ui_.fonts.body->FindGlyphNoFallback(c) != nullptr; });
+  ui_.log->changed("fonts", std::to_string(found) + " of " + std::to_string(more_characters_.size()));
 }
 
 }  // namespace tyndall

@@ -136,10 +136,7 @@ void ObjectTools::draw(Ui& ui) {
   const auto handles = handles_of(*panels_.scene, frame, all, handles_.origin(*panels_.scene, frame, all));
   draw_handles(frame, handles, handles_.hovered(), handles_.active());
   draw_handle_text(frame, handles_.said());
-  if (!ui.log) return;
-  std::vector<std::string> names;
-  for (const Handle& handle : handles) names.push_back(name_of_handle(*panels_.scene, all, handle));
-  log_handles(*ui.log, handles, names, frame.scale);
+  if (ui.log) log_handles(*ui.log, *panels_.scene, all.front(), handles, frame.scale);
 }
 
 }  // namespace tyndall
