@@ -74,8 +74,8 @@ std::string setting_meaning(const PanelState& state, std::string_view name) {
 void threads_row(Ui& ui, PanelState& state) {
   double threads = state.now.wanted.threads;
   static const double cores = std::max(2, thread_count().count);  // asking takes longer than drawing the row
-  const char* words = "cpu, cores, processors";
-  Row row{"threads", "Threads", between(1, max_threads), {1, cores}, "", "never changes the picture", "", words};
+  const char* synonyms = "cpu, cores, processors";
+  Row row{"threads", "Threads", between(1, max_threads), {1, cores}, "", "never changes the picture", "", synonyms};
   row.whole = true;
   if (slider_row(ui, row, threads)) ui.requests.push_back({"threads", std::to_string(static_cast<int>(threads))});
 }
@@ -84,8 +84,8 @@ void threads_row(Ui& ui, PanelState& state) {
 void pixels_row(Ui& ui, PanelState& state) {
   const Scene& scene = *state.scene;
   const char* help = "width and height in pixels, also of snapshots";
-  const char* words = "resolution, width, height, dimensions, film size";
-  Row row{"size", "Image size", between(1, 65536), {0, 4000}, "", help, "", words};
+  const char* synonyms = "resolution, width, height, dimensions, film size";
+  Row row{"size", "Image size", between(1, 65536), {0, 4000}, "", help, "", synonyms};
   row.whole = true;
   double width = scene.width, height = scene.height;
   begin_row(ui, row);
