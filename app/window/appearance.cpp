@@ -1,37 +1,27 @@
 #include "app/window/main_window.h"
 
 #include <algorithm>
+#include <utility>
 
 /// How the window looks: theme, size of texts, and fonts for the names that the scene has.
 namespace tyndall {
-namespace {
-
-/// "2 of 3": how many of the characters the fonts have.
-std::string found_text(const Fonts& fonts, const Characters& more) {
-  const auto found =
-      std::count_if(more.begin(), more.end(), [&](ImWchar c) { return fonts.body->FindGlyphNoFallback(c) != nullptr; });
-  return std::to_string(found) + " of " + std::to_string(more.size());
-}
-
-}  // namespace
 
 /// Looks for characters that the fonts were not loaded for. Returns whether there are any.
 bool MainWindow::find_characters() {
   const std::vector<std::filesystem::path>& files = gallery_.recent();
-  bool added = add_characters(ui_.edit.text, more_characters_);
-  added = add_characters(session_.messages.current().text, more_characters_) || added;
-  if (files.size() != named_files_)
-    for (const auto& file : files) added = add_characters(file.string(), more_characters_) || added;
-  named_files_ = files.size();
-  if (session_.editor.changes() == named_changes_) return added;
-  named_changes_ = session_.editor.changes();
-  const Scene& scene = session_.editor.scene();
-  added = add_characters(session_.editor.document().origin->title, more_characters_) || added;
-  for (const Material& material : scene.materials) added = add_characters(material.name, more_characters_) || added;
-  for (const Texture& texture : scene.textures) added = add_characters(texture.name, more_characters_) || added;
-  each_object(scene.objects,
-              [&](const Object& object) { added = add_characters(object.name, more_characters_) || added; });
-  return added;
+  const std::size_t before = more_characters_.size();
+  add_characters(ui_.edit.text, more_characters_);
+  add_characters(session_.messages.current().text, more_characters_);
+  if (std::exchange(named_files_, files.size()) != files.size())
+    for (const auto& file : files) add_characters(file.string(), more_characters_);
+  if (const auto changes = session_.editor.changes(); std::exchange(named_changes_, changes) != changes) {
+    const auto& [scene, origin] = session_.editor.document();
+    add_characters(origin->title, more_characters_);
+    for (const Material& material : scene.materials) add_characters(material.name, more_characters_);
+    for (const Texture& texture : scene.textures) add_characters(texture.name, more_characters_);
+    each_object(scene.objects, [&](const Object& object) { add_characters(object.name, more_characters_); });
+  }
+  return more_characters_.size() > before;
 }
 
 /// Puts into effect what the user chose, what the screen's density asks for, and what names need. To be called before
@@ -48,7 +38,10 @@ void MainWindow::update_look() {
   if (ui_.pixels != 0) platform_->renew_fonts();
   ui_.pixels = pixels;
   ui_.scale = scale;
-  if (ui_.log) ui_.log->changed("fonts", found_text(ui_.fonts, more_characters_));
+  if (!ui_.log) return;
+  const auto found = std::count_if(more_characters_.begin(), more_characters_.end(),
+                                   [this](ImWchar c) { return ui_.fonts.body->FindGlyphNoFallback(c) != nullptr; });
+  ui_.log->changed("fonts", std::to_string(found) + " of " + std::to_string(more_characters_.size()));
 }
 
 }  // namespace tyndall

@@ -64,16 +64,10 @@ std::vector<Command> Commands::table_of_objects() {
        [](Commands& c, auto&) { c.panels_.rename = c.shows_panels_ = true; }, requires_selection},
       {"make single user", "copy the material, unlink", no_key, to_object,
        [](Commands& c, auto&) { c.objects_.own_material(); }, requires_selection}};
+  const auto add = [](Commands& c, const std::string& name) { c.objects_.add(addition_named(name)); };
   for (const Addition& what : additions())
-    table.push_back({std::string("add ") + what.name,
-                     what.words,
-                     no_key,
-                     in_add_menu | to_object,
-                     [](Commands& c, const std::string& name) { c.objects_.add(addition_named(name)); },
-                     requires_scene,
-                     "",
-                     {},
-                     what.name});
+    table.push_back({std::string("add ") + what.name, what.words, no_key, in_add_menu | to_object, add, requires_scene,
+                     "", no_key, what.name});
   return table;
 }
 
@@ -137,16 +131,13 @@ std::vector<Command> Commands::table_of_views() {
        [](Commands& c, auto&) { c.dialog_ = reference_dialog(c.session_.accuracy.reference() != nullptr); }},
       {"export the chart", "csv, svg, export csv, save the chart", no_key, 0,
        [](Commands& c, auto&) { c.session_.export_chart(); }}};
-  for (int k = 0; k < view_count; ++k)
-    table.push_back({std::string("view: ") + view_entry(k).name,
-                     view_entry(k).words,
-                     k < keyed_views ? plain(static_cast<char>('1' + k)) : no_key,
-                     begins_picture | shows_view,
-                     [](Commands& c, const std::string& name) { c.session_.show_view(view_named(name)); },
-                     requires_of_view,
-                     "",
-                     {},
-                     view_entry(k).name});
+  const auto show = [](Commands& c, const std::string& name) { c.session_.show_view(view_named(name)); };
+  for (int k = 0; k < view_count; ++k) {
+    const ViewEntry view = view_entry(k);
+    const Key key = k < keyed_views ? plain(static_cast<char>('1' + k)) : no_key;
+    table.push_back({std::string("view: ") + view.name, view.words, key, begins_picture | shows_view, show,
+                     requires_of_view, "", no_key, view.name});
+  }
   return table;
 }
 
@@ -186,7 +177,13 @@ std::vector<Command> Commands::unlisted_table() {
        [](Commands& c, const std::string& name) { c.panels_.tabs.jump = section_named(name), c.shows_panels_ = true; },
        requires_of_part},
       {"row", "", no_key, unlisted,  // of the column; argument: its part and its label, "Camera/Focus"
-       [](Commands& c, const std::string& place) { c.go_to_row(place); }, requires_of_part},
+
+       [](Commands& c, const std::string& place) {
+         const std::size_t slash = place.find('/');
+         seek_row(c.ui_, {place.substr(0, slash), place.substr(slash + 1)});
+         c.shows_panels_ = true;
+       },
+       requires_of_part},
       {"say", "", no_key, unlisted,  // what a row that the column does not show needs first: "Camera/Focus: " and that
        [](Commands& c, const std::string& row) { c.session_.messages.say(row.substr(row.find('/') + 1)); },
        requires_of_part},

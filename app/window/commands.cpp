@@ -53,20 +53,10 @@ void Commands::open_menu(const std::string& title, CommandFlag which) {
   for (const Command& command : commands()) {
     if (!command.is(which)) continue;
     const bool line_above = command.is(in_add_menu) && !std::exchange(separated, true);
-    items.push_back({"menu." + log_name(command.name),
-                     command.name,
-                     text_of(command.key),
-                     why_not(command, command.argument),
-                     line_above,
-                     {command.name}});
+    const std::string name = "menu." + log_name(command.name), why = why_not(command, command.argument);
+    items.push_back({name, command.name, text_of(command.key), why, line_above, Request{command.name}});
   }
   menu_.open(objects_.mouse().x, objects_.mouse().y, title, std::move(items));
-}
-
-void Commands::go_to_row(const std::string& place) {
-  const std::size_t slash = place.find('/');
-  seek_row(ui_, {place.substr(0, slash), place.substr(slash + 1)});
-  shows_panels_ = true;
 }
 
 /// Gives the value a key at the frame that the film shows.
@@ -137,25 +127,16 @@ void Commands::ask_to_close() {
 }
 
 void Commands::escape() {
-  if (ui_.drag.active) {
-    ui_.drag.cancel = true;
-    return;
-  }
+  if (ui_.drag.active) return static_cast<void>(ui_.drag.cancel = true);
   if (dialog_.kind == Dialog::Kind::changed_file) session_.editor.answer_about_file(false);
   if (closing_.cancel()) return;
-  if (popup_is_open()) {
-    ui_.close_popup = true;
-    return;
-  }
+  if (popup_is_open()) return static_cast<void>(ui_.close_popup = true);
   if (palette_.is_open()) return palette_.close();
-  if (ui_.sought.has_keys) {
-    ui_.sought.has_keys = false;
-    return;
-  }
+  if (std::exchange(ui_.sought.has_keys, false)) return;
   if (menu_.is_open()) return menu_.close();
   if (objects_.escape()) return;
-  if (strip_.is_open() && !has_question() && !shows_help_ && !session_.messages.current().error) return strip_.close();
   const bool covered = has_question() || shows_help_ || session_.messages.current().error;
+  if (!covered && strip_.is_open()) return strip_.close();
   if (!covered && picture_.escape()) return;
   if (has_question())
     dialog_.kind = Dialog::Kind::none;

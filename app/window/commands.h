@@ -9,7 +9,6 @@
 #include "app/window/session.h"
 #include "app/window/system/platform.h"
 #include "app/window/timeline/timeline.h"
-#include "app/window/tools/pointer.h"
 #include "app/window/variations/strip.h"
 
 #include <vector>
@@ -77,8 +76,6 @@ class Commands {
   void play();
   void key_cameras();
   void frame_selection();
-  /// Brings up a row of the column, "Camera/Focus".
-  void go_to_row(const std::string& place);
   void add_key(const std::string& pointer);
   /// Ends the split view; asks which half to keep where they differ.
   void end_split();

@@ -1,7 +1,7 @@
 #include "app/window/object_tools.h"
 
 #include "app/window/edit/material_edits.h"
-#include "app/window/overlays.h"
+#include "app/window/inspector/drawings.h"
 #include "app/window/tools/camera_control.h"
 
 #include <algorithm>
@@ -110,11 +110,7 @@ void ObjectTools::select(const PictureClick& click, const Renderer::Pick& pick, 
     select_all(found.empty() ? ObjectPaths{} : ObjectPaths{found});
   } else if (!found.empty()) {
     ObjectPaths all = selected();
-    const auto had = std::find(all.begin(), all.end(), found);
-    if (had != all.end())
-      all.erase(had);
-    else
-      all.insert(all.begin(), found);
+    if (std::erase(all, found) == 0) all.insert(all.begin(), found);
     select_all(all);
   }
   if (!found.empty())
@@ -129,18 +125,18 @@ void ObjectTools::focus_on(const Renderer::Pick& pick, bool keep_blur) {
 void ObjectTools::draw(Ui& ui) {
   const Rect& image = panels_.now.layout.image;
   const ObjectPaths all = selected();
-  for (const ObjectPath& path : all) draw_outline(ui, image, outline(*panels_.scene, path));
-  if (!all.empty() && image.width() > 0) {
-    const PictureFrame frame = frame_of(*panels_.scene, image, static_cast<double>(ui.scale));
-    const auto handles = handles_of(*panels_.scene, frame, all, handles_.origin(*panels_.scene, frame, all));
-    draw_handles(frame, handles, handles_.hovered(), handles_.active());
-    draw_handle_text(frame, handles_.said());
-    if (ui.log) {
-      std::vector<std::string> names;
-      for (const Handle& handle : handles) names.push_back(name_of_handle(*panels_.scene, all, handle));
-      log_handles(*ui.log, handles, names, frame.scale);
-    }
-  }
+  if (all.empty() || image.width() <= 0) return;
+  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  draw->PushClipRect({image.x0, image.y0}, {image.x1, image.y1}, true);
+  for (const ObjectPath& path : all)
+    for (const ImageLine& line : outline(*panels_.scene, path))
+      draw->AddLine(in_window(image, line.a), in_window(image, line.b), shade(palette::blue, 0.95f), 2 * ui.scale);
+  draw->PopClipRect();
+  const PictureFrame frame = frame_of(*panels_.scene, image, static_cast<double>(ui.scale));
+  const auto handles = handles_of(*panels_.scene, frame, all, handles_.origin(*panels_.scene, frame, all));
+  draw_handles(frame, handles, handles_.hovered(), handles_.active());
+  draw_handle_text(frame, handles_.said());
+  if (ui.log) log_handles(*ui.log, *panels_.scene, all.front(), handles, frame.scale);
 }
 
 }  // namespace tyndall

@@ -4,7 +4,6 @@
 #include "app/text/progress.h"
 #include "app/window/command.h"
 #include "app/window/dialog.h"
-#include "app/window/inspector/drawings.h"
 #include "app/window/system/imgui_compat.h"
 #include "core/render/clean_film.h"
 
@@ -21,12 +20,6 @@ constexpr double notable_cut = 1e-3;  // fraction of the throughput above which 
 std::string percent(double fraction) {
   if (!std::isfinite(fraction)) return "?";
   return fraction < 0.0995 ? fmt::format("{:.2g} %", 100 * fraction) : fmt::format("{:.0f} %", 100 * fraction);
-}
-
-std::string state_of(const Frame* frame, bool paused) {
-  if (paused) return "paused";
-  if (!frame) return "starting";
-  return frame->finished ? "finished" : "rendering";
 }
 
 std::string time_left(const Frame& frame, const ErrorCurve* run) {
@@ -88,7 +81,8 @@ std::vector<StatusCell> cells_of_picture(const Context& context) {
 std::vector<StatusCell> status_cells(const Context& context, const Scene& scene) {
   if (!context.arrived.empty()) return cells_of_picture(context);
   const Frame* frame = context.frame.get();
-  std::vector<StatusCell> cells{{context.split ? "B" : "", state_of(frame, context.wanted.paused), 0}};
+  const char* state = frame ? frame->finished ? "finished" : "rendering" : "starting";
+  std::vector<StatusCell> cells{{context.split ? "B" : "", context.wanted.paused ? "paused" : state, 0}};
   if (frame) {
     const std::string spp = frame->spp > 0 ? format_count(frame->spp) : fmt::format("1/{}", frame->step * frame->step);
     cells.push_back({"spp", spp, 1});
@@ -188,15 +182,6 @@ void draw_help(Ui& ui, bool& open) {
   if (outside && !ImGui::IsWindowAppearing()) open = false;
   if (ui.log) ui.log->changed("help", "open");
   end_box();
-}
-
-void draw_outline(Ui& ui, const Rect& image, const std::vector<ImageLine>& lines) {
-  if (lines.empty() || image.width() <= 0) return;
-  ImDrawList* draw = ImGui::GetBackgroundDrawList();
-  draw->PushClipRect({image.x0, image.y0}, {image.x1, image.y1}, true);
-  for (const ImageLine& line : lines)
-    draw->AddLine(in_window(image, line.a), in_window(image, line.b), shade(palette::blue, 0.95f), 2 * ui.scale);
-  draw->PopClipRect();
 }
 
 }  // namespace tyndall

@@ -2,12 +2,11 @@
 #include "app/window/document/message.h"
 #include "app/window/panels/context.h"
 #include "app/window/panels/widgets.h"
-#include "app/window/tools/projection.h"
 
 #include <string>
 #include <vector>
 
-/// What is drawn over and beneath the picture: status line, messages, help table, the selection's outline.
+/// What is drawn over and beneath the picture: status line, messages, help table.
 namespace tyndall {
 
 /// A part of the status line: a grey word and a value.
@@ -31,7 +30,5 @@ void draw_message(Ui& ui, const Rect& area, const Message& message);
 
 /// The table of inputs; sets `open` to false when it is clicked away.
 void draw_help(Ui& ui, bool& open);
-
-void draw_outline(Ui& ui, const Rect& image, const std::vector<ImageLine>& lines);
 
 }  // namespace tyndall

@@ -25,16 +25,19 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
       messages(log),
       accuracy(wake),
       renderers(thread_count(options.threads).count, options.isa, std::move(on_frame)),
-      editor(options.scene, reload_of(options),
-             {[this] { timer.on_change(input_time > 0 ? input_time : clock_seconds()); },
-              [this] { accuracy.clear(), set_split(false); },
-              [isa = options.isa](const LoadedScene& loaded) { return read_opened_film(loaded, isa); },
-              [this](std::shared_ptr<Film> film) {
-                opened_film_ = std::move(film);
-                timer.on_change(clock_seconds());
-              },
-              wake},
-             loading_, messages, log),
+      editor(
+          options.scene,
+          !options.reload ? std::function<LoadedScene()>()
+                          : [this, reload = options.reload] { return reload([this] { return !closing_; }); },
+          {[this] { timer.on_change(input_time > 0 ? input_time : clock_seconds()); },
+           [this] { accuracy.clear(), set_split(false); },
+           [isa = options.isa](const LoadedScene& loaded) { return read_opened_film(loaded, isa); },
+           [this](std::shared_ptr<Film> film) {
+             opened_film_ = std::move(film);
+             timer.on_change(clock_seconds());
+           },
+           wake},
+          loading_, messages, log),
       references(
           editor,
           [this] {
@@ -54,12 +57,6 @@ Session::Session(const WindowOptions& options, const std::function<void()>& wake
   if (options.scene.source.empty()) editor.open_film(options.scene);
   if (picture_) picture_->start(wake);
   if (function_) function_->set_on_news(wake);
-}
-
-/// Reads the first scene again, as long as the window is open; empty: cannot be read again.
-std::function<LoadedScene()> Session::reload_of(const WindowOptions& options) {
-  if (!options.reload) return {};
-  return [this, reload = options.reload] { return reload([this] { return !closing_; }); };
 }
 
 /// The scene as the renderers get it.

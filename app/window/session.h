@@ -113,7 +113,6 @@ class Session {
   bool collect_problem();
   std::shared_ptr<const SampleSource> source() const;
   void restore_edits(const WindowOptions& options);
-  std::function<LoadedScene()> reload_of(const WindowOptions& options);
   void read_preferences_file();
   void pause_at_limits(const Frame& frame);
 

@@ -4,8 +4,6 @@
 #include "app/comparison/pair.h"
 #include "app/report/heat_map.h"
 #include "app/text/numbers.h"
-#include "app/text/values.h"
-#include "app/window/system/pacing.h"
 #include "core/accuracy/error.h"
 #include "core/accuracy/estimate.h"
 #include "core/accuracy/flip.h"

@@ -115,11 +115,9 @@ Object* find_object(Scene& scene, const ObjectPath& path) {
 
 ObjectPaths paths_after(const Scene& before, const Scene& after, const ObjectPaths& paths) {
   ObjectPaths found;
-  for (const ObjectPath& path : paths) {
-    if (!find_object(before, path)) continue;
-    ObjectPath now = path_after(before.objects, after.objects, path);
-    if (!now.empty()) found.push_back(std::move(now));
-  }
+  for (const ObjectPath& path : paths)
+    if (find_object(before, path)) found.push_back(path_after(before.objects, after.objects, path));
+  std::erase(found, ObjectPath{});  // what is gone
   return found;
 }
 

@@ -33,14 +33,10 @@ constexpr std::string_view second_line = "// The FNV-1a hash of that file's text
 
 /// On one line, as a comment needs it: what would end the line is written as %0A and the like.
 std::string in_a_comment(const std::string& text) {
-  constexpr const char* digits = "0123456789ABCDEF";
   std::string out;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    if (byte >= 0x20 && c != '%')
-      out += c;
-    else
-      out += std::string("%") + digits[byte / 16] + digits[byte % 16];
+    out += byte >= 0x20 && c != '%' ? std::string(1, c) : fmt::format("%{:02X}", byte);
   }
   return out;
 }

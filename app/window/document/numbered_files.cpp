@@ -29,12 +29,6 @@ std::string write_files(const Snapshot& snapshot, const Picture& picture) {
   return files[0].filename().string() + (files.size() > 1 ? " and .exr" : "");
 }
 
-std::string write_without_scene(const Snapshot& snapshot, const Film& film) {
-  const LinearImage image{film.region.width(), film.region.height(), resolve(film)};
-  const auto nothing = [](const fs::path&) { return Embedded{"", "", {}, false}; };
-  return "saved " + write_files(snapshot, {film, image, snapshot.document.scene.display, nothing, {}});
-}
-
 }  // namespace
 
 fs::path numbered_base(const fs::path& folder, const std::string& stem, int minimum,
@@ -83,8 +77,12 @@ void NumberedFiles::write(const fs::path& base, std::function<std::string(const 
 }
 
 std::string write_snapshot(const Snapshot& snapshot, Film film) {
-  if (!snapshot.has_scene) return write_without_scene(snapshot, film);
   const Scene& scene = snapshot.document.scene;
+  if (!snapshot.has_scene) {
+    const LinearImage image{film.region.width(), film.region.height(), resolve(film)};
+    const auto nothing = [](const fs::path&) { return Embedded{"", "", {}, false}; };
+    return "saved " + write_files(snapshot, {film, image, scene.display, nothing, {}});
+  }
   const std::shared_ptr<const PreparedScene> prepared = prepare(scene);
   RenderResult result;
   result.film = std::move(film);

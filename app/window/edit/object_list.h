@@ -1,6 +1,5 @@
 #pragma once
 #include "app/window/tools/projection.h"
-#include "app/window/tools/selection.h"
 
 #include <span>
 #include <string>

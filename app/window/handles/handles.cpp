@@ -146,12 +146,6 @@ WindowPoint PictureFrame::seen_direction(Vec3d p, Vec3d direction) const {
   return {(to->x - from->x) / step, (to->y - from->y) / step};
 }
 
-std::string name_of_handle(const Scene& scene, const ObjectPaths& selected, const Handle& handle) {
-  static constexpr const char* names[] = {"move", "x", "y", "z", "turn"};
-  if (handle.kind != HandleKind::size) return names[static_cast<int>(handle.kind)];
-  return std::string("size.") + size_grips(scene, selected.front(), {1, 0, 0})[handle.grip].name;
-}
-
 std::vector<Handle> handles_of(const Scene& scene, const PictureFrame& frame, const ObjectPaths& selected,
                                Vec3d origin) {
   std::vector<Handle> handles;
@@ -206,14 +200,18 @@ void draw_handle_text(const PictureFrame& frame, const std::string& text) {
   draw.AddText(from, shade(palette::text), text.c_str());
 }
 
-void log_handles(UiLog& log, const std::vector<Handle>& handles, const std::vector<std::string>& names, double scale) {
-  for (std::size_t k = 0; k < handles.size(); ++k) {
+void log_handles(UiLog& log, const Scene& scene, const ObjectPath& first, const std::vector<Handle>& handles,
+                 double scale) {
+  static constexpr const char* names[] = {"move", "x", "y", "z", "turn", "size."};
+  for (const Handle& handle : handles) {
+    std::string name = names[static_cast<int>(handle.kind)];
+    if (handle.kind == HandleKind::size) name += size_grips(scene, first, {1, 0, 0})[handle.grip].name;
     // Of an arrow its head, of the ring its point that is nearest to the viewer.
-    const auto lowest = std::max_element(handles[k].points.begin(), handles[k].points.end(),
+    const auto lowest = std::max_element(handle.points.begin(), handle.points.end(),
                                          [](const WindowPoint& a, const WindowPoint& b) { return a.y < b.y; });
-    const WindowPoint p = handles[k].kind == HandleKind::rotate ? *lowest : handles[k].points.back();
+    const WindowPoint p = handle.kind == HandleKind::rotate ? *lowest : handle.points.back();
     const auto x = static_cast<float>(p.x), y = static_cast<float>(p.y), half = static_cast<float>(5 * scale);
-    log.widget("handle." + names[k], {x - half, y - half, x + half, y + half}, "handle");
+    log.widget("handle." + name, {x - half, y - half, x + half, y + half}, "handle");
   }
 }
 

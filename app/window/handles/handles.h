@@ -50,9 +50,6 @@ struct PictureFrame {
 };
 PictureFrame frame_of(const Scene& scene, const Rect& image, double scale);
 
-/// "move", "x", "y", "z", "turn", "size.radius": of the log.
-std::string name_of_handle(const Scene& scene, const ObjectPaths& selected, const Handle& handle);
-
 /// The handles of a selection, whose first object is the one that can be sized. origin: where the handles that move
 /// are, in the world.
 std::vector<Handle> handles_of(const Scene& scene, const PictureFrame& frame, const ObjectPaths& selected,
@@ -66,8 +63,10 @@ void draw_handles(const PictureFrame& frame, const std::vector<Handle>& handles,
                   bool only);
 /// What is being done, at the foot of the picture.
 void draw_handle_text(const PictureFrame& frame, const std::string& text);
-/// Tells the log where each handle can be taken. names: of the handles.
-void log_handles(UiLog& log, const std::vector<Handle>& handles, const std::vector<std::string>& names, double scale);
+/// Tells the log where each handle of a selection can be taken: "handle.move", "handle.x", "handle.turn",
+/// "handle.size.radius".
+void log_handles(UiLog& log, const Scene& scene, const ObjectPath& first, const std::vector<Handle>& handles,
+                 double scale);
 
 /// A drag of a handle.
 struct HandleDrag {

@@ -3,7 +3,6 @@
 #include "app/window/inspector/drawings.h"
 #include "app/window/system/pacing.h"
 #include "app/window/tools/selection.h"
-#include "core/compile/compile.h"
 #include "core/image/tonemap.h"
 #include "core/render/prepare.h"
 

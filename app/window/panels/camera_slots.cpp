@@ -62,10 +62,8 @@ std::optional<std::size_t> next_slot(const CameraSlots& slots, const Camera& cam
 SlotWish camera_slots_row(Ui& ui, CameraSlots& slots, const Camera& now) {
   SlotWish wish;
   std::optional<std::size_t> forgotten;
-  const Row row{"slots", "Cameras",
-                {},      {},
-                "",      "cameras that you put aside; they last as long as the window",
-                "",      "stored cameras, camera slots"};
+  const char* help = "cameras that you put aside; they last as long as the window";
+  const Row row{"slots", "Cameras", {}, {}, "", help, "", "stored cameras, camera slots"};
   begin_row(ui, row);
   const float left = ImGui::GetCursorPosX();
   for (std::size_t k = 0; k < slots.size(); ++k) {

@@ -1,7 +1,5 @@
 #include "app/window/panels/panels.h"
 
-#include "app/window/system/imgui_compat.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -37,15 +35,14 @@ Histogram histogram_of(const std::vector<float>& rgba, const Display& display) {
                rgba.begin() + static_cast<std::ptrdiff_t>(4 * i + 3));
   const std::vector<std::uint8_t> shown = tone_map(rgb, display.exposure, display.tone_map);
   Histogram found;
-  std::uint32_t white = 0, black = 0;
   for (std::size_t i = 0; i + 2 < shown.size(); i += 3) {
     const std::uint8_t brightest = std::max({shown[i], shown[i + 1], shown[i + 2]});
-    white += brightest == 255, black += brightest == 0;
+    found.white += brightest == 255, found.black += brightest == 0;
     for (std::size_t c = 0; c < 3; ++c) ++found.counts[c][shown[i + c] * Histogram::bins / 256];
     ++found.pixels;
   }
-  found.white = found.pixels > 0 ? static_cast<double>(white) / found.pixels : 0;
-  found.black = found.pixels > 0 ? static_cast<double>(black) / found.pixels : 0;
+  const std::uint32_t all = std::max(found.pixels, 1u);
+  found.white /= all, found.black /= all;
   return found;
 }
 
@@ -53,9 +50,8 @@ const Histogram& LiveHistogram::of(const Frame& frame, const Display& display) {
   if (frame.pass == pass_ && frame.clean.get() == clean_ && display == display_) return histogram_;
   pass_ = frame.pass, clean_ = frame.clean.get(), display_ = display;
   const bool beauty = frame.view == View::beauty;
-  const std::vector<float>& picture = !beauty && !frame.beauty.empty() ? frame.beauty : frame.rgba;
-  if (beauty || !frame.beauty.empty())
-    histogram_ = histogram_of(beauty && frame.clean ? frame.clean->rgba : picture, display);
+  const std::vector<float>& picture = !beauty ? frame.beauty : frame.clean ? frame.clean->rgba : frame.rgba;
+  if (beauty || !picture.empty()) histogram_ = histogram_of(picture, display);
   return histogram_;
 }
 

@@ -3,16 +3,12 @@
 #include "core/base/text.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tyndall {
 namespace {
 
 constexpr double pause = 0.5;  // seconds without the wheel after which it is a new movement
-
-/// Whether a movement of the wheel that another window has is still going on.
-bool belongs_to_other(const Ui& ui, ImGuiID id) {
-  return ui.wheel.owner != id && ui.wheel.owner != 0 && ImGui::GetTime() < ui.wheel.last + pause;
-}
 
 void scroll(Ui& ui, ImGuiID id, float notches) {
   ui.wheel = {id, ImGui::GetTime(), true};
@@ -23,7 +19,9 @@ void scroll(Ui& ui, ImGuiID id, float notches) {
 void scroll_list(Ui& ui) {
   const ImGuiIO& io = ImGui::GetIO();
   const ImGuiID id = ImGui::GetID("wheel");
-  if (io.MouseWheel == 0 || io.KeyCtrl || !ImGui::IsWindowHovered() || belongs_to_other(ui, id)) return;
+  // Whether a movement of the wheel that another window has is still going on.
+  const bool of_other = ui.wheel.owner != id && ui.wheel.owner != 0 && ImGui::GetTime() < ui.wheel.last + pause;
+  if (io.MouseWheel == 0 || io.KeyCtrl || !ImGui::IsWindowHovered() || of_other) return;
   const bool at_end = io.MouseWheel > 0 ? ImGui::GetScrollY() <= 0 : ImGui::GetScrollY() >= ImGui::GetScrollMaxY();
   if (!at_end) scroll(ui, id, io.MouseWheel);
 }
@@ -113,12 +111,8 @@ void unfold_around(PanelState& state, const ObjectPath& path) {
 /// A click in the list: selects, with Ctrl as well, or deselects.
 void choose(PanelState& state, const ObjectPath& path, bool on) {
   const bool more = ImGui::GetIO().KeyCtrl && !state.selected.empty();
-  const auto had = std::find(state.also.begin(), state.also.end(), path);
-  if (more && had != state.also.end()) {
-    state.also.erase(had);
-  } else if (more && path != state.selected) {
-    state.also.insert(state.also.begin(), state.selected);
-    state.selected = path;
+  if (more && path != state.selected) {
+    if (std::erase(state.also, path) == 0) state.also.insert(state.also.begin(), std::exchange(state.selected, path));
   } else {
     state.also.clear();
     state.selected = on ? ObjectPath{} : path;
@@ -177,11 +171,8 @@ struct SceneRow {
 std::string said_after(const std::string& about, const std::string& word, const std::string& next) {
   const std::size_t at = about.find(word);
   if (at == std::string::npos) return "";
-  const std::size_t from = at + word.size(), end = std::min(about.find(next, from), about.size());
-  return about.substr(from, end - from);
-}
-
-std::string without_blanks(const std::string& text) {
+  const std::size_t from = at + word.size();
+  const std::string text = about.substr(from, about.find(next, from) - from);
   const std::size_t first = text.find_first_not_of(' ');
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
 }
@@ -219,7 +210,7 @@ bool scene_row(Ui& ui, PanelState& state, const SceneRow& row) {
 std::vector<SceneRow> rows_of(const std::vector<BuiltIn>& scenes) {
   std::vector<SceneRow> rows;
   for (const BuiltIn& scene : scenes) {
-    const std::string fails = without_blanks(said_after(scene.about, "Fails:", "Right:"));
+    const std::string fails = said_after(scene.about, "Fails:", "Right:");
     rows.push_back({scene.name, scene.name, scene.name, fails.empty() ? scene.title : "Fails: " + fails,
                     scene.about.empty() ? scene.title : scene.about});
   }

@@ -23,8 +23,8 @@ std::string focus_meaning(const Scene& scene) {
   const Camera& camera = scene.camera;
   if (camera.defocus_angle == 0) return "";
   const SharpRange sharp = sharp_range(camera, scene.height);
-  if (!std::isfinite(sharp.far)) return "sharp from " + format_short(sharp.near) + " on";
-  return "sharp from " + format_short(sharp.near) + " to " + format_short(sharp.far);
+  return "sharp from " + format_short(sharp.near) +
+         (std::isfinite(sharp.far) ? " to " + format_short(sharp.far) : " on");
 }
 
 /// What a background can be, by the kind's place in the variant. A picture can be chosen once there has been one.
@@ -43,11 +43,6 @@ std::string fraction_cut_off(const Frame* frame) {
   if (fraction == 0) return "no path was cut off";
   if (fraction < 1e-5) return "cuts off less than 0.001 % of the paths";
   return fmt::format("cuts off {:.2g} % of the paths", 100 * fraction);
-}
-
-const char* view_meaning(const PanelState& state) {
-  if (shows_errors(state.now.view) && !state.now.accuracy->map()) return "is being computed";
-  return view_entry(state.now.view).meaning;
 }
 
 std::string sharing_meaning(const RenderSettings& render, const Frame* frame) {
@@ -79,14 +74,8 @@ std::string setting_meaning(const PanelState& state, std::string_view name) {
 void threads_row(Ui& ui, PanelState& state) {
   double threads = state.now.wanted.threads;
   static const double cores = std::max(2, thread_count().count);  // asking takes longer than drawing the row
-  Row row{"threads",
-          "Threads",
-          between(1, max_threads),
-          {1, cores},
-          "",
-          "never changes the picture",
-          "",
-          "cpu, cores, processors"};
+  const char* synonyms = "cpu, cores, processors";
+  Row row{"threads", "Threads", between(1, max_threads), {1, cores}, "", "never changes the picture", "", synonyms};
   row.whole = true;
   if (slider_row(ui, row, threads)) ui.requests.push_back({"threads", std::to_string(static_cast<int>(threads))});
 }
@@ -94,14 +83,9 @@ void threads_row(Ui& ui, PanelState& state) {
 /// Width and height of the picture. Sizes that do not fit into memory are refused.
 void pixels_row(Ui& ui, PanelState& state) {
   const Scene& scene = *state.scene;
-  Row row{"size",
-          "Image size",
-          between(1, 65536),
-          {0, 4000},
-          "",
-          "width and height in pixels, also of snapshots",
-          "",
-          "resolution, width, height, dimensions, film size"};
+  const char* help = "width and height in pixels, also of snapshots";
+  const char* synonyms = "resolution, width, height, dimensions, film size";
+  Row row{"size", "Image size", between(1, 65536), {0, 4000}, "", help, "", synonyms};
   row.whole = true;
   double width = scene.width, height = scene.height;
   begin_row(ui, row);
@@ -229,8 +213,10 @@ void image_panel(Ui& ui, PanelState& state) {
   if (state.now.has_scene) clean_row(ui, state);
   Choice choices[view_count];
   for (int k = 0; k < view_count; ++k) choices[k] = {view_entry(k).name, missing_for_view(state.now, k)};
-  const Row row{"view", "View", {}, {}, "", "keys 1 to 9", view_meaning(state), "aov, render pass, passes, channel"};
   int view = state.now.view;
+  const bool waits = shows_errors(view) && !state.now.accuracy->map();
+  const char* meaning = waits ? "is being computed" : view_entry(view).meaning;
+  const Row row{"view", "View", {}, {}, "", "keys 1 to 9", meaning, "aov, render pass, passes, channel"};
   if (choice_row(ui, row, choices, view, 3)) ui.requests.push_back({std::string("view: ") + view_entry(view).name});
 }
 
@@ -262,16 +248,8 @@ void window_panel(Ui& ui, PanelState& state) {
   const Scope scope(ui, "window");
   static constexpr Choice themes[] = {{"dark"}, {"light"}};
   int theme = static_cast<int>(state.look->theme);
-  if (choice_row(ui,
-                 {"theme",
-                  "Theme",
-                  {},
-                  {},
-                  "",
-                  "of panels and lines; the picture stays as it is",
-                  "",
-                  "colour scheme, color scheme"},
-                 themes, theme))
+  const char* help = "of panels and lines; the picture stays as it is";
+  if (choice_row(ui, {"theme", "Theme", {}, {}, "", help, "", "colour scheme, color scheme"}, themes, theme))
     state.look->theme = static_cast<Theme>(theme);
   std::vector<std::string> names;
   std::vector<Choice> sizes;
@@ -279,9 +257,8 @@ void window_panel(Ui& ui, PanelState& state) {
   for (const std::string& name : names) sizes.push_back({name.c_str()});
   int chosen =
       static_cast<int>(std::find(text_sizes.begin(), text_sizes.end(), state.look->text_size) - text_sizes.begin());
-  if (choice_row(ui,
-                 {"text", "Text size, %", {}, {}, "", "of all controls: Ctrl + and Ctrl -", "", "text size, ui scale"},
-                 sizes, chosen))
+  const char* keys = "of all controls: Ctrl + and Ctrl -";
+  if (choice_row(ui, {"text", "Text size, %", {}, {}, "", keys, "", "text size, ui scale"}, sizes, chosen))
     state.look->text_size = text_sizes[static_cast<std::size_t>(chosen)];
 }
 

@@ -13,11 +13,6 @@ namespace {
 
 constexpr float label_column = 124, box_width = 68, gap = 8;  // units of the design; the first from the window's edge
 
-Rect item_rect() {
-  const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
-  return {a.x, a.y, b.x, b.y};
-}
-
 float right_edge() { return ImGui::GetWindowContentRegionMax().x; }
 
 /// What is done with a row or section that is sought, where it begins.
@@ -79,8 +74,8 @@ void log_item(Ui& ui, const std::string& name, const std::string& value) {
   if (!ui.log) return;
   const ImDrawList* draw = ImGui::GetWindowDrawList();
   const ImVec2 low = draw->GetClipRectMin(), high = draw->GetClipRectMax();
-  Rect rect = item_rect();
-  rect = {std::max(rect.x0, low.x), std::max(rect.y0, low.y), std::min(rect.x1, high.x), std::min(rect.y1, high.y)};
+  const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
+  const Rect rect{std::max(a.x, low.x), std::max(a.y, low.y), std::min(b.x, high.x), std::min(b.y, high.y)};
   if (rect.width() > 0 && rect.height() > 0) ui.log->widget(ui.scope + name, rect, value);
 }
 

@@ -91,27 +91,20 @@ struct Further {
   std::vector<ImWchar> ranges;
 };
 
-ImFont* add_first(const std::string& file, float size) {
-  ImFontAtlas* atlas = ImGui::GetIO().Fonts;
-  if (!file.empty()) {
-    ImFontConfig config;
-    config.OversampleH = 2;
-    config.OversampleV = 1;
-    if (ImFont* font = atlas->AddFontFromFileTTF(file.c_str(), size, &config, glyphs())) return font;
-  }
-  ImFontConfig config;
-  config.SizePixels = size;
-  return atlas->AddFontDefault(&config);
-}
-
 /// A font of a size, and into it what the further ones have.
 ImFont* add_font(const std::string& file, float size, const Further& further) {
-  ImFont* font = add_first(file, size);
+  ImFontAtlas* atlas = ImGui::GetIO().Fonts;
+  ImFontConfig usual, built_in;
+  usual.OversampleH = 2;
+  usual.OversampleV = 1;
+  built_in.SizePixels = size;
+  ImFont* font = file.empty() ? nullptr : atlas->AddFontFromFileTTF(file.c_str(), size, &usual, glyphs());
+  if (!font) font = atlas->AddFontDefault(&built_in);
   for (const std::string& more : further.files) {
     ImFontConfig config;
     config.MergeMode = true;
     config.OversampleH = 1;
-    ImGui::GetIO().Fonts->AddFontFromFileTTF(more.c_str(), size, &config, further.ranges.data());
+    atlas->AddFontFromFileTTF(more.c_str(), size, &config, further.ranges.data());
   }
   return font;
 }

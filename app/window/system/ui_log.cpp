@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace tyndall {
 
@@ -115,10 +116,7 @@ void UiLog::rest() {
 }
 
 void UiLog::changed(const std::string& kind, const std::string& value) {
-  std::string& last = last_[kind];
-  if (last == value) return;
-  last = value;
-  line(kind + " " + value);
+  if (std::exchange(last_[kind], value) != value) line(kind + " " + value);
 }
 
 void UiLog::summary(const char* what, std::vector<double> values) {

@@ -2,7 +2,6 @@
 #include "app/window/system/input_events.h"
 #include "app/window/system/layout.h"
 #include "app/window/tools/projection.h"
-#include "app/window/tools/selection.h"
 #include "core/render/renderer.h"
 #include "core/scene/scene.h"
 
