@@ -71,7 +71,7 @@ APP = [
     ("a quote after a backslash ends a string", "app/window/document/open_document.cpp",
      "if («in_string && text[i] == '\\\\' → false»)", "app/window/document/open_document"),
     ("keys stay with the number of their object", "app/window/document/document.cpp",
-     "for (std::size_t k = 0; k < path.size(); ++k) «steps[2 * k + 1] = std::to_string(now[0][k]); → »", "app/window/document/object_path app/window/window_rows"),
+     "for (std::size_t k = 0; k < path.size(); ++k) «steps[2 * k + 1] = std::to_string(now[0][k]); → »", "app/window/document/object_path"),
     ("an undone deletion loses the selection of others", "app/window/document/history.cpp",
      "«select(std::move(selected)); → »\n  gesture_ = gesture;", "app/window/document/history"),
 
@@ -130,7 +130,7 @@ APP = [
     ("one that has finished keeps the other one waiting", "app/window/rendering/renderer_pair.cpp",
      "«if (first.finished || second.finished) return Active::both; → »", "app/window/rendering/thread_budget"),
     ("a picture counts as finished before it was started over", "app/window/rendering/renderer_pair.cpp",
-     "ended(Half::current) && «renderer_.latest()->pass > restarted_after_ → true»;", "app/window/session_picture app/window/window_rows"),
+     "ended(Half::current) && «renderer_.latest()->pass > restarted_after_ → true»;", "app/window/rendering/thread_budget"),
 
     ("no picture has the present value", "app/window/variations/strip.cpp", "«if (nearest != values.end()) *nearest = present; → »", "app/window/window_rows"),
     ("the strip stays open without its row", "app/window/variations/strip.cpp", "«if (axes_.empty()) return close(); → »\n    VariedValue", "app/window/window_rows"),
@@ -144,7 +144,7 @@ APP = [
      "scene.animation->frames = std::max(scene.animation->frames, «frame + 1 → frame»);\n  const Vec3d* vector", "app/window/window_rows"),
     ("values without keys stay among those with keys", "app/window/timeline/timeline.cpp",
      "«std::erase_if(scene.animation->keyed, [](const KeyedValue& keyed) { return keyed.keys.empty(); }); → »", "app/window/window_rows"),
-    ("all cameras at the film's first frame", "app/window/timeline/timeline.cpp", "«frame += frames_between_cameras; → »", "app/window/window_rows app/window/window_camera"),
+    ("all cameras at the film's first frame", "app/window/timeline/timeline.cpp", "«frame += frames_between_cameras; → »", "app/window/window_rows"),
     ("to look at a frame loses the film", "app/window/timeline/timeline.cpp",
      "Scene made = scene_at(scene, frame);\n  «made.animation = scene.animation; → »", "app/window/window_rows"),
     ("a film plays on behind its end", "app/window/timeline/timeline.cpp", "static_cast<int>(«played % animation.frames → played»);", "app/window/window_rows"),
@@ -152,9 +152,9 @@ APP = [
     ("what begins so stands among the others", "app/window/menus/menu.cpp",
      "if («name.starts_with(sought) || end.starts_with(sought) → false») return 1;", "app/window/menus/palette"),
     ("other words of an item are not looked at", "app/window/menus/menu.cpp", "if (holds_words(«label + \" \" + also → label», text)) return 3;", "app/window/menus/palette"),
-    ("what cannot be done is done by a click", "app/window/menus/menu.cpp", "return «pressed && can → pressed»;", "app/window/window_commands app/window/window_objects"),
+    ("what cannot be done is done by a click", "app/window/menus/menu.cpp", "return «pressed && can → pressed»;", "app/window/menus/palette"),
     ("arrow keys stop at what cannot be done", "app/window/menus/menu.cpp",
-     "if («items_[static_cast<std::size_t>(mark_)].why_not.empty() → true») return;", "app/window/window_commands app/window/window_objects"),
+     "if («items_[static_cast<std::size_t>(mark_)].why_not.empty() → true») return;", "app/window/menus/palette"),
     ("the down key goes up in the palette", "app/window/menus/menu.cpp", "mark_ += «key == key_down → key != key_down» ? 1 : -1;", "app/window/menus/palette"),
 
     ("a rectangle without its last column and row", "app/window/inspector/rectangle_tool.cpp",
@@ -170,12 +170,12 @@ APP = [
     ("a picture pauses again after Space", "app/window/session.cpp", "«frame.edit == limited_edit_ → false» || wanted.paused) return;", "app/window/window_files"),
     ("Shift makes no other command", "app/window/command.cpp", "&& «key.shift == modifiers.shift → true»;", "app/window/command app/window/window_commands"),
     ("edits that were given up are kept", "app/window/session_edits.cpp", "discarded_ = true;\n  «kept_.keep(nullptr, nullptr); → »", "app/window/session_files"),
-    ("a snapshot shows the picture before the newest edit", "app/window/session.cpp", "«if (timer.waits()) submit(clock_seconds()); → »", "app/window/session_picture app/window/session_edits"),
+    ("a snapshot shows the picture before the newest edit", "app/window/session.cpp", "«if (timer.waits()) submit(clock_seconds()); → »", "app/window/session_files"),
     ("a problem of saving at the end is not told", "app/window/session.cpp", "return «messages.errors() > errors → false» ? problems : \"\";", "app/window/session_files"),
 
     ("an error names its file as its place", "app/python/module.cpp", "instance.attr(\"place\") = text_of(«why.place → why.file»);", "python"),
     ("arrays of a picture can be written to", "app/python/module.cpp", "«array.attr(\"setflags\")(py::arg(\"write\") = false); → »", "python"),
-    ("a progress function cannot stop", "app/python/module.cpp", "return «truth != 0 → true»;", "python"),
+    ("the reference's mean is that of the picture", "app/python/module.cpp", "return tuple(«c.mean_reference → c.mean_image»);", "python"),
     ("names of files that are no UTF-8 are an error", "app/python/module.cpp", "«\"surrogateescape\" → \"strict\"»", "python"),
     ("the region ends on the right where it ends below", "app/python/module.cpp", "tyndall::Region{x0, y0, «x1 → y1», y1};", "python"),
 
@@ -199,11 +199,11 @@ APP = [
      "«if (options.spp > max_samples) refuse(fmt::format(\"spp: found {}, expected at most {}\", options.spp, max_samples)); → »", "app/watch.sh"),
     ("options of an older header are read behind their end", "app/watch/watch.cpp", "std::memcpy(&options, given, «std::min(given->size, sizeof options) → sizeof options»);", "app/watch.sh"),
 
-    ("swapped red and blue are not tried", "app/check/reading.cpp", "picture.numbers[at + («reading.swapped ? 2 - c : c → c»)];", "app/check/explain"),
+    ("swapped red and blue are not tried", "app/check/reading.cpp", "picture.numbers[at + («reading.swapped ? 2 - c : c → c»)];", "app/check/statistics"),
     ("a mean in place of a covariance", "app/check/statistics.cpp", "(products - «a * b / count → 0.0») / (count - 1)", "app/check/statistics"),
     ("what a mistake explains is what it adds", "app/check/differences.cpp",
      "return seen > min_seen * before.amount() ? 1 - «amount_of(after.all, before.all) → amount_of(before.all, after.all)» / seen : 0;", "app/check/explain"),
-    ("paths one too long in place of one too short", "app/check/explain.cpp", "{above, «above - 1 → above + 1»}", "app/check/explain app/check/explain_slow"),
+    ("a picture of too few samples agrees", "app/check/explain.cpp", "findings_.too_few = agree && «findings_.unseen > max_unseen → false»;", "app/check/explain"),
     ("light of a depth alone, not up to it", "app/check/statistics.cpp", "for (std::size_t k = 1; k < light.size(); ++k) «light[k] += light[k - 1]; → »",
      "app/check/statistics app/check/explain"),
 

@@ -17,7 +17,7 @@ CORE = [
     ("an unlocked counter", "core/base/thread_pool.cpp", "(i = «next_.fetch_add(1, std::memory_order_relaxed) → "
      "[&] { const int k = next_.load(); std::this_thread::yield(); next_.store(k + 1); return k; }()») < count", "base/thread_pool"),
     ("what a job throws is lost", "core/base/thread_pool.cpp", "«if (failure && !failure_) failure_ = failure; → »", "base/thread_pool"),
-    ("the second best name is suggested", "core/base/text.cpp", "if («distance < best → distance <= best») {\n      best", "base/text"),
+    ("surrogates pass as UTF-8", "core/base/text.cpp", "surrogate = «first == 0xed && second >= 0xa0 → false»;", "base/text"),
 
     ("a sphere's far side is its near one", "core/shapes/sphere.h", "return {middle - half, «middle + half → middle - half», less", "shapes/sphere"),
     ("a ray that grazes a sphere from inside loses digits", "core/shapes/sphere.h", "equal(from & IntOf<F>(3), IntOf<F>(«1 → 0»))", "shapes/sphere"),

@@ -108,7 +108,7 @@ def build(root, work, slow):
 def first_failure(folder, fault, *selection):
     """Runs tests with a fault, up to the first that fails. Returns its name, or None."""
     result = subprocess.run(["ctest", "--stop-on-failure", "-j", JOBS, "-E", NOT_RUN, *selection], cwd=folder, text=True,
-                            env={**os.environ, "TYNDALL_FAULT": str(fault)}, stdout=subprocess.PIPE)
+                            env={**os.environ, "TYNDALL_FAULT": str(fault)}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     failed = re.search(r"tests FAILED:\s+\d+ - (\S+) ", result.stdout)
     if "No tests were found" in result.stdout or (result.returncode != 0 and not failed):
         sys.exit(f"planted: ctest {' '.join(selection)}: {result.stdout}")
