@@ -24,8 +24,9 @@ from bugs_core import CORE
 BUGS = CORE + APP
 JOBS = os.environ.get("TYNDALL_PLANTED_JOBS", str(len(os.sched_getaffinity(0))))
 NOT_COPIED = {"build", ".git"}
-# Tests of the sources themselves, which the copy would not pass, and of programs that the fault is not in.
-NOT_RUN = "^(check_|style/|peers/)"
+# Tests of the sources themselves, which the copy would not pass, of other programs, and one that counts the rays of several
+# instruction sets.
+NOT_RUN = "^(check_|style/|peers/|targets/trace$)"
 
 
 def parts(change):
@@ -135,8 +136,7 @@ def main():
     rooms = {}
     for number, room, what, tests in chosen:
         start = time.monotonic()
-        by = first_failure(folder, number, "-R", named(tests))
-        by = by or first_failure(folder, number, "-LE", "slow|nightly")
+        by = first_failure(folder, number, "-R", named(tests)) or first_failure(folder, number, "-LE", "slow|nightly")
         seconds = time.monotonic() - start
         row = rooms.setdefault(room, [0, 0, 0, 0])
         for column, count in enumerate((1, bool(by) and "_slow" not in by, bool(by), seconds)):

@@ -8,6 +8,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 /// Second vertices that are shared between pixels: the light is what separate paths find, with less noise.
 namespace tyndall::test::sharing_test {
 
@@ -158,6 +160,22 @@ TEST_CASE("sharing: the probe is near to what sharing changes") {
   const ReuseGain gain = probe_reuse(SceneViewOf(compiled).view(), trace_groups);
   CHECK(gain.variance == doctest::Approx(0.2).epsilon(0.4).scale(0));
   CHECK(gain.time == doctest::Approx(1.3).epsilon(0.2).scale(0));
+}
+
+TEST_CASE("sharing: the second sample of a pixel is in the second half, and coarse passes take every step-th pixel") {
+  const Scene scene = close_up("cornell-box", 37, 29);
+  const Film one = picture_of(scene, true, 0, 1), two = picture_of(scene, true, 0, 2);
+  for (std::size_t i = 0; i < one.pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c) REQUIRE(two.pixels[i].sum[0][c] == one.pixels[i].sum[0][c]);
+  const RenderScene compiled = compile(scene);
+  const SceneViewOf view(compiled);
+  REQUIRE(view.view().reuses_paths);
+  std::vector<FilmPixel> pixels(one.pixels.size());
+  TileCounts counts;
+  available_kernels().back().render_tile(view.view(), {{0, 0, 37, 29}, 4, 0, 0, 1}, one.quantum, pixels.data(), counts);
+  const auto taken =
+      std::count_if(pixels.begin(), pixels.end(), [](const FilmPixel& pixel) { return pixel.taken > 0; });
+  CHECK(taken == 10 * 8);
 }
 
 TEST_CASE("sharing: pixels that lack different numbers of samples get the samples of their groups") {
