@@ -1,5 +1,6 @@
 #include "app/window/timeline/timeline.h"
 #include "app/window/variations/strip.h"
+#include "core/scene/frames.h"
 #include "tests/app/window/driver.h"
 #include "tests/support/news.h"
 

@@ -46,6 +46,7 @@ TEST_CASE("an object without a name that changed while its list grew is where it
 TEST_CASE("keys follow their objects, and go with them") {
   Scene before;
   before.objects = {ball("a", 0), pair({ball("b", 1), ball("c", 2)})};
+  before.materials = {{"grey", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}};
   before.animation.emplace();
   set_key(*before.animation, "/objects/0/radius", {0, {1}});
   set_key(*before.animation, "/objects/1/objects/1/radius", {0, {1}});
