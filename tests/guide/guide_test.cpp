@@ -1,4 +1,5 @@
 #include "core/guide/find_guide.h"
+#include "core/guide/guide_trail.h"
 #include "core/guide/light_paths.h"
 #include "core/guide/lobes.h"
 #include "tests/support/pictures.h"
@@ -95,6 +96,11 @@ TEST_CASE("guide: directions are drawn with the pdf that is stated") {
         const GuidedDirections<float> directions = guided_directions(g.view(), sequence, point);
         const SeenLobe<float>& seen = directions.lobe;
         if (!seen.exists) continue;
+        // Light that was found otherwise, with half of the pdf, has a fifth by the power heuristic.
+        const std::int32_t row = sequence.index * numbers_of_events;
+        const OrderedEvents<float> events{g.view().events[row + events_low], g.view().events[row + events_high]};
+        const GuideTrail<float> trail{point, seen.center, 0.5f * guided_pdf(directions, seen.center), events};
+        CHECK(mis_weight_beside_guide(g.prepared->view(), trail, events, true) == doctest::Approx(0.2).scale(0));
         // The mean of 1 / pdf over the directions drawn within a cone is the cone's solid angle.
         for (const double factor : {0.5, 3.0, 20.0}) {
           const double angle = std::min(factor * static_cast<double>(seen.length_u), 1.0);

@@ -97,7 +97,7 @@ APP = [
     ("a turn across 180 degrees goes the long way", "app/window/handles/handle_tool.cpp",
      "return «std::remainder(*to - *from, 360.0) → *to - *from»;", "app/window/handles/handle_drag"),
     ("objects in turned groups move elsewhere", "app/window/handles/handle_tool.cpp", "«rotate({-around.degrees, {}}, shift) → shift»", "app/window/handles/handle_drag"),
-    ("an arrow hides the grip on it", "app/window/handles/handles.cpp", "«if (handle.kind == HandleKind::size) away -= 2 * scale; → »", "app/window/handles/handle_tool"),
+    ("an arrow hides the grip on it", "app/window/handles/handles.cpp", "«if (handle.kind == HandleKind::size) away -= 2 * scale; → »", "app/window/handles/handle_drag"),
     ("a movement that is given up stays", "app/window/handles/handle_tool.cpp", "«if (gone) edited.change().objects = start_; → »", "app/window/handles/handle_tool"),
     ("Backspace takes all that was typed", "app/window/handles/handle_tool.cpp", "«typed_.pop_back(); → typed_.clear();»", "app/window/handles/handle_tool"),
 
@@ -133,7 +133,7 @@ APP = [
      "ended(Half::current) && «renderer_.latest()->pass > restarted_after_ → true»;", "app/window/rendering/thread_budget"),
 
     ("no picture has the present value", "app/window/variations/strip.cpp", "«if (nearest != values.end()) *nearest = present; → »", "app/window/window_rows"),
-    ("the strip stays open without its row", "app/window/variations/strip.cpp", "«if (axes_.empty()) return close(); → »\n    VariedValue", "app/window/window_rows"),
+    ("the left key goes right", "app/window/variations/strip.cpp", "move_x_ += «key == key_right → key != key_right» ? 1", "app/window/window_rows"),
     ("halves of whole numbers", "app/window/variations/strip.cpp", "«if (slot.form == ValueForm::whole) value = std::round(value); → »", "app/window/window_rows"),
     ("pictures of a request that is over are shown", "app/window/variations/small_renders.cpp",
      "«if (!is_newest()) return; → »\n      if (picture) pictures_", "app/window/window_rows"),
@@ -205,7 +205,7 @@ APP = [
      "return seen > min_seen * before.amount() ? 1 - «amount_of(after.all, before.all) → amount_of(before.all, after.all)» / seen : 0;", "app/check/explain"),
     ("a picture of too few samples agrees", "app/check/explain.cpp", "findings_.too_few = agree && «findings_.unseen > max_unseen → false»;", "app/check/explain"),
     ("light of a depth alone, not up to it", "app/check/statistics.cpp", "for (std::size_t k = 1; k < light.size(); ++k) «light[k] += light[k - 1]; → »",
-     "app/check/statistics app/check/explain"),
+     "app/check/statistics"),
 
     ("parts of adaptive renders are merged", "app/cli/merge.cpp", "if («part.scene.render.adaptive → false»)", "app/adaptive.sh app/shards.sh"),
     ("one value is varied twice", "app/cli/sweep.cpp", "&& «command.axes[0].pointer == command.axes[1].pointer → false»)", "commands/refusals app/sweep.sh"),

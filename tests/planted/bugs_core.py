@@ -102,7 +102,7 @@ CORE = [
     ("a box in the tree ends where another side of it does", "core/compile/bvh.cpp", "node.high[1][c] = «b.high.y → b.high.x»,", "compile/bvh"),
     ("the last column of a sky goes on to itself", "core/compile/sky.cpp", "x + 1 < texels_.width ? at(x + 1) : «first → left»;", "trace/sky render/sky"),
     ("a ball inside another counts as overlapping", "core/compile/overlap.cpp",
-     "d.minimum < own + other.radius && «d.greatest > other.radius - own → true»;", "render/overlap compile/compile"),
+     "d.minimum < own + other.radius && «d.greatest > other.radius - own → true»;", "compile/visibility"),
 
     ("the lens is a line", "core/trace/camera.h",
      "point_at(lens.x * splat<F>(c.lens_u), «lens.y → lens.x», splat<F>(c.lens_v))", "trace/camera"),
@@ -116,7 +116,7 @@ CORE = [
      "const F by_area = distance * distance / max(cosine * «columns.area → columns.area * F(2.0f)», F(1e-37f));", "trace/light_pdf"),
 
     ("the power heuristic of one strategy beside the balance heuristic of the other", "core/guide/guide_trail.h",
-     "F(1.0f) / «mul_add(inverse, inverse, F(1.0f)) → (inverse + F(1.0f))», F(1.0f))", "render/light_traced"),
+     "F(1.0f) / «mul_add(inverse, inverse, F(1.0f)) → (inverse + F(1.0f))», F(1.0f))", "guide/guide"),
     ("the sixth event back is forgotten", "core/guide/ordered_events.h", "const I carry = «as_int(shift_right<24>(as_uint(before.low))) → I(0)»;", "guide/guide"),
     ("the tail of a lobe counts as its middle", "core/guide/lobes.h", "const F shape = F(«1 - tail_fraction → 1.0f») / (near * near)", "guide/guide"),
     ("a probability without the sequence's weight", "core/guide/lobes.h",
@@ -169,7 +169,7 @@ CORE = [
     ("rounds spend more than they may", "core/render/plan.cpp",
      "const double mean = «2.0 → 2.5» * round_mean(film, &PlannedSamples::from);", "render/plan"),
     ("a problem stays after it was solved", "core/render/mailbox.cpp", "prepared_ = std::move(scene);\n  «reply_.problem = nullptr; → »", "render/renderer_edits"),
-    ("an edit waits for the pass before", "core/render/mailbox.cpp", "«if (change_between(taken_, newest_).is_urgent()) give_up_ = true; → »", "render/renderer_edits"),
+    ("an edit waits for the pass before", "core/render/mailbox.cpp", "«if (change_between(taken_, newest_).is_urgent()) give_up_ = true; → »", "render/render_request"),
 
     ("what was merged from an unfinished film says that it is whole", "core/files/film_files.cpp",
      "«a.unfinished || b.unfinished → a.unfinished && b.unfinished»", "files/film_files"),

@@ -1,5 +1,6 @@
 #include "core/render/pass.h"
 #include "core/reuse/probe.h"
+#include "core/reuse/reuse_tile.h"
 #include "core/targets/scalar.h"
 #include "tests/support/pictures.h"
 #include "tests/support/prepared.h"
@@ -9,6 +10,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <memory>
 
 /// Second vertices that are shared between pixels: the light is what separate paths find, with less noise.
 namespace tyndall::test::sharing_test {
@@ -160,6 +162,21 @@ TEST_CASE("sharing: the probe is near to what sharing changes") {
   const ReuseGain gain = probe_reuse(SceneViewOf(compiled).view(), trace_groups);
   CHECK(gain.variance == doctest::Approx(0.2).epsilon(0.4).scale(0));
   CHECK(gain.time == doctest::Approx(1.3).epsilon(0.2).scale(0));
+}
+
+TEST_CASE("sharing: the pdf of a link between two floors falls with the square of its length") {
+  const RenderScene empty = compile(Scene{});
+  const SceneViewOf view(empty);
+  const auto paths = std::make_unique<ReusedPaths>();
+  paths->first.facing[1][0] = 1, paths->second.facing[1][1] = -1;
+  paths->first.surface[0] = from_nowhere, paths->second.surface[1] = -1;
+  const auto pdf = [&](float length) {
+    TileCounts counts;
+    paths->second.point[1][1] = length;
+    return link_pdf<float>(view.view(), *paths, 0, 1, true, counts);
+  };
+  CHECK(pdf(1) == 1);
+  CHECK(pdf(2) == 0.25f);
 }
 
 TEST_CASE("sharing: the second sample of a pixel is in the second half, and coarse passes take every step-th pixel") {

@@ -98,6 +98,10 @@ TEST_CASE("check: where no bright sample happened to be met, the error is that o
   CHECK(dark.misfit().different == dark.misfit().blocks);
 }
 
+TEST_CASE("check: the fraction of light that has come up to each depth") {
+  CHECK(light_by_depth({{{1, 1, 1}, 0}, {{1, 1, 1}, 2}}) == std::vector<double>{0.5, 0.5, 1});
+}
+
 TEST_CASE("check: a picture's numbers as each way of reading takes them") {
   PictureNumbers picture{2, 1, {0.5f, 1, 0.25f, 0, 0.75f, 1}};
   const auto light = [&](const Reading& reading) { return read_pixels(picture, {2, 1}, reading).light; };

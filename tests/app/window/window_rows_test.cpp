@@ -123,6 +123,7 @@ TEST_CASE("keys: a film grows to the last one and goes with the last one, and go
   CameraSlots slots{{scene.camera, nullptr}, {scene.camera, nullptr}};
   slots[1].camera.vfov = 10;
   key_cameras(scene, slots);
+  CHECK(scene_at(scene, 0).camera.vfov == scene.camera.vfov);
   CHECK(scene_at(scene, 48).camera.vfov == 10);
 }
 
