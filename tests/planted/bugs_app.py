@@ -72,7 +72,7 @@ APP = [
      "if («in_string && text[i] == '\\\\' → false»)", "app/window/document/open_document"),
     ("keys stay with the number of their object", "app/window/document/document.cpp",
      "for (std::size_t k = 0; k < path.size(); ++k) «steps[2 * k + 1] = std::to_string(now[0][k]); → »", "app/window/document/object_path"),
-    ("an undone deletion loses the selection of others", "app/window/document/history.cpp",
+    ("an edit loses the selection", "app/window/document/history.cpp",
      "«select(std::move(selected)); → »\n  gesture_ = gesture;", "app/window/document/history"),
 
     ("the camera turns over the pole", "app/window/tools/camera_control.cpp",
@@ -134,7 +134,7 @@ APP = [
 
     ("no picture has the present value", "app/window/variations/strip.cpp", "«if (nearest != values.end()) *nearest = present; → »", "app/window/window_rows"),
     ("the left key goes right", "app/window/variations/strip.cpp", "move_x_ += «key == key_right → key != key_right» ? 1", "app/window/window_rows"),
-    ("halves of whole numbers", "app/window/variations/strip.cpp", "«if (slot.form == ValueForm::whole) value = std::round(value); → »", "app/window/window_rows"),
+    ("steps between whole numbers", "app/window/variations/strip.cpp", "«if (slot.form == ValueForm::whole) value = std::round(value); → »", "app/window/window_rows"),
     ("pictures of a request that is over are shown", "app/window/variations/small_renders.cpp",
      "«if (!is_newest()) return; → »\n      if (picture) pictures_", "app/window/window_rows"),
     ("the second value is that of the first row", "app/window/variations/strip.cpp",
@@ -200,7 +200,7 @@ APP = [
     ("options of an older header are read behind their end", "app/watch/watch.cpp", "std::memcpy(&options, given, «std::min(given->size, sizeof options) → sizeof options»);", "app/watch.sh"),
 
     ("swapped red and blue are not tried", "app/check/reading.cpp", "picture.numbers[at + («reading.swapped ? 2 - c : c → c»)];", "app/check/statistics"),
-    ("a mean in place of a covariance", "app/check/statistics.cpp", "(products - «a * b / count → 0.0») / (count - 1)", "app/check/statistics"),
+    ("a mean product in place of a covariance", "app/check/statistics.cpp", "(products - «a * b / count → 0.0») / (count - 1)", "app/check/statistics"),
     ("what a mistake explains is what it adds", "app/check/differences.cpp",
      "return seen > min_seen * before.amount() ? 1 - «amount_of(after.all, before.all) → amount_of(before.all, after.all)» / seen : 0;", "app/check/explain"),
     ("a picture of too few samples agrees", "app/check/explain.cpp", "findings_.too_few = agree && «findings_.unseen > max_unseen → false»;", "app/check/explain"),

@@ -83,7 +83,7 @@ CORE = [
      "if (i == 1) return own + «cells.across(channel_sum(output, 0)) → F(-1.0f) * cells.across(channel_sum(output, 0))»;", "clean/clean clean/choice"),
     ("noise counts in the estimate in place of the error", "core/clean/clean.cpp",
      "const double error = std::max(«errors.sum() → 0.0», std::accumulate", "render/clean_film clean/clean"),
-    ("what was planned for another size is kept", "core/clean/clean.cpp",
+    ("memory for another height is kept", "core/clean/clean.cpp",
      "if (cells_x == cells_in(width) && «cells_y == cells_in(height) → true») return;", "clean/clean"),
 
     ("keys with a slash are not escaped", "core/scene/place.cpp", "out += «\"~1\" → \"~0\"»;", "scene/place scene/override"),
@@ -109,10 +109,10 @@ CORE = [
     ("the sides of a node of the tree of lights swapped", "core/trace/light_choice.h",
      "select(equal(side, I(«0 → 1»)), probabilities.x, probabilities.y)", "trace/light_pdf trace/lights"),
     ("the sky is drawn half a texel beside", "core/trace/sky.h", "(from_int<F>(column) + s + F(«0.5f → 0.0f»))", "trace/sky"),
-    ("shadow rays cross fog from the camera on", "core/trace/flight.h",
+    ("the way up to fog counts as fog", "core/trace/flight.h",
      "mul_add(«end - begin → end», splat<F>(s.media[k].density), depth)", "render/media render/light_in_media"),
     ("the last fog counts, not the nearest event", "core/trace/flight.h", "end = min(inside.far, «nearest → inside.far»);", "render/media"),
-    ("lamps seen edge on count by half", "core/trace/lights.h",
+    ("lamps that are drawn by their area have half of their pdf", "core/trace/lights.h",
      "const F by_area = distance * distance / max(cosine * «columns.area → columns.area * F(2.0f)», F(1e-37f));", "trace/light_pdf"),
 
     ("the power heuristic of one strategy beside the balance heuristic of the other", "core/guide/guide_trail.h",
@@ -158,7 +158,7 @@ CORE = [
      "branches_.push_back(static_cast<std::int32_t>(path_.vertices.size()) - «1 → 2»)", "targets/replay"),
     ("replayed paths forget what fog has left", "core/targets/recorder.cpp",
      "«if (s.has_media()) v.kept = transmitted_by_absorbers(s, p.ray, p.sampler, hit.t, true); → »", "targets/replay"),
-    ("the depth of a lamp's first hit in place of its colour", "core/targets/entry.h", "h.albedo = {column[«0 → 6»][k]", "targets/first_hits"),
+    ("distances in place of the red of what is seen first", "core/targets/entry.h", "h.albedo = {column[«0 → 6»][k]", "targets/first_hits"),
     ("light of earlier branches is left out of a replay", "core/targets/recorder.cpp",
      "path_.radiance = «ended_ + v.radiance → v.radiance»;", "targets/replay"),
 
