@@ -193,5 +193,5 @@ CORE = [
     ("the widest quota counts", "core/system/processors.cpp", "minimum = «std::min(*quota, minimum.value_or(*quota)) → "
      "std::max(*quota, minimum.value_or(*quota))»;", "system/processors"),
     ("places with spaces are not found", "core/system/mounts.cpp", "«if (code) i += 3; → »", "system/processors"),
-    ("a second signal that comes at once ends at once", "core/system/signals.cpp", "now_ms() - received_at > «same_request_ms → -1»", "app/interrupt_slow.sh"),
+    ("a change of a file is told of again and again", "core/system/file_watch.cpp", "now != «std::exchange(seen, now) → seen»;", "system/file_watch"),
 ]
