@@ -176,7 +176,7 @@ CORE = [
     ("films of other numbers of samples do not fit", "core/files/film_files.cpp", "«scene.render.spp.reset(); → »", "files/film_files"),
     ("the variance of one half, not of the mean", "core/files/stats.cpp", "const Vec3f half = «0.5f → 1.0f» * (half_mean", "files/layers"),
     ("the sky is at distance 0", "core/files/stats.cpp",
-     "depth.push_back(«hit.element < 0 ? std::numeric_limits<float>::infinity() : hit.depth → hit.depth»);", "app/pictures.sh"),
+     "depth.push_back(«hit.element < 0 ? std::numeric_limits<float>::infinity() : hit.depth → hit.depth»);", "files/layers"),
     ("rates count the samples of earlier runs", "core/files/stats.cpp", "per_second(sum.samples - «run.samples_before → 0», run.result.seconds)", "files/stats"),
     ("an older film's caustics as of today", "core/files/film_files.cpp", "if («!says(loaded.text, \"caustics\") → false») scene", "files/film_files"),
 
@@ -193,5 +193,5 @@ CORE = [
     ("the widest quota counts", "core/system/processors.cpp", "minimum = «std::min(*quota, minimum.value_or(*quota)) → "
      "std::max(*quota, minimum.value_or(*quota))»;", "system/processors"),
     ("places with spaces are not found", "core/system/mounts.cpp", "«if (code) i += 3; → »", "system/processors"),
-    ("a change of a file is told of again and again", "core/system/file_watch.cpp", "now != «std::exchange(seen, now) → seen»;", "system/file_watch"),
+    ("a change of a file is not told of", "core/system/file_watch.cpp", "moments = 0;\n        «on_change(); → »", "system/file_watch"),
 ]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plants the faults of bugs.py, one at a time, and says which of them the tests find.
+"""Plants the faults of bugs_core.py and bugs_app.py, one at a time, and says which of them the tests find.
 
 Usage: planted.py ROOT [WORK [WORDS]]
 ROOT: of the sources; WORK: a folder for the build with the faults; WORDS: only faults whose file or description holds one of these.
@@ -64,7 +64,7 @@ def check_that_all_fit(root):
     for what, file, change, tests in BUGS:
         before, old, _, after = parts(change)
         if (root / file).read_text().count(before + old + after) != 1:
-            sys.exit(f'planted: {file} does not hold once what "{what}" changes; bugs.py has to follow it')
+            sys.exit(f'planted: {file} does not hold once what "{what}" changes; its entry has to follow it')
         for test in tests.split():
             folder, name = os.path.split(test)
             places = (f"{test}_test.cpp", test, f"{folder}/test_{name}.py")
