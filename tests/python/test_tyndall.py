@@ -107,6 +107,7 @@ def test_compare():
     assert found.only_noise and found.blocks > 0 and found.relmse > 0
     assert tyndall.compare(a.array, b.array).relmse == found.relmse
     assert tyndall.compare(a, a).mse == 0
+    assert found.mean_reference == tyndall.compare(b, a).mean_image != found.mean_image
     assert found._fields[:5] == ("mse", "rmse", "relmse", "psnr", "flip")
 
 
