@@ -207,10 +207,10 @@ APP = [
     ("light of a depth alone, not up to it", "app/check/statistics.cpp", "for (std::size_t k = 1; k < light.size(); ++k) «light[k] += light[k - 1]; → »",
      "app/check/statistics"),
 
-    ("parts of adaptive renders are merged", "app/cli/merge.cpp", "if («part.scene.render.adaptive → false»)", "app/adaptive.sh app/shards.sh"),
+    ("parts of adaptive renders are merged", "app/cli/merge.cpp", "if («part.scene.render.adaptive → false»)", "app/shards.sh"),
     ("one value is varied twice", "app/cli/sweep.cpp", "&& «command.axes[0].pointer == command.axes[1].pointer → false»)", "commands/refusals app/sweep.sh"),
     ("a picture of too few samples counts as whole", "app/cli/kept_pictures.cpp", "found > wanted : «found != wanted → found > wanted»))", "app/animate.sh app/sweep.sh"),
-    ("a file that cannot be written is no failure", "app/cli/merge.cpp", "return problems.empty() ? 0 : «output_failed → 0»;", "app/full_disk.sh app/denoise.sh"),
+    ("a file that cannot be written is no failure", "app/cli/merge.cpp", "return problems.empty() ? 0 : «output_failed → 0»;", "app/shards.sh"),
     ("--fresh goes on all the same", "app/cli/sweep.cpp", "«if (job.command.fresh) return {}; → »", "app/sweep.sh"),
     ("a frame that was not written is listed as whole", "app/cli/animate.cpp", "«if (!written) return; → »", "app/animate.sh app/full_disk.sh"),
 ]

@@ -81,6 +81,7 @@ def test_progressive_pictures_end_as_one_render():
     begin = time.monotonic()
     assert len(list(small("cover").progressive(seconds=0.3))) >= 2
     assert time.monotonic() - begin < 5
+    assert small("cornell-box").render(spp=1, region=(1, 2, 7, 5)).array.shape == (3, 6, 3)
 
 
 def test_films_are_saved_and_merged(tmp_path):
