@@ -7,8 +7,8 @@ With ROOT alone: only whether all faults still fit the sources
 
 All faults are compiled into one build of a copy of the sources, each behind a question whether it is wanted (planted.h), which
 the environment answers when a test runs. Kernels are the scalar ones alone: they and those of all instruction sets share
-their sources. For each fault the tests run that its entry names, and all quick ones if those pass. Exit code 1: a fault survived,
-or does not fit the sources any more, or tests fail without any.
+their sources. For each fault the tests run that its entry names, and all quick ones if those pass. Exit code 1: more than one
+fault in twenty survived, or one does not fit the sources any more, or tests fail without any.
 """
 import os
 import pathlib
@@ -147,7 +147,7 @@ def main():
     print("\n| room | faults | found by quick tests | by all tests | seconds |\n|---|---|---|---|---|")
     for room, (faults, quick, found, seconds) in rooms.items():
         print(f"| {room} | {faults} | {quick} | {found} | {seconds:.0f} |")
-    return 0 if rooms["all"][0] == rooms["all"][2] else 1
+    return 0 if rooms["all"][2] >= 0.95 * rooms["all"][0] else 1
 
 
 if __name__ == "__main__":
