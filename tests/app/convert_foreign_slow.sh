@@ -54,6 +54,9 @@ expect 0 "$tyndall" convert lamp.json -o lamp.pbrt
 grep -qF '"rgb L" [ 0.5 0.25 0.125 ]' lamp.pbrt || fail "a lamp whose colour is a texture: $(grep Area lamp.pbrt)"
 expect 0 "$tyndall" convert cornell-smoke -o smoke.pbrt
 same 'media of pbrt' 2 "$(grep -c '^MakeNamedMedium' smoke.pbrt)"
+grep -qF '"rgb sigma_a" [ 0.01 0.01 0.01 ] "rgb sigma_s" [ 0 0 0 ]' smoke.pbrt || fail 'black smoke scatters, or absorbs nothing'
+expect 0 "$tyndall" convert cornell-smoke --set /image/width=300 -o upright.pbrt # half as wide as high: 2 atan(tan(20 degrees) / 2)
+grep -qF '"float fov" 20.628' upright.pbrt || fail "the angle of an upright picture: $(grep fov upright.pbrt)"
 
 # The eye in a medium: what lies outside of it stands in none.
 sed 's/"center": \[-1, 3, 1\], "radius": 0.7/"center": [1, 2, 7], "radius": 0.7/' scene.json >eye.json

@@ -55,4 +55,10 @@ complains '--caustics chains' 'ignored' 'path'
 expect 0 "$tyndall" render "${balls[@]}" --spp 1 --integrator path -o same.pfm :quiet
 cmp -s path.pfm same.pfm || fail '--caustics chains changes what integrator path renders'
 
+# Adaptive renders are no ranges of samples; a sum that cannot be written is a failure.
+expect 0 "$tyndall" render cornell-box --size 16x16 --spp 8 --adaptive -q -o adaptive.exr
+expect 2 "$tyndall" merge adaptive.exr -o adaptive.pfm :: 'adaptive'
+ln -s /dev/full full.pfm
+expect 3 "$tyndall" merge a.exr b.exr c.exr -o full.pfm :: 'full.pfm'
+
 finish

@@ -129,13 +129,14 @@ TEST_CASE("clean: nowhere negative, though the light beside bright specks is ext
 }
 
 TEST_CASE("clean: the same bits for any number of threads, and once more after another picture") {
-  const Known k = known_picture(203, 77, 0.7f), other = known_picture(64, 64, 0.3f);
+  const Known k = known_picture(203, 77, 0.7f), other = known_picture(64, 64, 0.3f),
+              lower = known_picture(203, 40, 0.3f);
   const CleanPicture one = clean(k.input, 1);
   CHECK(clean(k.input, 3).rgb == one.rgb);
   ThreadPool thread_pool(2);
   Cleaner cleaner(available_targets().back());
   CleanPicture picture;
-  for (const CleanInput* input : {&k.input, &other.input, &k.input, &k.input})
+  for (const CleanInput* input : {&k.input, &other.input, &lower.input, &k.input, &k.input})
     REQUIRE(cleaner.run(*input, thread_pool, false, picture));
   CHECK(picture.rgb == one.rgb);
   CHECK(picture.pixel_error == one.pixel_error);

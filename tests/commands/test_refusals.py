@@ -195,6 +195,7 @@ REFUSED = [
         ("-o a.png --vary /materials/gold/fuz=0:1:3", "fuzz"),
         ("-o a.png --vary /materials/gold/fuzz=0:1", "--vary", "FROM:TO:STEPS"),
         ("-o a.png --vary /image/width=10:20:3", "--vary", "size"),
+        (f"-o a.png {FUZZ} {FUZZ}", "--vary", "twice, expected two values"),
         (f"-o a.exr {FUZZ}", "--output", ".png"),
         (f"--each a.pfm {FUZZ}", "--each", "%v"),
         (FUZZ, "SHEET.png"),

@@ -65,4 +65,13 @@ TEST_CASE("sight: chains ask less for a lamp that the ball does not see") {
   CHECK(worth() == doctest::Approx(before / 8));
 }
 
+TEST_CASE("overlap: a ball within another one, which it does not touch, is none") {
+  Scene scene = dark_room();
+  add(scene, sphere({0, 0, 0}, 2), glass(1.5));
+  const Flattened flat = flatten(scene);
+  CHECK_FALSE(is_overlapped(flat, round_body(sphere({0, 0, 0}, 1), {}), {}));
+  CHECK(is_overlapped(flat, round_body(sphere({1.5, 0, 0}, 1), {}), {}));
+  CHECK_FALSE(is_overlapped(flat, round_body(sphere({3.5, 0, 0}, 1), {}), {}));
+}
+
 }  // namespace tyndall::test::visibility_test

@@ -34,6 +34,8 @@ TEST_CASE("films with and without chains are told apart, where chains would be l
   path.render.integrator = other.render.integrator = Integrator::path;
   other.render.caustics = Caustics::scatter;
   CHECK(same_samples(path, other));  // chains belong to mis
+  other.render.spp = 9;
+  CHECK(same_samples(path, other));  // each film says how many it has
   other.render.seed = 7;
   CHECK_FALSE(same_samples(path, other));
 }

@@ -33,4 +33,15 @@ TEST_CASE("layers: without a sample in each half the variance is not known") {
   for (const float v : variance.values) CHECK(std::isinf(v));
 }
 
+TEST_CASE("layers: what sees nothing is infinitely far") {
+  Scene scene;
+  scene.width = scene.height = 2;
+  const auto empty = prepare(scene);
+  RenderOptions options;
+  options.spp = 1;
+  const Layer depth = layers_of(*empty, render(*empty, options).film, available_kernels().front())[2];
+  CHECK(depth.name == "Depth");
+  for (const float v : depth.values) CHECK(std::isinf(v));
+}
+
 }  // namespace tyndall::test::layers_test

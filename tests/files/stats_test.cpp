@@ -55,8 +55,8 @@ TEST_CASE("figures of a region: its size, its samples, rates of this run alone, 
   CHECK(json["spp"] == 1);
   CHECK(json["samples"] == 8);
   CHECK(json["mrays_per_s"] == doctest::Approx(0.006));
-  CHECK(json["msamples_per_s"] == doctest::Approx(6 / 0.5 / 1e6));  // two were there before
-  CHECK(json["relative_error_estimate"].is_null());                 // one half is empty
+  CHECK(json["msamples_per_s"] == doctest::Approx(6 / 0.5 / 1e6).scale(0));  // two were there before
+  CHECK(json["relative_error_estimate"].is_null());                          // one half is empty
   CHECK(json["peak_memory_bytes"] > 1000000);
   const std::string hash = json["image_hash"];
   CHECK(hash.size() == 16);

@@ -1,4 +1,6 @@
 #include "core/guide/find_guide.h"
+#include "core/guide/guide_trail.h"
+#include "core/guide/light_paths.h"
 #include "core/guide/lobes.h"
 #include "tests/support/pictures.h"
 #include "tests/support/prepared.h"
@@ -88,10 +90,17 @@ TEST_CASE("guide: directions are drawn with the pdf that is stated") {
     int tested = 0;
     for (const double x : {-2.0, 0.5, 1.5}) {
       const Vec3f point = on_floor(g, x, 1.5);
+      const auto drawn = draw_guided_sequence<float>(g.view(), point, draws.next(), true);
       for (const GuidedSequence<float>& sequence : sequences_at(g.view(), point)) {
+        if (sequence.index == drawn.index) CHECK(drawn.probability == doctest::Approx(sequence.probability).scale(0));
         const GuidedDirections<float> directions = guided_directions(g.view(), sequence, point);
         const SeenLobe<float>& seen = directions.lobe;
         if (!seen.exists) continue;
+        // Light that was found otherwise, with half of the pdf, has a fifth by the power heuristic.
+        const std::int32_t row = sequence.index * numbers_of_events;
+        const OrderedEvents<float> events{g.view().events[row + events_low], g.view().events[row + events_high]};
+        const GuideTrail<float> trail{point, seen.center, 0.5f * guided_pdf(directions, seen.center), events};
+        CHECK(mis_weight_beside_guide(g.prepared->view(), trail, events, true) == doctest::Approx(0.2).scale(0));
         // The mean of 1 / pdf over the directions drawn within a cone is the cone's solid angle.
         for (const double factor : {0.5, 3.0, 20.0}) {
           const double angle = std::min(factor * static_cast<double>(seen.length_u), 1.0);
@@ -150,6 +159,22 @@ TEST_CASE("guide: light seen in a sphere is reflected at equal angles, from near
   const SeenImage<double> straight = see_image(LightImage<double>{{0, 3, 4}, {}, 0}, {0, 0, 0});
   CHECK(straight.exists);
   CHECK(length(straight.direction - Vec3d{0, 0.6, 0.8}) < 1e-15);
+}
+
+TEST_CASE("guide: copies of light paths share the light of those that landed") {
+  const Guided g("stress-small-fuzz");
+  LightPaths paths(g.prepared->view(), list_things(g.prepared->view()));
+  paths.trace_pairs(20000);
+  const auto power = [&] {
+    double sum = 0;
+    for (const Landing& landing : paths.landings()) sum += landing.weight;
+    return sum;
+  };
+  const double before = power();
+  const std::size_t landed = paths.landings().size();
+  paths.trace_copies(2000);
+  CHECK(paths.landings().size() > landed);
+  CHECK(power() == doctest::Approx(before).scale(0));
 }
 
 TEST_CASE("guide: the same bits whatever was edited before") {

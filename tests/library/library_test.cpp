@@ -274,6 +274,7 @@ TEST_CASE("library: pictures have the sizes that are promised, and stop when ask
   CHECK(picture.error_map().size() == pixels);
   CHECK(picture.albedo().size() == 3 * pixels);
   CHECK(picture.normal().size() == 3 * pixels);
+  CHECK(picture.albedo() != picture.normal());
   CHECK(picture.depth().size() == pixels);
   CHECK(picture.spp() == 4);
   CHECK(picture.error() > 0);

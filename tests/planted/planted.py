@@ -1,161 +1,153 @@
 #!/usr/bin/env python3
-"""Plants the bugs of bugs.py, one by one, and says which of them the tests catch.
+"""Plants the faults of bugs_core.py and bugs_app.py, one at a time, and says which of them the tests find.
 
-Usage: planted.py ROOT [BUILD WORK [WORDS]]
-ROOT: of the sources; BUILD: where they are built, with the tests; WORK: a folder for files; WORDS: only bugs whose
-room or description holds one of these. With ROOT alone: only whether all bugs still fit the sources
+Usage: planted.py ROOT [WORK [WORDS]]
+ROOT: of the sources; WORK: a folder for the build with the faults; WORDS: only faults whose file or description holds one of these.
+With ROOT alone: only whether all faults still fit the sources
 
-A bug is a changed copy of one file, which is found before the file itself. Only what the bug names is compiled with it:
-the tests that must catch it, which run up to the first failure, and the sources of the library that they see it by; all
-else comes from BUILD. The same objects without the bug must pass. Bugs in kernels are planted in the scalar ones alone,
-because they lie in sources that all of them share. Exit code 1: a bug survived, or does not fit the sources any more, or tests fail
-without any.
+All faults are compiled into one build of a copy of the sources, each behind a question whether it is wanted (planted.h), which
+the environment answers when a test runs. Kernels are the scalar ones alone: they and those of all instruction sets share
+their sources. For each fault the tests run that its entry names, and all quick ones if those pass. Exit code 1: more than one
+fault in twenty survived, or one does not fit the sources any more, or tests fail without any.
 """
-import concurrent.futures
-import json
 import os
 import pathlib
-import shlex
+import re
+import shutil
 import subprocess
 import sys
 import time
 
-from bugs import BUGS
+from bugs_app import APP
+from bugs_core import CORE
 
-# Where it is decided which kernels are used. Beside a bug in scalar ones they are compiled anew, so that it is these.
-CHOICE = ["core/base/target.cpp", "core/targets/choose.cpp", "core/clean/clean.cpp"]
-LONGEST_TEST = 600  # seconds; a test that hangs has caught its bug
-JOBS = int(os.environ.get("TYNDALL_PLANTED_JOBS", len(os.sched_getaffinity(0))))
-
-
-def run(command, folder, **options):
-    return subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options)
-
-
-def must(command, folder):
-    result = run(command, folder)
-    if result.returncode != 0:
-        sys.exit(f"planted: {shlex.join(command)} failed:\n{result.stdout[-4000:]}")
-    return result.stdout
+BUGS = CORE + APP
+JOBS = os.environ.get("TYNDALL_PLANTED_JOBS", str(len(os.sched_getaffinity(0))))
+NOT_COPIED = {"build", ".git"}
+# Tests of the sources themselves, which the copy would not pass, of other programs, and one that counts the rays of several
+# instruction sets.
+NOT_RUN = "^(check_|style/|peers/|targets/trace$)"
 
 
-class Build:
-    """What is built already, and how more is compiled and linked."""
-
-    def __init__(self, root, build, work):
-        self.root, self.build, self.work = root, build, work
-        self.overlay = work / "overlay"
-        (work / "clean").mkdir(parents=True, exist_ok=True)
-        (work / "planted").mkdir(exist_ok=True)
-        (work / "tyndall_targets.h").write_text("#define TYNDALL_BUILT_TARGETS Target::scalar\n"
-                                                "#define TYNDALL_ALL_TARGETS Target::scalar\n")
-        if not (work / "assets").exists():
-            (work / "assets").symlink_to(root / "assets")  # a program finds its scenes beside itself
-        entries = json.loads((build / "compile_commands.json").read_text())
-        commands = {os.path.relpath(entry["file"], root): entry["command"] for entry in entries}
-        self.of_library = self.command(commands["core/targets/scalar.cpp"])
-        self.of_tests = self.command(commands["tests/main.cpp"])
-        line = must(["ninja", "-t", "commands", "core_tests"], build).strip().splitlines()[-1]
-        left_out = ("_test.cpp", "/Unity/", "libtyndall_app")
-        self.link = [word for word in shlex.split(line.split("&&")[1]) if not any(part in word for part in left_out)]
-
-    def command(self, text):
-        """A command without its source and its object, and without instruction sets; assertions are on."""
-        words = shlex.split(text)
-        words = words[:1] + [f"-I{self.work}"] + words[1:words.index("-o")] + ["-O1", "-Wno-error", "-UNDEBUG"]
-        return [word for word in words if word != "-DNDEBUG"]
-
-    def compile(self, source, planted):
-        """Compiles a file of the root, with what lies in the overlay if `planted`. Returns the object."""
-        target = self.work / ("planted" if planted else "clean") / (source.replace("/", "_") + ".o")
-        if not planted and target.exists() and target in self.made:
-            return target
-        words = list(self.of_tests if source.startswith("tests/") else self.of_library)
-        file = self.root / source
-        if planted:
-            words.insert(next(i for i, word in enumerate(words) if word.startswith("-")), f"-I{self.overlay}")
-            file = self.overlay / source if (self.overlay / source).exists() else file
-        must(words + ["-o", str(target), "-c", str(file)], self.build)
-        self.made.add(target)
-        return target
-
-    made = set()  # objects of this run; those of another may be of older sources
-
-    def test(self, sources, planted):
-        """Compiles these files and runs the tests among them. Returns what failed, or None if nothing did."""
-        scalar = any(source.endswith("/scalar.cpp") for source in sources)
-        choice = [source for source in CHOICE if scalar and source not in sources]
-        with concurrent.futures.ThreadPoolExecutor(JOBS) as pool:
-            objects = list(pool.map(lambda source: self.compile(source, planted), sources))
-            objects += list(pool.map(lambda source: self.compile(source, False), choice))
-        words = list(self.link)
-        at = words.index("-o") + 1
-        words[at] = str(self.work / "tests")
-        # The first definition counts: that of these objects, not the library's.
-        words[at + 1:at + 1] = ["-Wl,--allow-multiple-definition"] + [str(o) for o in objects]
-        must(words, self.build)
-        try:
-            result = run([words[at], "--abort-after=1"], self.work, timeout=LONGEST_TEST)
-        except subprocess.TimeoutExpired:
-            return "a test that does not end"
-        if result.returncode == 0:
-            return None
-        for line in result.stdout.splitlines():
-            if line.startswith("TEST CASE:"):
-                return line.removeprefix("TEST CASE:").strip()
-        return f"exit code {result.returncode}"
-
-    def plant(self, file, text):
-        changed = self.overlay / file
-        for old in self.overlay.rglob("*"):
-            if old.is_file():
-                old.unlink()
-        changed.parent.mkdir(parents=True, exist_ok=True)
-        changed.write_text(text)
+def parts(change):
+    """What stands before a change, the old text, the new one, and what stands behind."""
+    before, rest = change.split("«")
+    middle, after = rest.split("»")
+    old, new = middle.split(" → ")
+    return before, old, new, after
 
 
-def sources_of(bug):
-    """What is compiled with the bug: its tests, the named sources of the library, and the file itself if it is one."""
-    file, tests, library = bug[2], bug[5].split(), bug[6].split() if len(bug) > 6 else []
-    own = [file] if file.endswith(".cpp") and file not in library else []
-    return [f"tests/{test}_test.cpp" for test in tests] + library + own
+def switched(number, old, new):
+    """C++ that does what the new text says if the fault is wanted, else what the old one says."""
+    asks = f"is_planted({number})"
+    if old.endswith(";") or new.endswith(";"):
+        return f"{{ if ({asks}) {{ {new} }} else {{ {old} }} }}"
+    return f"({asks} ? ({new}) : ({old}))"
+
+
+def with_faults(path, text):
+    """The text of a source with all of its faults behind their questions."""
+    places = []
+    for number, (_, file, change, _) in enumerate(BUGS, 1):
+        if file == path:
+            before, old, new, after = parts(change)
+            start = text.index(before + old + after) + len(before)
+            places.append((start, start + len(old), switched(number, old, new)))
+    for start, end, replacement in sorted(places, reverse=True):
+        text = text[:start] + replacement + text[end:]
+    header = os.path.relpath("tests/planted/planted.h", os.path.dirname(path))
+    return f'#include "{header}"\n#line 1\n{text}' if places else text
 
 
 def check_that_all_fit(root):
-    """Ends the program where a bug's file does not hold once what it changes, or a test or source has gone."""
-    for bug in BUGS:
-        room, what, file, old = bug[:4]
-        if (root / file).read_text().count(old) != 1:
-            sys.exit(f"planted: {file} does not hold once what \"{what}\" changes; bugs.py has to follow it")
-        for source in sources_of(bug):
-            if not (root / source).exists():
-                sys.exit(f"planted: \"{what}\" names {source}, which is not there")
+    """Ends the program where a file does not hold once what a fault changes, or a test has gone."""
+    for what, file, change, tests in BUGS:
+        before, old, _, after = parts(change)
+        if (root / file).read_text().count(before + old + after) != 1:
+            sys.exit(f'planted: {file} does not hold once what "{what}" changes; its entry has to follow it')
+        for test in tests.split():
+            folder, name = os.path.split(test)
+            places = (f"{test}_test.cpp", test, f"{folder}/test_{name}.py")
+            if not any((root / "tests" / place).exists() for place in places):
+                sys.exit(f'planted: "{what}" names {test}, which is not there')
+
+
+def copy(root, copied):
+    """Brings the sources into the copy. What is the same stays as it is, so that it is not compiled anew."""
+    kept = set()
+    for folder, folders, names in os.walk(root):
+        folders[:] = [name for name in folders if name not in NOT_COPIED]
+        for name in names:
+            source = pathlib.Path(folder, name)
+            path = source.relative_to(root).as_posix()
+            content = source.read_bytes()
+            if any(bug[1] == path for bug in BUGS):
+                content = with_faults(path, content.decode()).encode()
+            target = copied / path
+            kept.add(target)
+            if not target.exists() or target.read_bytes() != content:
+                target.parent.mkdir(parents=True, exist_ok=True)
+                target.write_bytes(content)
+                shutil.copymode(source, target)
+    for old in [path for path in copied.rglob("*") if path.is_file() and path not in kept]:
+        old.unlink()
+
+
+def build(root, work, slow):
+    """Builds the copy with all faults. Returns where."""
+    folder = work / "build"
+    copy(root, work / "sources")
+    configure = ["cmake", "--preset", "release", "-B", folder, "-DTYNDALL_SIMD=OFF"]
+    compile_all = ["cmake", "--build", folder, "--parallel", JOBS, "--target", "all"] + ["slow_tests"] * slow
+    for command in (configure, compile_all):
+        result = subprocess.run(command, cwd=work / "sources", stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        if result.returncode != 0:
+            sys.exit(f"planted: {' '.join(map(str, command))} failed:\n{result.stdout[-8000:]}")
+    return folder
+
+
+def first_failure(folder, fault, *selection):
+    """Runs tests with a fault, up to the first that fails. Returns its name, or None."""
+    result = subprocess.run(["ctest", "--stop-on-failure", "-j", JOBS, "-E", NOT_RUN, *selection], cwd=folder, text=True,
+                            env={**os.environ, "TYNDALL_FAULT": str(fault)}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    failed = re.search(r"tests FAILED:\s+\d+ - (\S+) ", result.stdout)
+    if "No tests were found" in result.stdout or (result.returncode != 0 and not failed):
+        sys.exit(f"planted: ctest {' '.join(selection)}: {result.stdout}")
+    return failed[1] if failed else None
+
+
+def named(tests):
+    return "^(" + "|".join(map(re.escape, sorted(tests))) + ")$"
 
 
 def main():
-    check_that_all_fit(pathlib.Path(sys.argv[1]))
+    root = pathlib.Path(sys.argv[1]).resolve()
+    check_that_all_fit(root)
     if len(sys.argv) == 2:
         return 0
-    root, build, work = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
-    words = sys.argv[4:]
-    built = Build(root, build, work)
-    chosen = [bug for bug in BUGS if not words or any(word in bug[0] or word in bug[1] for word in words)]
-    passed, caught = set(), 0
-    for number, bug in enumerate(chosen, 1):
-        room, what, file, old, new = bug[:5]
-        text, sources, start = (root / file).read_text(), sources_of(bug), time.monotonic()
-        if tuple(sources) not in passed:
-            clean = built.test(sources, False)
-            if clean:
-                sys.exit(f"planted: without the bug \"{what}\" this fails: {clean}")
-            passed.add(tuple(sources))
-        built.plant(file, text.replace(old, new))
-        by = built.test(sources, True)
-        caught += by is not None
-        result = f"caught by: {by}" if by else "SURVIVED"
-        print(f"{number:2} {room:10} {what}: {result} ({time.monotonic() - start:.0f} s)", flush=True)
-    print(f"{caught} of {len(chosen)} planted bugs were caught")
-    return 0 if caught == len(chosen) else 1
+    work, words = pathlib.Path(sys.argv[2]).resolve(), sys.argv[3:]
+    chosen = [(number, os.path.dirname(file), what, tests.split()) for number, (what, file, _, tests) in enumerate(BUGS, 1)
+              if not words or any(word in what or word in file for word in words)]
+    tests = {test for *_, own in chosen for test in own}
+    folder = build(root, work, any(test.endswith("_slow") for test in tests))
+    failed = first_failure(folder, 0, "-R", named(tests))
+    if failed:
+        sys.exit(f"planted: without any fault {failed} fails")
+    rooms = {}
+    for number, room, what, tests in chosen:
+        start = time.monotonic()
+        by = first_failure(folder, number, "-R", named(tests)) or first_failure(folder, number, "-LE", "slow|nightly")
+        seconds = time.monotonic() - start
+        row = rooms.setdefault(room, [0, 0, 0, 0])
+        for column, count in enumerate((1, bool(by) and "_slow" not in by, bool(by), seconds)):
+            row[column] += count
+        result = f"found by {by}" if by else "SURVIVED"
+        print(f"{number:3} {room}: {what}: {result} ({seconds:.1f} s)", flush=True)
+    rooms["all"] = [sum(column) for column in zip(*rooms.values())]
+    print("\n| room | faults | found by quick tests | by all tests | seconds |\n|---|---|---|---|---|")
+    for room, (faults, quick, found, seconds) in rooms.items():
+        print(f"| {room} | {faults} | {quick} | {found} | {seconds:.0f} |")
+    return 0 if rooms["all"][2] >= 0.95 * rooms["all"][0] else 1
 
 
 if __name__ == "__main__":

@@ -81,6 +81,7 @@ def test_progressive_pictures_end_as_one_render():
     begin = time.monotonic()
     assert len(list(small("cover").progressive(seconds=0.3))) >= 2
     assert time.monotonic() - begin < 5
+    assert small("cornell-box").render(spp=1, region=(1, 2, 7, 5)).array.shape == (3, 6, 3)
 
 
 def test_films_are_saved_and_merged(tmp_path):
@@ -107,6 +108,7 @@ def test_compare():
     assert found.only_noise and found.blocks > 0 and found.relmse > 0
     assert tyndall.compare(a.array, b.array).relmse == found.relmse
     assert tyndall.compare(a, a).mse == 0
+    assert found.mean_reference == tyndall.compare(b, a).mean_image != found.mean_image
     assert found._fields[:5] == ("mse", "rmse", "relmse", "psnr", "flip")
 
 

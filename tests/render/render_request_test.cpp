@@ -41,6 +41,14 @@ TEST_CASE("requests: each part that differs is told of, and what cannot wait for
       with(&RenderRequest::scene, std::make_shared<const Scene>(small_scene("showroom", 40, 30, 9)));
   CHECK(limit.limit);
   CHECK_FALSE(limit.is_urgent());
+  Mailbox mailbox;
+  RenderRequest wanted = before.wanted;
+  for (const bool urgent : {true, false}) {  // a scene, and then only whether it pauses
+    mailbox.request(wanted);
+    CHECK(mailbox.give_up() == urgent);
+    mailbox.take();
+    wanted.paused = true;
+  }
 }
 
 TEST_CASE("requests: the limit is the scene's, one sample while it is paused, none without a scene") {

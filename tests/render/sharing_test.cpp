@@ -1,5 +1,6 @@
 #include "core/render/pass.h"
 #include "core/reuse/probe.h"
+#include "core/reuse/reuse_tile.h"
 #include "core/targets/scalar.h"
 #include "tests/support/pictures.h"
 #include "tests/support/prepared.h"
@@ -7,6 +8,9 @@
 #include "tests/support/thorough.h"
 
 #include <doctest/doctest.h>
+
+#include <algorithm>
+#include <memory>
 
 /// Second vertices that are shared between pixels: the light is what separate paths find, with less noise.
 namespace tyndall::test::sharing_test {
@@ -158,6 +162,37 @@ TEST_CASE("sharing: the probe is near to what sharing changes") {
   const ReuseGain gain = probe_reuse(SceneViewOf(compiled).view(), trace_groups);
   CHECK(gain.variance == doctest::Approx(0.2).epsilon(0.4).scale(0));
   CHECK(gain.time == doctest::Approx(1.3).epsilon(0.2).scale(0));
+}
+
+TEST_CASE("sharing: the pdf of a link between two floors falls with the square of its length") {
+  const RenderScene empty = compile(Scene{});
+  const SceneViewOf view(empty);
+  const auto paths = std::make_unique<ReusedPaths>();
+  paths->first.facing[1][0] = 1, paths->second.facing[1][1] = -1;
+  paths->first.surface[0] = from_nowhere, paths->second.surface[1] = -1;
+  const auto pdf = [&](float length) {
+    TileCounts counts;
+    paths->second.point[1][1] = length;
+    return link_pdf<float>(view.view(), *paths, 0, 1, true, counts);
+  };
+  CHECK(pdf(1) == 1);
+  CHECK(pdf(2) == 0.25f);
+}
+
+TEST_CASE("sharing: the second sample of a pixel is in the second half, and coarse passes take every step-th pixel") {
+  const Scene scene = close_up("cornell-box", 37, 29);
+  const Film one = picture_of(scene, true, 0, 1), two = picture_of(scene, true, 0, 2);
+  for (std::size_t i = 0; i < one.pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c) REQUIRE(two.pixels[i].sum[0][c] == one.pixels[i].sum[0][c]);
+  const RenderScene compiled = compile(scene);
+  const SceneViewOf view(compiled);
+  REQUIRE(view.view().reuses_paths);
+  std::vector<FilmPixel> pixels(one.pixels.size());
+  TileCounts counts;
+  available_kernels().back().render_tile(view.view(), {{0, 0, 37, 29}, 4, 0, 0, 1}, one.quantum, pixels.data(), counts);
+  const auto taken =
+      std::count_if(pixels.begin(), pixels.end(), [](const FilmPixel& pixel) { return pixel.taken > 0; });
+  CHECK(taken == 10 * 8);
 }
 
 TEST_CASE("sharing: pixels that lack different numbers of samples get the samples of their groups") {

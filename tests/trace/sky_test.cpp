@@ -101,6 +101,16 @@ TEST_CASE("sky: the pdf integrates to 1, and is 0 only where the sky is black") 
   }
 }
 
+TEST_CASE("sky: the pdf goes on evenly across the columns of a row, also where the picture closes") {
+  const ViewedSky viewed(random_sky(7, 5, 2));
+  for (int column = 0; column < viewed.view.width; ++column)
+    for (const double v : {0.15, 0.4, 0.8}) {
+      const double border = (column + 0.5) / viewed.view.width;
+      const auto pdf = [&](double u) { return viewed.towards(direction_at(u, v)).pdf; };
+      CHECK(pdf(border - 1e-5) == doctest::Approx(pdf(border + 1e-5)).epsilon(0.01).scale(0));
+    }
+}
+
 TEST_CASE("sky: drawn directions have that density, and each part of the sky is drawn as often as it says") {
   for (const SkyPicture& sky : some_skies()) {
     const ViewedSky viewed(sky);

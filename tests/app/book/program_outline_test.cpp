@@ -22,6 +22,7 @@ inline std::ostream& operator<<(std::ostream& out, const Ray& r) { return out; }
 struct Camera { Ray get_ray(double u, double v) const { return Ray(int(u)); } };
 }
 rt::Colour shade(const rt::Ray& r, const rt::Shape& world, int depth = 5) { return { }; }
+int rt::Camera::lines() const { return 3; }
 int main() { std::cout << "P3\n" << 3 << ' ' << 4; }
 )";
 
@@ -35,7 +36,8 @@ TEST_CASE("classes and functions of the reader's lines, with namespaces, constru
   for (const Function& one : outline.functions) functions.push_back(one.name);
   CHECK(classes == std::vector<std::string>{"::rt::Ray", "::rt::Hit", "::rt::Shape", "::rt::Many<>", "::rt::Ball",
                                             "::rt::Camera"});
-  CHECK(functions == std::vector<std::string>{"Ray", "hit", "hit", "get_ray", "shade", "main"});
+  CHECK(functions == std::vector<std::string>{"Ray", "hit", "hit", "get_ray", "shade", "lines", "main"});
+  CHECK(outline.classes.at(static_cast<std::size_t>(outline.functions[5].owner)).name == "Camera");
   CHECK(outline.is_derived("Ball", "Shape"));
   CHECK_FALSE(outline.is_derived("Camera", "Shape"));
   CHECK(outline.files == std::vector<std::filesystem::path>{"/home/me/main.cc"});

@@ -1,5 +1,7 @@
 #include "app/check/statistics.h"
 
+#include "app/check/reading.h"
+
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -93,6 +95,19 @@ TEST_CASE("check: where no bright sample happened to be met, the error is that o
   CHECK(dark.misfit().different == 0);
   for (float& value : dark.variance) value = 0;
   CHECK(dark.misfit().different == dark.misfit().blocks);
+}
+
+TEST_CASE("check: the fraction of light that has come up to each depth") {
+  CHECK(light_by_depth({{{1, 1, 1}, 0}, {{1, 1, 1}, 2}}) == std::vector<double>{0.5, 0.5, 1});
+}
+
+TEST_CASE("check: a picture's numbers as each way of reading takes them") {
+  PictureNumbers picture{2, 1, {0.5f, 1, 0.25f, 0, 0.75f, 1}};
+  const auto light = [&](const Reading& reading) { return read_pixels(picture, {2, 1}, reading).light; };
+  CHECK(light({TransferCurve::light}) == picture.numbers);
+  CHECK(light({TransferCurve::light, false, true}) == std::vector<float>{0, 0.75f, 1, 0.5f, 1, 0.25f});
+  CHECK(light({TransferCurve::light, false, false, true}) == std::vector<float>{0.25f, 1, 0.5f, 1, 0.75f, 0});
+  CHECK(light({TransferCurve::gamma2}) == std::vector<float>{0.25f, 1, 0.0625f, 0, 0.5625f, 1});
 }
 
 }  // namespace tyndall::test::statistics_test

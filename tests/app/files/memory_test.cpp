@@ -30,4 +30,14 @@ TEST_CASE("memory: what the process's own group may still take is known, not onl
   CHECK(free_memory(root).bytes == 100000);
 }
 
+TEST_CASE("memory: films that are read beside their sum, and copies for checkpoints, are counted") {
+  MemoryPlan plan;
+  plan.width = plan.height = 100;
+  const std::uint64_t alone = memory_needed(plan);
+  plan.parts = true;
+  CHECK(memory_needed(plan) > alone);
+  plan.parts = false, plan.checkpoints = true;
+  CHECK(memory_needed(plan) > alone);
+}
+
 }  // namespace tyndall::test::memory_test

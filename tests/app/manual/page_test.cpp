@@ -14,13 +14,14 @@ std::vector<CommandPage> pages() {
   const OptionPage output{{"-o", "--output"}, "Output", "FILE", {}, "the image; it's required"};
   const OptionPage method{{"--method"}, "Method", "NAME", {"fast", "slow"}, "how [from the scene]"};
   const OptionPage quiet{{"-q", "--quiet"}, "Output", "", {}, ".dots and \\ backslashes"};
+  const OptionPage bits{{"--bits"}, "Output", "N", {}, "bits[8]"};
   return {{"paint",
            "paint a scene",
            "paint SCENE -o FILE",
            "Paints.\n\nSlowly.",
            "tyndall paint a.json",
            {scene},
-           {output, method, quiet}},
+           {output, method, quiet, bits}},
           {"list", "list: all of them", "list", "Lists.", "", {}, {}}};
 }
 
@@ -31,7 +32,7 @@ TEST_CASE("manual: every option with its value, nothing that the formatter would
   CHECK(has(text, ".SH PAINT\n.B tyndall paint SCENE \\-o FILE\n"));
   CHECK(has(text, "Paints.\n.PP\nSlowly.\n"));
   CHECK(has(text, ".SS Output\n.TP\n\\fB\\-o\\fR, \\fB\\-\\-output\\fR \\fIFILE\\fR\nthe image; it's required\n"));
-  CHECK(has(text, "\n\\&.dots and \\e backslashes\n"));
+  CHECK(has(text, "\n\\&.dots and \\e backslashes\n.TP\n\\fB\\-\\-bits"));  // of the same group
   CHECK(has(text, ".nf\ntyndall paint a.json\n.fi\n"));
 }
 
@@ -39,15 +40,19 @@ TEST_CASE("completion: names, choices and files") {
   const std::string bash = bash_completion(pages());
   CHECK(has(bash, "'paint -o' | 'paint --output') _tyndall_files \"$word\"; return ;;"));
   CHECK(has(bash, "'paint --method') words='fast slow' ;;"));
-  CHECK(has(bash, "paint) words='-o --output --method -q --quiet' ;;"));
+  CHECK(has(bash, "paint) words='-o --output --method -q --quiet --bits' ;;"));
+  CHECK(has(bash, "'paint --bits') return ;;"));
+  CHECK_FALSE(has(bash, "'paint -q'"));
   const std::string fish = fish_completion(pages());
   CHECK(has(fish, "-s o -l output -r -F -d 'the image'"));
   CHECK(has(fish, "-l method -x -a 'fast slow' -d 'how'"));
+  CHECK(has(fish, "-l bits -x -d 'bits[8]'"));
   CHECK(has(fish, "-a list -d 'list'"));
   const std::string zsh = zsh_completion(pages());
   CHECK(has(zsh, "'*'{-o,--output}'[the image]:FILE:_files'"));
   CHECK(has(zsh, "'*'--method'[how]:NAME:(fast slow)'"));
   CHECK(has(zsh, "'*'{-q,--quiet}'[.dots and \\ backslashes]'"));
+  CHECK(has(zsh, "'*'--bits'[bits(8)]:N:'"));
 }
 
 TEST_CASE("version: the compiler, all targets of this build, the libraries") {

@@ -58,6 +58,8 @@ TEST_CASE("film difference: equal films differ by nothing, and one sample states
   const Film film = film_of(0.2, 1, 4), single = film_of(0.2, 1, 1);
   CHECK(film_difference(film, film).rms == 0);
   CHECK(film_difference(film, film).rms_error == 0);
+  const FilmDifference noise = film_difference(film_of(0.2, 1, 16), film_of(0.2, 2, 16));
+  CHECK(noise.rms < noise.rms_error);  // the products of two halves have no bias
   CHECK(std::isinf(film_difference(single, single).rms_error));
 }
 

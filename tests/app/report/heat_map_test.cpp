@@ -53,10 +53,11 @@ TEST_CASE("heat map: the scale's ends and middle are marked, as far as there is 
   CHECK(lit(1, 0, 1) > 0);
 }
 
-TEST_CASE("heat: what is not a number stands out") {
+TEST_CASE("heat: what is not a number stands out, and 1 is the brightest") {
   const auto bad = heat(std::numeric_limits<float>::quiet_NaN());
   CHECK(bad[1] > 0.9f);
   CHECK(bad[0] + bad[2] < 0.1f);
+  CHECK(heat(1)[0] == doctest::Approx(1));
 }
 
 }  // namespace tyndall::test::heat_map_test

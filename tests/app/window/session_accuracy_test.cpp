@@ -90,7 +90,9 @@ TEST_CASE("a split view keeps the settings on its left, and follows edits of the
   REQUIRE(opened.finishes());
   Session& session = *opened.session;
   CHECK_FALSE(session.renderers.latest(Half::kept));
+  const auto restarts = session.wanted.restarts;
   session.set_split(true);
+  CHECK(session.wanted.restarts == restarts + 1);  // both halves begin together
   session.set_split(false);
   session.set_split(true);
   Scene scene = session.editor.scene();

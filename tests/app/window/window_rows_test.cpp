@@ -1,4 +1,11 @@
+#include "app/window/timeline/timeline.h"
+#include "app/window/variations/strip.h"
+#include "core/scene/frames.h"
 #include "tests/app/window/driver.h"
+#include "tests/support/news.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace tyndall::test::window_rows_test {
 
@@ -47,6 +54,29 @@ TEST_CASE("the window: small pictures of all values of a row, taken over by a cl
   CHECK_FALSE(driver.has("strip.26"));
   driver.send_key(256);
   driver.wait_until([&] { return !driver.has("strip.0"); });
+  choose(driver, "gold.fuzz", "vary");
+  driver.wait_until([&] { return driver.has("strip.0"); });
+  choose(driver, "gold.fuzz", "vary");  // once more: it goes
+  driver.wait_until([&] { return !driver.has("strip.0"); });
+}
+
+TEST_CASE("small pictures: the steps hold the present value, and are whole where it is") {
+  const Scene scene = load_scene("showroom").scene;
+  const std::vector<double> depths = varied_values(*find_slot(scene, "/render/max_depth"), 7, 9);
+  CHECK(std::find(depths.begin(), depths.end(), 7) != depths.end());
+  for (const double depth : depths) CHECK(depth == std::round(depth));
+}
+
+TEST_CASE("small pictures: those of a request that is over are not shown") {
+  Scene scene = load_scene("showroom").scene;
+  scene.width = 8, scene.height = 6;
+  News news;
+  SmallRenders renders([&] { news.tell(); });
+  renders.request({1, [&](std::size_t) { return std::optional(scene); }, false, 1});
+  CHECK(news.wait_until([&] { return news.told() > 0; }));
+  renders.request({1, [](std::size_t) { return std::optional<Scene>(); }, false, 1});
+  while (!renders.finished()) renders.collect();
+  CHECK(renders.pictures() == std::vector<std::shared_ptr<const SmallPicture>>{nullptr});
 }
 
 TEST_CASE("the window: keys of a row make a film, which plays and is saved with the scene") {
@@ -68,12 +98,33 @@ TEST_CASE("the window: keys of a row make a film, which plays and is saved with 
   driver.wait_until([&] { return driver.value("film.play") == "plays"; });
   const std::string frame = driver.value("film.track");
   driver.wait_until([&] { return driver.value("film.track") != frame; });
+  skipped_seconds = skipped_seconds + 4;  // the film lasts for 5 seconds, and begins anew
+  driver.wait_until([&] { return driver.number("film.track") < 50; });
   push();
   driver.settle();
   CHECK(driver.value("film.play") == "rests");
   driver.key('S', {.control = true});
   driver.wait_until([&] { return driver.last("saved") == "scene.json"; });
   CHECK(load_scene("scene.json").scene.animation);
+}
+
+TEST_CASE("keys: a film grows to the last one and goes with the last one, and goes through stored cameras") {
+  Scene scene = load_scene("showroom").scene;
+  const Slot slot = *find_slot(scene, "/camera/vfov");
+  add_key(scene, slot, 0);
+  const int frames = scene.animation->frames;
+  add_key(scene, slot, frames + 5);
+  CHECK(scene.animation->frames == frames + 6);
+  CHECK(has_keys(scene, frames + 5));
+  remove_keys(scene, frames + 5);
+  CHECK_FALSE(has_keys(scene, frames + 5));
+  remove_keys(scene, 0);
+  CHECK_FALSE(scene.animation);
+  CameraSlots slots{{scene.camera, nullptr}, {scene.camera, nullptr}};
+  slots[1].camera.vfov = 10;
+  key_cameras(scene, slots);
+  CHECK(scene_at(scene, 0).camera.vfov == scene.camera.vfov);
+  CHECK(scene_at(scene, 48).camera.vfov == 10);
 }
 
 TEST_CASE("the window: adaptive sampling is a setting of the render: it starts over, once, and is undone") {

@@ -43,4 +43,19 @@ TEST_CASE("an object without a name that changed while its list grew is where it
   CHECK(paths_after(before, after, {{2}, {1}}) == ObjectPaths{{3}, {1}});
 }
 
+TEST_CASE("keys follow their objects, and go with them") {
+  Scene before;
+  before.objects = {ball("a", 0), pair({ball("b", 1), ball("c", 2)})};
+  before.materials = {{"grey", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}};
+  before.animation.emplace();
+  set_key(*before.animation, "/objects/0/radius", {0, {1}});
+  set_key(*before.animation, "/objects/1/objects/1/radius", {0, {1}});
+  Scene after = before;
+  after.objects.erase(after.objects.begin());
+  move_keys(before, after);
+  REQUIRE(after.animation);
+  REQUIRE(after.animation->keyed.size() == 1);
+  CHECK(after.animation->keyed[0].pointer == "/objects/0/objects/1/radius");
+}
+
 }  // namespace tyndall::test::object_path_test

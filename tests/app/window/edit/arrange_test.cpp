@@ -64,7 +64,9 @@ TEST_CASE("turning keeps the middle where it is, and puts a plain shape around t
   rotate_object(scene, {0}, 340);
   CHECK(angle_of(scene, {0}) == 10);
   CHECK(length(middle_of(scene, {0}) - middle) < 1e-12);
-  rotate_object(scene, {0}, -10);
+  rotate_object(scene, {0}, 180);
+  CHECK(angle_of(scene, {0}) == -170);
+  rotate_object(scene, {0}, 170);
   CHECK(scene.objects[0].transform == Transform{Translate{{2, 0, 4}}});
 }
 

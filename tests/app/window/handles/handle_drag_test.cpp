@@ -129,6 +129,12 @@ TEST_CASE("all selected objects go the same way, each by the numbers that it has
   const auto& shift = std::get<Translate>(scene.objects[1].transform.back());
   CHECK(shift.offset.x - 3 == doctest::Approx(ball(scene).center.x).epsilon(1e-12).scale(0));
   CHECK(shift.offset.y == 1);
+  Scene grouped = example();
+  grouped.objects.push_back({"turned", Group{{grouped.objects[1]}}, {RotateY{90}}});
+  drag.selected = {{0}, {2, 0}};
+  const Vec3d before = middle_of(grouped, {2, 0});
+  dragged(grouped, drag);
+  CHECK(length(middle_of(grouped, {2, 0}) - before - ball(grouped).center) < 1e-9);
 }
 
 TEST_CASE("turning goes with the mouse around the vertical, in steps of half a degree, or of 5 when it snaps") {
@@ -142,6 +148,8 @@ TEST_CASE("turning goes with the mouse around the vertical, in steps of half a d
   drag.snap = true;
   dragged(scene, drag);
   CHECK(angle_of(scene, {1}) == 30);
+  drag.from = {401, 282}, drag.to = {401, 318};  // across 180 degrees: the shorter way
+  CHECK(dragged(scene, drag).said == "turned by +20°");
 }
 
 TEST_CASE("size follows the mouse along the grip's way, and stops above 0") {
@@ -171,6 +179,8 @@ TEST_CASE("the handle under the mouse is the one that is meant") {
     CHECK(*found == handle);
   }
   CHECK_FALSE(handle_at(handles, {300, 100}, 1).has_value());
+  const std::vector<Handle> near{{HandleKind::along_x, 0, {{0, 0}, {50, 0}}}, {HandleKind::size, 0, {{30, 1}}}};
+  CHECK(handle_at(near, {30, 0}, 1)->kind == HandleKind::size);  // a grip on an arrow is meant
   CHECK(handles_of(scene, frame, {}, {}).empty());
   // Seen along z, the arrow of z is but a point and is left out; a sphere has no ring, a box has.
   CHECK_FALSE(std::count_if(handles.begin(), handles.end(), [](auto& h) { return h.kind == HandleKind::along_z; }));

@@ -69,6 +69,9 @@ TEST_CASE("the facts of a pixel: value, error, what is shown and seen") {
   CHECK(has(model, "error    13 %"));
   CHECK(has(model, "shown    188 137 0"));
   CHECK(has(model, "samples  64"));
+  PixelReport lossy = report;
+  lossy.rejected = 3;
+  CHECK(has(pixel_readout(frame, lossy, {}, {}), "samples  64, 3 rejected"));
   CHECK(has(model, "object   Ball"));
   CHECK(has(model, "material gold"));
   CHECK(has(model, "depth    3.25"));

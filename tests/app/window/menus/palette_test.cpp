@@ -118,6 +118,33 @@ TEST_CASE("a click beside the palette closes it") {
   CHECK_FALSE(drawn.palette.take_key(264));
 }
 
+TEST_CASE("what cannot be done in a menu is passed over by keys, and does nothing when it is clicked") {
+  NullImGui imgui;
+  Ui ui;
+  Menu menu;
+  std::optional<Request> chosen;
+  const auto draw = [&] {
+    imgui.frame([&] {
+      if (const auto now = menu.draw(ui, {0, 0, 900, 700})) chosen = now;
+    });
+  };
+  menu.open(100, 100, "ball", {{"menu.no", "no", "", "it cannot"}});
+  draw();
+  for (float y = 100; y < 200; y += 3) {
+    compat::mouse_pos(ImGui::GetIO(), 130, y);
+    for (const bool down : {true, false}) {
+      compat::mouse_button(ImGui::GetIO(), 0, down);
+      draw();
+    }
+  }
+  CHECK_FALSE(chosen);
+  menu.open(100, 100, "ball", {{"menu.no", "no", "", "it cannot"}, {"menu.yes", "yes", "", "", false, {"undo"}}});
+  CHECK(menu.take_key(264));  // down
+  CHECK(menu.take_key(257));  // Enter
+  draw();
+  CHECK(chosen == Request{"undo"});
+}
+
 TEST_CASE("what was typed into a palette that was closed cannot be undone in a later one") {
   Drawn drawn;
   drawn.type("save");

@@ -27,6 +27,7 @@ TEST_CASE("histogram: counts what the screen shows, with exposure and curve, and
   CHECK(histogram.black == doctest::Approx(0.05));
   CHECK(histogram.counts[1][188 * 64 / 256] == 850);  // 0.5 is 188 on the screen
   CHECK(histogram.counts[2][63] == 100);
+  CHECK(histogram_of({0, 1, 0, 1}, display).white == 1);  // one channel is enough
   display.exposure = 2;
   CHECK(histogram_of(picture_of(greys), display).white == doctest::Approx(0.95));
   display.exposure = 0, display.tone_map = ToneMap::aces;

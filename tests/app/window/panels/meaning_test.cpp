@@ -42,6 +42,8 @@ TEST_CASE("fog says how far light gets") {
   CHECK(meaning(Medium<>{1.1, 0}, "density") == "mean free path 0.909");
   CHECK(meaning(Medium<>{0, 0}, "density") == "empty: light passes");
   CHECK(meaning(Medium<>{1, 0}, "g") == "isotropic: scatters evenly");
+  CHECK(meaning(Medium<>{1, 0.9}, "g").ends_with(" goes on forward"));
+  CHECK(meaning(Medium<>{1, -0.9}, "g") == meaning(Medium<>{1, 0.9}, "g").substr(0, 4) + " goes back");
 }
 
 TEST_CASE("a disk says how long its half axes are and how wide its hole is") {

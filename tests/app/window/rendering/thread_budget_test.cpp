@@ -138,4 +138,17 @@ TEST_CASE("a renderer that has finished does not keep the other one waiting") {
     }
 }
 
+TEST_CASE("a picture that is started over is not finished before it is there again") {
+  test::News news;
+  RendererPair pair(1, "", [&] { news.tell(); });
+  const auto scene = std::make_shared<const Scene>(test::small_scene("cornell-box", 60, 60, 64));
+  RenderRequest wanted{.scene = scene, .threads = 1};
+  pair.request(wanted);
+  REQUIRE(news.wait_until([&] { return pair.finished(); }));
+  ++wanted.restarts;
+  pair.request(wanted);
+  CHECK_FALSE(pair.finished());
+  CHECK(news.wait_until([&] { return pair.finished(); }));
+}
+
 }  // namespace tyndall::test::thread_budget_test
