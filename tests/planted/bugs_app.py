@@ -54,8 +54,8 @@ APP = [
     ("what is not a number is white", "app/report/heat_map.cpp", "«if (std::isnan(value)) return {0, 1, 0}; → »", "app/report/heat_map"),
     ("colours of heat end early", "app/report/heat_map.cpp", "std::clamp(value, 0.0f, 1.0f) * «4 → 5»;", "app/report/heat_map"),
 
-    ("the second picture of an edit waits", "app/window/system/pacing.cpp", "shown < «3 → 1» ? 0.0", "app/window/system/pacing"),
-    ("a key is pressed again before it was seen up", "app/window/system/input_queue.cpp",
+    ("the second picture of an edit waits", "app/window/system/pacing.h", "shown < «3 → 1» ? 0.0", "app/window/system/pacing"),
+    ("a key is pressed again before it was seen up", "app/window/system/input_events.cpp",
      "(down_.contains(input.code) || «was_down_.contains(input.code) → false»)", "app/window/system/input_queue"),
     ("a scene waits for a picture of the one before for ever", "app/window/system/pacing.h",
      "(seen || «now >= latest() → false»)", "app/window/document/send_timer"),
@@ -67,8 +67,8 @@ APP = [
     ("a question about the file stays after saving", "app/window/document/editor.cpp",
      "«changed_file_.reset(); → »\n    messages_.say(saved);", "app/window/document/editor app/window/session_files"),
     ("older kept edits stay beside newer ones", "app/window/document/autosave.cpp",
-     "«if (slot.held()) fs::remove(slot.file(), ignored); → »\n  slot = std::move(fresh);", "app/window/document/autosave"),
-    ("a quote after a backslash ends a string", "app/window/document/open_document.cpp",
+     "«if (slot_.held()) fs::remove(slot_.file(), ignored); → »", "app/window/document/autosave"),
+    ("a quote after a backslash ends a string", "app/window/document/document.cpp",
      "if («in_string && text[i] == '\\\\' → false»)", "app/window/document/open_document"),
     ("keys stay with the number of their object", "app/window/document/document.cpp",
      "for (std::size_t k = 0; k < path.size(); ++k) «steps[2 * k + 1] = std::to_string(now[0][k]); → »", "app/window/document/object_path"),
@@ -109,19 +109,19 @@ APP = [
      "«if (picture && !folder.empty()) write_thumbnail(file, *picture); → »", "app/window/gallery/gallery"),
 
     ("the noise of the reference counts as error", "app/window/accuracy/comparison.cpp", "«result.rel_mse -= noise; → »", "app/window/accuracy/comparison"),
-    ("a reference of the same samples passes as another one", "app/window/accuracy/reference.cpp",
+    ("a reference of the same samples passes as another one", "app/window/accuracy/comparison.cpp",
      "const bool same = reference.known_method && «one.seed == other.seed → false»", "app/window/accuracy/reference"),
     ("results for pictures before count", "app/window/accuracy/live_accuracy.cpp", "if (result && «generation == generation_ → true») take", "app/window/accuracy/live_accuracy"),
-    ("a reference of the scene's own seed", "app/window/accuracy/reference.cpp", "«scene.render.seed ^= 1; → »", "app/window/accuracy/reference"),
-    ("a reference with infinite values is taken", "app/window/accuracy/reference.cpp", "«check_finite(name, reference.image); → »", "app/window/accuracy/reference"),
+    ("a reference of the scene's own seed", "app/window/accuracy/comparison.cpp", "«scene.render.seed ^= 1; → »", "app/window/accuracy/reference"),
+    ("a reference with infinite values is taken", "app/window/accuracy/comparison.cpp", "«check_finite(name, reference.image); → »", "app/window/accuracy/reference"),
 
     ("two clicks go back to the default, not to the file's value", "app/window/panels/rows.cpp",
      "«found == saved.end() ? slot.standard : found->value → slot.standard»;", "app/window/panels/panels app/window/window_rows"),
     ("red alone tells what is white", "app/window/panels/histogram.cpp",
      "const std::uint8_t brightest = «std::max({shown[i], shown[i + 1], shown[i + 2]}) → shown[i]»;", "app/window/panels/histogram"),
-    ("the first curve is the nearest", "app/window/panels/chart_plot.cpp", "if (!nearest || «distance < minimum → false») nearest", "app/window/panels/chart_plot"),
+    ("the first curve is the nearest", "app/window/panels/chart_panel.cpp", "if (!nearest || «distance < minimum → false») nearest", "app/window/panels/chart_plot"),
     ("the next camera is the same one", "app/window/panels/camera_slots.cpp", "return («k + 1 → k») % slots.size();", "app/window/panels/camera_slots"),
-    ("what fog sends back is what it lets on", "app/window/panels/meaning.cpp", "percent(«1 - forward → forward») + \" goes back\"", "app/window/panels/meaning"),
+    ("what fog sends back is what it lets on", "app/window/panels/rows.cpp", "percent(«1 - forward → forward») + \" goes back\"", "app/window/panels/meaning"),
 
     ("the divider can hide a half", "app/window/rendering/picture_view.cpp", "image.width(), «0.02f → 0.0f», 0.98f);", "app/window/rendering/split_view"),
     ("both halves get all threads", "app/window/rendering/renderer_pair.cpp", "«if (split_ && together()) wanted.threads /= 2; → »", "app/window/rendering/thread_budget"),
@@ -175,7 +175,7 @@ APP = [
 
     ("an error names its file as its place", "app/python/module.cpp", "instance.attr(\"place\") = text_of(«why.place → why.file»);", "python"),
     ("arrays of a picture can be written to", "app/python/module.cpp", "«array.attr(\"setflags\")(py::arg(\"write\") = false); → »", "python"),
-    ("the reference's mean is that of the picture", "app/python/module.cpp", "return tuple(«c.mean_reference → c.mean_image»);", "python"),
+    ("the reference's mean is that of the picture", "app/python/module.cpp", "channels(«c.mean_reference → c.mean_image»)", "python"),
     ("names of files that are no UTF-8 are an error", "app/python/module.cpp", "«\"surrogateescape\" → \"strict\"»", "python"),
     ("the region ends on the right where it ends below", "app/python/module.cpp", "tyndall::Region{x0, y0, «x1 → y1», y1};", "python"),
 
@@ -190,7 +190,7 @@ APP = [
     ("parts of pictures lie at their upper left corner", "app/comparison/pair.cpp", "std::ptrdiff_t{3} * («part.x0 - place.x0 → 0»);", "app/comparison/pair"),
     ("what is as large as its limit fails", "app/comparison/comparison.cpp", "if (!limit || «value <= *limit → value < *limit») return;", "app/compare.sh"),
     ("a picture that cannot be read passes", "app/comparison/baseline.cpp", "«picture.failures.emplace_back(problem.what()); → »", "app/baseline.sh"),
-    ("variances pass as errors", "app/comparison/noise.cpp", "if («squared → false»)\n", "app/max_z.sh"),
+    ("variances pass as errors", "app/comparison/pair.cpp", "if («squared → false»)\n", "app/max_z.sh"),
 
     ("failed samples are no failure", "app/watch/watch.cpp", "return tell_failures(*order.function) ? «1 → 0» : 0;", "app/watch.sh"),
     ("the caller's rounding is lost", "app/watch/host.cpp", "Host::~Host() {\n  «std::fesetenv(&arithmetic_); → »", "app/watch.sh"),
@@ -201,7 +201,7 @@ APP = [
 
     ("swapped red and blue are not tried", "app/check/reading.cpp", "picture.numbers[at + («reading.swapped ? 2 - c : c → c»)];", "app/check/statistics"),
     ("a mean product in place of a covariance", "app/check/statistics.cpp", "(products - «a * b / count → 0.0») / (count - 1)", "app/check/statistics"),
-    ("what a mistake explains is what it adds", "app/check/differences.cpp",
+    ("what a mistake explains is what it adds", "app/check/statistics.cpp",
      "return seen > min_seen * before.amount() ? 1 - «amount_of(after.all, before.all) → amount_of(before.all, after.all)» / seen : 0;", "app/check/explain"),
     ("a picture of too few samples agrees", "app/check/explain.cpp", "findings_.too_few = agree && «findings_.unseen > max_unseen → false»;", "app/check/explain"),
     ("light of a depth alone, not up to it", "app/check/statistics.cpp", "for (std::size_t k = 1; k < light.size(); ++k) «light[k] += light[k - 1]; → »",
