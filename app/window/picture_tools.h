@@ -1,6 +1,6 @@
 #pragma once
+#include "app/window/inspector/drawings.h"
 #include "app/window/inspector/inspector.h"
-#include "app/window/inspector/rectangle_tool.h"
 #include "app/window/panels/panels.h"
 #include "app/window/picture/display.h"
 #include "app/window/session.h"

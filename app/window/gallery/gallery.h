@@ -1,16 +1,62 @@
 #pragma once
-#include "app/window/gallery/thumbnails.h"
+#include "app/report/contact_sheet.h"
+#include "app/window/document/job_queue.h"
 #include "app/window/picture/display.h"
+#include "core/scene/load.h"
 
+#include <atomic>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
-/// What the list of scenes shows beside names: pictures, and the files that were opened last, which a small file keeps
-/// from one start to the next.
+/// This room makes what the list of scenes shows beside names: small pictures, and the files that were opened last. It
+/// keeps them from one start to the next.
 namespace tyndall {
+
+/// 16 hex digits that say which picture a scene has: they change with the text of the scene and the bytes of its
+/// textures, and with how thumbnails are made.
+std::string thumbnail_key(const LoadedScene& loaded);
+
+/// A picture of the cache. Nothing if it is not there, or is damaged.
+std::optional<ScreenPicture> read_thumbnail(const std::filesystem::path& file);
+/// Puts a picture into the cache; fails silently, as it can be made again.
+void write_thumbnail(const std::filesystem::path& file, const ScreenPicture& picture);
+
+/// Finds pictures in the cache folder, and renders those that are not there, one at a time and at low priority. For
+/// the main thread.
+class Thumbnails {
+ public:
+  /// folder: of the cache; empty: nothing is kept. wake: collect() has something to do; called from any thread.
+  Thumbnails(std::filesystem::path folder, const std::function<void()>& wake)
+      : folder_(std::move(folder)), jobs_(wake) {}
+  ~Thumbnails() { closing_ = true; }
+
+  /// The scenes whose pictures are to be seen now, by what load_scene takes: the first that has none is made next.
+  /// Takes the place of what was wanted before.
+  void want(std::vector<std::string> scenes);
+  /// Calls `take` for each picture that has come; an empty one where a scene has none, because it cannot be read.
+  /// Whether there were any.
+  bool collect(const std::function<void(const std::string& scene, const ScreenPicture& picture)>& take);
+  /// The scene's file has changed: its picture is made again when it is wanted.
+  void forget(const std::string& scene) { known_.erase(scene); }
+  /// Whether nothing is being made.
+  bool idle() const { return jobs_.idle(); }
+
+ private:
+  void begin_next();
+
+  std::filesystem::path folder_;
+  std::vector<std::string> wanted_;
+  std::set<std::string> known_;  ///< made, or being made
+  std::map<std::string, ScreenPicture> came_;
+  std::atomic<bool> closing_ = false;
+  JobQueue jobs_;  // last: its jobs use the others
+};
 
 inline constexpr std::size_t max_recent_files = 8;
 

@@ -3,28 +3,16 @@
 #include "app/report/heat_map.h"
 #include "app/window/picture/display.h"
 #include "app/window/system/imgui_compat.h"
-#include "app/window/tools/camera_control.h"
-#include "core/base/text.h"
 #include "core/image/tonemap.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace tyndall {
 namespace {
-
-constexpr std::size_t max_told = 18;  // stops of a path
-
-void draw_number(Ui& ui, ImDrawList& draw, ImVec2 at, std::size_t number, bool light) {
-  const float s = ui.scale;
-  draw.AddCircleFilled(at, 4 * s, shade(light ? palette::amber : palette::blue), 16);
-  draw.AddCircle(at, 4.5f * s, shade(palette::ink, 0.8f), 16, s);
-  const std::string text = std::to_string(number);
-  const ImVec2 from{at.x + 7 * s, at.y - 7 * s};
-  draw.AddText({from.x + s, from.y + s}, shade(palette::ink, 0.9f), text.c_str());
-  draw.AddText(from, shade(palette::text), text.c_str());
-}
 
 constexpr int parts = 32;  // of a blended bar
 
@@ -47,8 +35,7 @@ Legend grey_bar(const std::string& title, double white, const char* unit = "") {
 }
 
 Legend legend_of_stops() {
-  Legend legend{"stops from middle grey", {}, true, {}};
-  for (const ScreenColour& c : stop_colours) legend.colours.push_back({c.r, c.g, c.b});
+  Legend legend{"stops from middle grey", {stop_colours.begin(), stop_colours.end()}, true, {}};
   for (int stop = darkest_stop; stop <= brightest_stop; ++stop) legend.numbers.push_back(fmt::format("{:+}", stop));
   legend.numbers[static_cast<std::size_t>(-darkest_stop)] = "0";
   return legend;
@@ -59,79 +46,6 @@ Legend legend_of_stops() {
 ImVec2 in_window(const Rect& image, ImagePoint p) {
   const auto limited = [](double v) { return static_cast<float>(std::clamp(v, -20.0, 21.0)); };
   return {image.x0 + limited(p.x) * image.width(), image.y0 + limited(p.y) * image.height()};
-}
-
-std::vector<std::string> path_lines(const NoisyPath& found, const std::vector<PathStop>& stops) {
-  std::vector<std::string> lines{fmt::format("path of sample {} of pixel {}, {}", found.sample, found.x, found.y),
-                                 sentence_of(found)};
-  for (std::size_t k = 0; k < stops.size(); ++k) {
-    const bool left_out = stops.size() > max_told && k >= max_told - 1 && k + 1 < stops.size();
-    if (left_out && k == max_told - 1) lines.push_back(fmt::format("    … {} more", stops.size() - max_told));
-    if (!left_out) lines.push_back(fmt::format("{:>2}  {}", k + 1, stops[k].text));
-  }
-  return lines;
-}
-
-void draw_path(Ui& ui, const Scene& scene, const Rect& image, const Rect& visible, Vec3d eye,
-               const std::vector<PathStop>& stops) {
-  if (image.width() <= 0) return;
-  const Projection projection(scene);
-  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  draw.PushClipRect({visible.x0, visible.y0}, {visible.x1, visible.y1}, true);
-  compat::push_font(ui.fonts.small);
-  std::vector<Vec3d> points;
-  for (const PathStop& stop : stops) {
-    const Vec3d from = stop.before < 0 ? eye : points[static_cast<std::size_t>(stop.before)];
-    const Vec3d to = stop.away ? from + 2 * target_distance(scene.camera) * stop.point : stop.point;
-    points.push_back(to);
-    const auto line = projection.line(from, to);
-    if (!line) continue;
-    const ImVec2 a = in_window(image, line->a), b = in_window(image, line->b);
-    draw.AddLine(a, b, shade(palette::ink, 0.7f), 4 * ui.scale);
-    draw.AddLine(a, b, shade(stop.away ? palette::dim : palette::amber), 1.8f * ui.scale);
-  }
-  for (std::size_t k = 0; k < stops.size(); ++k) {
-    const auto at = stops[k].away ? std::nullopt : projection.point(points[k]);
-    if (!at) continue;
-    const ImVec2 place = in_window(image, *at);
-    draw_number(ui, draw, place, k + 1, stops[k].light);
-    const float half = 4 * ui.scale;
-    if (ui.log)
-      ui.log->widget("path." + std::to_string(k + 1), {place.x - half, place.y - half, place.x + half, place.y + half},
-                     stops[k].text);
-  }
-  ImGui::PopFont();
-  draw.PopClipRect();
-}
-
-void draw_lines(Ui& ui, const Rect& visible, const std::vector<std::string>& lines,
-                const std::array<float, 3>* swatch) {
-  const float s = ui.scale, pad = 10 * s;
-  compat::push_font(ui.fonts.mono);
-  float width = 0;
-  for (const std::string& line : lines) width = std::max(width, ImGui::CalcTextSize(line.c_str()).x);
-  const float step = ImGui::GetTextLineHeight() + 2 * s, height = step * static_cast<float>(lines.size()) + 2 * pad;
-  width = std::min(width + 2 * pad, std::max(60 * s, visible.width() - 28 * s));
-  const ImVec2 mouse = ImGui::GetIO().MousePos;
-  Rect box{visible.x0 + 14 * s, visible.y0 + 14 * s, visible.x0 + 14 * s + width, visible.y0 + 14 * s + height};
-  const Rect around{box.x0 - 30 * s, box.y0 - 30 * s, box.x1 + 30 * s, box.y1 + 30 * s};
-  if (around.contains(mouse.x, mouse.y)) box.y1 = visible.y1 - 14 * s, box.y0 = box.y1 - height;
-  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  draw.AddRectFilled({box.x0, box.y0}, {box.x1, box.y1}, shade(palette::panel, 0.92f), 6 * s);
-  draw.PushClipRect({box.x0, box.y0}, {box.x1 - pad / 2, box.y1}, true);
-  ImVec2 at{box.x0 + pad, box.y0 + pad};
-  for (const std::string& line : lines) {
-    draw.AddText(at, shade(palette::text), line.c_str());
-    at.y += step;
-  }
-  if (swatch) {
-    const float edge = step - 3 * s, x = box.x1 - pad - edge, y = box.y0 + pad;
-    draw.AddRectFilled({x, y}, {x + edge, y + edge}, shade({(*swatch)[0], (*swatch)[1], (*swatch)[2], 1}));
-    draw.AddRect({x, y}, {x + edge, y + edge}, shade(palette::dim));
-  }
-  draw.PopClipRect();
-  ImGui::PopFont();
-  if (ui.log) ui.log->widget("inspector", box, joined(lines, " | "));
 }
 
 Legend legend_of(int view, double white) {
@@ -180,6 +94,69 @@ void draw_legend(Ui& ui, const Rect& visible, const Legend& legend) {
   }
   ImGui::PopFont();
   if (ui.log) ui.log->widget("legend", box, legend.title + numbers);
+}
+
+bool RectangleTool::cancel() {
+  const bool was = active();
+  waits_ = false;
+  from_.reset();
+  return was;
+}
+
+std::optional<Region> RectangleTool::update(const Mouse& mouse, const Rect& image, bool free, int width, int height) {
+  if (image.width() <= 0 || image.height() <= 0) return {};
+  const auto relative = [&](float x, float y) {
+    return RelativePoint{std::clamp((x - image.x0) / image.width(), 0.0f, 1.0f),
+                         std::clamp((y - image.y0) / image.height(), 0.0f, 1.0f)};
+  };
+  if (waits_ && free && mouse.clicked[0]) {
+    from_ = relative(mouse.pressed_x[0], mouse.pressed_y[0]);
+    waits_ = false;
+  }
+  if (!from_) return {};
+  to_ = relative(mouse.x, mouse.y);
+  if (mouse.down[0]) return {};
+  constexpr float rounding = 0.01f;  // of a pixel
+  const auto low = [](float a, float b, int size) {
+    return static_cast<int>(std::floor(std::min(a, b) * static_cast<float>(size) + rounding));
+  };
+  const auto high = [](float a, float b, int size) {
+    return static_cast<int>(std::ceil(std::max(a, b) * static_cast<float>(size) - rounding));
+  };
+  const RelativePoint from = *std::exchange(from_, std::nullopt);
+  if (std::abs(from.x - to_.x) * image.width() < 3 || std::abs(from.y - to_.y) * image.height() < 3) return Region{};
+  return Region{low(from.x, to_.x, width), low(from.y, to_.y, height), high(from.x, to_.x, width),
+                high(from.y, to_.y, height)};
+}
+
+void RectangleTool::draw(Ui& ui, const Rect& image, const Rect& visible, const Region& region, int width, int height,
+                         const std::string& text) const {
+  RelativePoint low{static_cast<float>(region.x0) / static_cast<float>(width),
+                    static_cast<float>(region.y0) / static_cast<float>(height)};
+  RelativePoint high{static_cast<float>(region.x1) / static_cast<float>(width),
+                     static_cast<float>(region.y1) / static_cast<float>(height)};
+  if (from_) {
+    low = {std::min(from_->x, to_.x), std::min(from_->y, to_.y)};
+    high = {std::max(from_->x, to_.x), std::max(from_->y, to_.y)};
+  }
+  if (high.x <= low.x || image.width() <= 0) return;
+  const float s = ui.scale;
+  const Rect rect{image.x0 + low.x * image.width(), image.y0 + low.y * image.height(),
+                  image.x0 + high.x * image.width(), image.y0 + high.y * image.height()};
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  draw.PushClipRect({visible.x0, visible.y0}, {visible.x1, visible.y1}, true);
+  draw.AddRect({rect.x0 - s, rect.y0 - s}, {rect.x1 + s, rect.y1 + s}, shade(palette::ink, 0.7f), 0, 0, 3 * s);
+  draw.AddRect({rect.x0, rect.y0}, {rect.x1, rect.y1}, shade(palette::amber), 0, 0, 1.5f * s);
+  if (!from_ && !text.empty()) {
+    compat::push_font(ui.fonts.small);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    const float x = std::max(rect.x0, visible.x0), y = std::max(rect.y0 - size.y - 6 * s, visible.y0);
+    draw.AddRectFilled({x, y}, {x + size.x + 10 * s, y + size.y + 4 * s}, shade(palette::panel, 0.9f), 3 * s);
+    draw.AddText({x + 5 * s, y + 2 * s}, shade(palette::text), text.c_str());
+    ImGui::PopFont();
+  }
+  draw.PopClipRect();
+  if (ui.log) ui.log->widget("rectangle", rect, text);
 }
 
 }  // namespace tyndall

@@ -1,32 +1,22 @@
 #pragma once
-#include "app/report/replay.h"
 #include "app/window/accuracy/views.h"
 #include "app/window/panels/widgets.h"
+#include "app/window/system/input_events.h"
 #include "app/window/system/layout.h"
 #include "app/window/tools/projection.h"
+#include "core/film/film.h"
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
-/// What is drawn over the picture to explain it: a path, lines of text, and what the colours of a view mean.
+/// What is drawn over the picture: what the colours of a view mean, and the rectangle that is refined first.
 namespace tyndall {
 
 /// Where a point of the image is in the window. Those far outside, which would overflow the draw list's arithmetic, are
 /// moved nearer.
 ImVec2 in_window(const Rect& image, ImagePoint p);
-
-/// What is told of a path: a sentence, then a line for each stop; of a long path the first ones and the last.
-std::vector<std::string> path_lines(const NoisyPath& found, const std::vector<PathStop>& stops);
-
-/// Draws a path over the picture: lines between its stops, each with its number. visible: the part of the window in
-/// which the picture is seen.
-void draw_path(Ui& ui, const Scene& scene, const Rect& image, const Rect& visible, Vec3d eye,
-               const std::vector<PathStop>& stops);
-
-/// Draws lines of text in a corner of the picture, away from the mouse. swatch: a colour beside the first line; null:
-/// none.
-void draw_lines(Ui& ui, const Rect& visible, const std::vector<std::string>& lines, const std::array<float, 3>* swatch);
 
 /// A bar of colours with numbers beneath.
 struct Legend {
@@ -41,5 +31,31 @@ Legend legend_of(int view, double white);
 
 /// Draws it at the foot of the picture, on the right.
 void draw_legend(Ui& ui, const Rect& visible, const Legend& legend);
+
+/// Lets the user draw a rectangle over the picture.
+class RectangleTool {
+ public:
+  /// Waits for a drag.
+  void begin() { waits_ = true; }
+  /// Nothing is drawn any more. Returns whether something was waited for or drawn.
+  bool cancel();
+  bool active() const { return waits_ || from_; }
+
+  /// To be called in each drawing. free: nothing else has the mouse; width, height: of the picture, in pixels. Returns
+  /// the rectangle when it was drawn; a click alone gives an empty one.
+  std::optional<Region> update(const Mouse& mouse, const Rect& image, bool free, int width, int height);
+  /// Draws the rectangle that is being drawn; else the one of that region, with a text above it.
+  void draw(Ui& ui, const Rect& image, const Rect& visible, const Region& region, int width, int height,
+            const std::string& text) const;
+
+ private:
+  /// A point of the picture, as fractions of it.
+  struct RelativePoint {
+    float x = 0, y = 0;
+  };
+  bool waits_ = false;
+  std::optional<RelativePoint> from_;
+  RelativePoint to_;
+};
 
 }  // namespace tyndall

@@ -36,6 +36,9 @@ struct PixelReadout {
 PixelReadout pixel_readout(const Frame& frame, const PixelReport& report, const SeenThing& seen,
                            const Display& display);
 
+/// What is told of a path: a sentence, then a line for each stop; of a long path the first ones and the last.
+std::vector<std::string> path_lines(const NoisyPath& found, const std::vector<PathStop>& stops);
+
 /// What is known of the pixel under the cursor, and the path that makes it noisy.
 class Inspector {
  public:
@@ -72,9 +75,6 @@ class Inspector {
     Vec3d eye;
     std::vector<PathStop> stops;
   };
-  /// The noisy path of a pixel; null where the scene has no such pixel.
-  static std::shared_ptr<Shown> noisy_path(const std::shared_ptr<const Scene>& scene, const PictureClick& at,
-                                           std::uint32_t samples);
   void look(const Scene& scene, const RendererPair& renderers);
 
   bool on_ = false;

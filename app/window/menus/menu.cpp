@@ -64,14 +64,6 @@ bool holds_words(const std::string& where, const std::string& text) {
   return true;
 }
 
-/// The parts of a text between commas, squeezed.
-std::vector<std::string> phrases_of(const std::string& text) {
-  std::vector<std::string> phrases;
-  std::istringstream in(text);
-  for (std::string phrase; std::getline(in, phrase, ',');) phrases.push_back(squeezed(phrase));
-  return phrases;
-}
-
 constexpr int ranks = 5;
 
 /// How likely the text, in small letters, means an item: 0 most likely, `ranks` not at all.
@@ -80,8 +72,9 @@ int rank_of(const PaletteItem& item, const std::string& text) {
   const std::size_t colon = label.find(": ");
   const std::string name = squeezed(label), end = colon == std::string::npos ? name : squeezed(label.substr(colon));
   if (!sought.empty()) {
-    const std::vector<std::string> phrases = phrases_of(also);
-    if (sought == name || sought == end || std::find(phrases.begin(), phrases.end(), sought) != phrases.end()) return 0;
+    std::istringstream phrases(name + "," + end + "," + also);
+    for (std::string phrase; std::getline(phrases, phrase, ',');)
+      if (squeezed(phrase) == sought) return 0;
     if (name.starts_with(sought) || end.starts_with(sought)) return 1;
   }
   if (holds_words(label, text)) return 2;
@@ -110,21 +103,15 @@ void Menu::open(float x, float y, std::string title, std::vector<MenuItem> items
   fresh_ = true;
 }
 
-void Menu::move_mark(int by) {
-  const int count = static_cast<int>(items_.size());
-  const int from = mark_ < 0 ? (by > 0 ? -1 : count) : mark_;
-  for (int step = 1; step <= count; ++step) {
-    mark_ = ((from + by * step) % count + count) % count;
-    if (items_[static_cast<std::size_t>(mark_)].why_not.empty()) return;
-  }
-}
-
 bool Menu::take_key(int key) {
   if (!is_open() || (key != key_up && key != key_down && key != key_enter)) return false;
-  if (key == key_enter)
-    chosen_ = mark_;
-  else
-    move_mark(key == key_down ? 1 : -1);
+  if (key == key_enter) return chosen_ = mark_, true;
+  const int by = key == key_down ? 1 : -1, count = static_cast<int>(items_.size());
+  const int from = mark_ < 0 && by < 0 ? count : mark_;
+  for (int step = 1; step <= count; ++step) {
+    mark_ = ((from + by * step) % count + count) % count;
+    if (items_[static_cast<std::size_t>(mark_)].why_not.empty()) break;
+  }
   return true;
 }
 

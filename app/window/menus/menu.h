@@ -31,8 +31,6 @@ class Menu {
   std::optional<Request> draw(Ui& ui, const Rect& area);
 
  private:
-  void move_mark(int by);
-
   std::vector<MenuItem> items_;
   std::string title_;
   float x_ = 0, y_ = 0;

@@ -12,33 +12,6 @@
 namespace tyndall {
 namespace {
 
-using Pixel = std::array<std::uint8_t, 4>;
-
-/// The bands' colours in bytes.
-std::array<Pixel, stop_colours.size()> stop_pixels() {
-  std::array<Pixel, stop_colours.size()> pixels;
-  const auto byte = [](float v) { return static_cast<std::uint8_t>(std::lround(255 * v)); };
-  std::transform(stop_colours.begin(), stop_colours.end(), pixels.begin(), [&](const ScreenColour& c) {
-    return Pixel{byte(c.r), byte(c.g), byte(c.b), 255};
-  });
-  return pixels;
-}
-
-void put_stops(const std::vector<float>& rgba, double exposure, std::vector<std::uint8_t>& bytes) {
-  const auto pixels = stop_pixels();
-  const float gain = std::exp2(static_cast<float>(exposure));
-  const auto light = [&](std::size_t i) { return rgba[i] > 0 ? std::min(gain * rgba[i], 1e30f) : 0.0f; };
-  bytes.resize(rgba.size());
-  for (std::size_t i = 0; i < rgba.size(); i += 4) {
-    const float luminance = 0.2126f * light(i) + 0.7152f * light(i + 1) + 0.0722f * light(i + 2);  // Rec.709
-    const float band = std::floor(std::log2(luminance / middle_grey) + 0.5f) - darkest_stop;
-    const Pixel pixel =
-        luminance > 0 ? pixels[static_cast<std::size_t>(std::clamp(band, 0.0f, static_cast<float>(pixels.size() - 1)))]
-                      : Pixel{0, 0, 0, 255};
-    std::copy(pixel.begin(), pixel.end(), bytes.begin() + static_cast<std::ptrdiff_t>(i));
-  }
-}
-
 GLuint compile_shader(GLenum kind, const char* source) {
   const GLuint shader = glCreateShader(kind);
   glShaderSource(shader, 1, &source, nullptr);
@@ -69,8 +42,24 @@ int whole(float v) { return static_cast<int>(std::lround(v)); }
 }  // namespace
 
 void screen_bytes(const std::vector<float>& rgba, int width, const Look& look, std::vector<std::uint8_t>& bytes) {
-  if (look.stops) return put_stops(rgba, look.exposure, bytes);
-  tone_map_rgba(rgba, look.exposure, look.tone_map, width, look.dither, bytes);
+  if (!look.stops) return tone_map_rgba(rgba, look.exposure, look.tone_map, width, look.dither, bytes);
+  using Pixel = std::array<std::uint8_t, 4>;
+  std::array<Pixel, stop_colours.size()> pixels;
+  const auto byte = [](float v) { return static_cast<std::uint8_t>(std::lround(255 * v)); };
+  std::transform(stop_colours.begin(), stop_colours.end(), pixels.begin(), [&](const ScreenColour& c) {
+    return Pixel{byte(c[0]), byte(c[1]), byte(c[2]), 255};
+  });
+  const float gain = std::exp2(static_cast<float>(look.exposure));
+  const auto light = [&](std::size_t i) { return rgba[i] > 0 ? std::min(gain * rgba[i], 1e30f) : 0.0f; };
+  bytes.resize(rgba.size());
+  for (std::size_t i = 0; i < rgba.size(); i += 4) {
+    const float luminance = 0.2126f * light(i) + 0.7152f * light(i + 1) + 0.0722f * light(i + 2);  // Rec.709
+    const float band = std::floor(std::log2(luminance / middle_grey) + 0.5f) - darkest_stop;
+    const Pixel pixel =
+        luminance > 0 ? pixels[static_cast<std::size_t>(std::clamp(band, 0.0f, static_cast<float>(pixels.size() - 1)))]
+                      : Pixel{0, 0, 0, 255};
+    std::copy(pixel.begin(), pixel.end(), bytes.begin() + static_cast<std::ptrdiff_t>(i));
+  }
 }
 
 FrameDisplay::FrameDisplay() : program_(link_program()) {
@@ -114,12 +103,11 @@ void FrameDisplay::draw(const Rect& where, int framebuffer_width, int framebuffe
   // Whole multiples show the pixels as they are.
   const bool multiple = (x1 - x0) % width_ == 0 && (y1 - y0) % height_ == 0;
   const GLint filter = grid_.spacing <= 1 && (multiple || squares) ? GL_NEAREST : GL_LINEAR;
-  const Rect seen{std::max(clip.x0, where.x0), std::max(clip.y0, where.y0), std::min(clip.x1, where.x1),
-                  std::min(clip.y1, where.y1)};
+  const Rect seen = overlap(clip, where);
   glDisable(GL_BLEND);
   glEnable(GL_SCISSOR_TEST);
-  glScissor(whole(seen.x0), framebuffer_height - whole(seen.y1), std::max(0, whole(seen.x1) - whole(seen.x0)),
-            std::max(0, whole(seen.y1) - whole(seen.y0)));
+  glScissor(whole(seen.x0), framebuffer_height - whole(seen.y1), whole(seen.x1) - whole(seen.x0),
+            whole(seen.y1) - whole(seen.y0));
   glUseProgram(program_);
   const float across = 2 / static_cast<float>(framebuffer_width), down = 2 / static_cast<float>(framebuffer_height);
   glUniform4f(place_at_, static_cast<float>(x0) * across - 1, 1 - static_cast<float>(y0) * down,

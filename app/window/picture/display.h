@@ -11,9 +11,7 @@
 namespace tyndall {
 
 /// A colour as the screen shows it, in [0, 1].
-struct ScreenColour {
-  float r = 0, g = 0, b = 0;
-};
+using ScreenColour = std::array<float, 3>;
 
 /// Bands from -6 to +6: each holds what is nearer to its stop than to the next; the first and the last hold all that is
 /// darker or brighter. Cold below middle grey, warm above, grey at it; the brightest is white.

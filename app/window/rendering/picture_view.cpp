@@ -29,6 +29,11 @@ void draw_label(Ui& ui, const Rect& half, const std::string& text, bool right) {
   if (ui.log) ui.log->widget(right ? "split.b" : "split.a", half, text);
 }
 
+/// The clean view that a frame shows; null: it shows something else.
+std::shared_ptr<const CleanFrame> clean_of(const std::shared_ptr<const Frame>& frame) {
+  return frame && frame->view == View::beauty ? frame->clean : nullptr;
+}
+
 }  // namespace
 
 bool Divider::is_at(const Rect& image, float mouse_x, float mouse_y, float reach) const {
@@ -50,12 +55,12 @@ void Divider::drag_to(const Rect& image, float mouse_x) {
   if (image.width() > 0) part = std::clamp((mouse_x - image.x0) / image.width(), 0.02f, 0.98f);
 }
 
-void draw_split(Ui& ui, const Rect& image, const Divider& divider, const SplitLabels& labels) {
+void draw_split(Ui& ui, const Rect& image, const Divider& divider, const std::string& a, const std::string& b) {
   if (image.width() <= 0 || image.height() <= 0) return;
   const float x = std::round(divider.x(image)), middle = (image.y0 + image.y1) / 2, s = ui.scale;
   compat::push_font(ui.fonts.small);
-  draw_label(ui, {image.x0, image.y0, x - 2 * s, image.y1}, labels.a, false);
-  draw_label(ui, {x + 2 * s, image.y0, image.x1, image.y1}, labels.b, true);
+  draw_label(ui, {image.x0, image.y0, x - 2 * s, image.y1}, a, false);
+  draw_label(ui, {x + 2 * s, image.y0, image.x1, image.y1}, b, true);
   ImGui::PopFont();
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
   draw->AddRectFilled({x - 2 * s, image.y0}, {x + 2 * s, image.y1}, shade(palette::ink, 0.55f));
@@ -64,11 +69,6 @@ void draw_split(Ui& ui, const Rect& image, const Divider& divider, const SplitLa
   for (const float way : {-1.5f, 1.5f})
     draw->AddLine({x + way * s, middle - 7 * s}, {x + way * s, middle + 7 * s}, shade(palette::ink, 0.6f), s);
   if (ui.log) ui.log->widget("divider", {x - 4 * s, image.y0, x + 4 * s, image.y1}, "");
-}
-
-PictureView::PictureView(RendererPair& renderers, const LiveAccuracy& accuracy)
-    : renderers_(renderers), accuracy_(accuracy) {
-  right_.display = std::make_unique<FrameDisplay>();
 }
 
 std::shared_ptr<const Frame> PictureView::unseen() const {
@@ -98,33 +98,16 @@ bool PictureView::shows_raw_beside(const Context& context) const {
   return context.clean == 2 && !accuracy_.map() && clean_of(right_.frame);
 }
 
-/// The clean view that a frame shows; null: it shows something else.
-std::shared_ptr<const CleanFrame> PictureView::clean_of(const std::shared_ptr<const Frame>& frame) {
-  return frame && frame->view == View::beauty ? frame->clean : nullptr;
-}
-
 /// "mis · sobol   1,024 spp   est. error 1.2 %".
 std::string PictureView::text_of(Half half, std::string method) const {
   const Frame* frame = (half == Half::kept ? left_ : right_).frame.get();
   if (frame && frame->clean) method += " · clean";
   if (!frame || frame->spp == 0) return method;
   std::string text = method + "   " + format_count(frame->spp) + " spp";
-  const Kind kind_of_picture = frame->clean ? Kind::clean : Kind::raw;
-  const ErrorCurve& curve = accuracy_.curves(half, kind_of_picture).current();
+  const ErrorCurve& curve = accuracy_.curves(half, frame->clean ? Kind::clean : Kind::raw).current();
   if (curve.edit != frame->edit || curve.points.empty()) return text;
   const char* kind = accuracy_.is_true() ? "true" : "est.";
   return text + fmt::format("   {} error {:.2g} %", kind, 100 * std::sqrt(curve.points.back().rel_mse));
-}
-
-SplitLabels PictureView::labels(const Context& context) const {
-  if (!shows_raw_beside(context))
-    return {text_of(Half::kept, context.kept_method), text_of(Half::current, context.method)};
-  const Frame& frame = *right_.frame;
-  const auto text = [](const char* name, std::uint32_t spp, double error) {
-    if (spp == 0) return std::string(name) + "   coarse at first";
-    return std::string(name) + "   " + format_count(spp) + fmt::format(" spp   est. error {:.2g} %", 100 * error);
-  };
-  return {text("raw", frame.spp, frame.relative_error), text("clean", frame.clean->spp, frame.clean->relative_error)};
 }
 
 void PictureView::draw_halves(Ui& ui, const Context& context) const {
@@ -136,7 +119,15 @@ void PictureView::draw_halves(Ui& ui, const Context& context) const {
   if (!shows_halves(context)) return;
   if (ui.log && left_.frame && right_.frame)
     ui.log->changed("halves", fmt::format("A {:.2f} B {:.2f}", left_.frame->seconds, right_.frame->seconds));
-  draw_split(ui, context.visible, divider_, labels(context));
+  if (!shows_raw_beside(context))
+    return draw_split(ui, context.visible, divider_, text_of(Half::kept, context.kept_method),
+                      text_of(Half::current, context.method));
+  const auto text = [](const char* name, const auto& picture) {
+    if (picture.spp == 0) return std::string(name) + "   coarse at first";
+    return fmt::format("{}   {} spp   est. error {:.2g} %", name, format_count(picture.spp),
+                       100 * picture.relative_error);
+  };
+  draw_split(ui, context.visible, divider_, text("raw", *right_.frame), text("clean", *right_.frame->clean));
 }
 
 bool PictureView::drag_divider(Ui& ui, const Mouse& mouse, bool free, const Context& context) {

@@ -28,19 +28,16 @@ struct Divider {
   void drag_to(const Rect& image, float mouse_x);
 };
 
-/// What is said of the halves.
-struct SplitLabels {
-  std::string a, b;
-};
-
-/// Divider, and in each half's upper corner what it is.
-void draw_split(Ui& ui, const Rect& image, const Divider& divider, const SplitLabels& labels);
+/// Divider, and in the upper corners of the halves what they are.
+void draw_split(Ui& ui, const Rect& image, const Divider& divider, const std::string& a, const std::string& b);
 
 /// The picture in the window: which frames are on the screen, how they are shown, and the divider of a split view.
 class PictureView {
  public:
   /// Lives within the window's OpenGL context. Throws IoError if the shaders do not compile.
-  PictureView(RendererPair& renderers, const LiveAccuracy& accuracy);
+  PictureView(RendererPair& renderers, const LiveAccuracy& accuracy) : renderers_(renderers), accuracy_(accuracy) {
+    right_.display = std::make_unique<FrameDisplay>();
+  }
 
   /// A frame that is not on the screen yet. If both halves have one: the right half's if it is finished, else the left
   /// half's. Null: there is none.
@@ -70,8 +67,6 @@ class PictureView {
   };
   bool shows_halves(const Context& context) const;
   bool shows_raw_beside(const Context& context) const;
-  SplitLabels labels(const Context& context) const;
-  static std::shared_ptr<const CleanFrame> clean_of(const std::shared_ptr<const Frame>& frame);
   static void upload(Side& side, const std::shared_ptr<const void>& what, const ShownPicture& picture,
                      const Look& look);
   static void upload_frame(Side& side, const std::shared_ptr<const Frame>& frame, bool clean, const Look& look);

@@ -105,8 +105,7 @@ bool RendererPair::finished() const {
     return frame && frame->edit == edit(half) && frame->finished && frame->view == current_.view &&
            (!current_.clean || frame->clean || frame->spp < min_clean_spp);
   };
-  const bool current = ended(Half::current) && renderer_.latest()->pass > restarted_after_;
-  return current && (!second_ || ended(Half::kept));
+  return ended(Half::current) && renderer_.latest()->pass > restarted_after_ && (!second_ || ended(Half::kept));
 }
 
 bool RendererPair::resting() const {

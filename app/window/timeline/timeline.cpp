@@ -13,10 +13,7 @@ namespace {
 
 constexpr float bar_height = 36, button_width = 58, number_width = 92;  // units of the design
 constexpr int frames_between_cameras = 48;
-
-bool has_key(const KeyedValue& keyed, int frame) {
-  return std::any_of(keyed.keys.begin(), keyed.keys.end(), [&](const KeyFrame& key) { return key.frame == frame; });
-}
+constexpr double frames_per_second = 24;
 
 }  // namespace
 
@@ -51,8 +48,10 @@ void remove_keys(Scene& scene, int frame) {
 
 bool has_keys(const Scene& scene, int frame) {
   if (!scene.animation) return false;
-  const auto& all = scene.animation->keyed;
-  return std::any_of(all.begin(), all.end(), [&](const KeyedValue& keyed) { return has_key(keyed, frame); });
+  for (const KeyedValue& keyed : scene.animation->keyed)
+    for (const KeyFrame& key : keyed.keys)
+      if (key.frame == frame) return true;
+  return false;
 }
 
 void key_cameras(Scene& scene, const CameraSlots& slots) {

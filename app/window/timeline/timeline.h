@@ -20,8 +20,6 @@ bool has_keys(const Scene& scene, int frame);
 /// Gives the camera keys so that a film goes through the stored ones, two seconds from each to the next.
 void key_cameras(Scene& scene, const CameraSlots& slots);
 
-inline constexpr double frames_per_second = 24;
-
 /// What the bar wants of the scene.
 struct TimelineWish {
   std::optional<int> frame;  ///< go there

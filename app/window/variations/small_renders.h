@@ -37,10 +37,8 @@ class SmallRenders {
   explicit SmallRenders(const std::function<void()>& wake) : first_(wake), further_(wake) {}
   ~SmallRenders() { ++number_; }
 
-  /// Takes the place of what was asked for before, and forgets its pictures.
+  /// Takes the place of what was asked for before, and forgets its pictures. An empty one: renders nothing any more.
   void request(SmallRequest request);
-  /// Renders nothing any more.
-  void stop() { request({}); }
 
   /// Takes what has come. Whether there was anything.
   bool collect();

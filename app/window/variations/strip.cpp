@@ -23,12 +23,6 @@ std::string value_text(const Slot& slot, double value) {
   return (whole ? std::to_string(std::llround(value)) : format_short(value)) + (spelled ? " " : "") + slot.unit;
 }
 
-/// The step that the value is; -1: it is none of them.
-int step_of(const VariedValue& axis, double value) {
-  const auto found = std::find(axis.values.begin(), axis.values.end(), value);
-  return found == axis.values.end() ? -1 : static_cast<int>(found - axis.values.begin());
-}
-
 /// The scene with the values of a step; nothing: it cannot have them, or there is no such step.
 std::optional<Scene> varied_scene(const Scene& scene, const std::vector<VariedValue>& axes, std::size_t index) {
   const std::size_t steps[] = {index % strip_columns, index / strip_columns};
@@ -39,8 +33,8 @@ std::optional<Scene> varied_scene(const Scene& scene, const std::vector<VariedVa
   return check(made) ? std::nullopt : std::optional(std::move(made));
 }
 
-}  // namespace
-
+/// Even steps over the slider's range, or over the power of ten around a value beyond it. The step next to the present
+/// value is that value.
 std::vector<double> varied_values(const Slot& slot, double present, int steps) {
   const Slider range = widened(slot.slider, slot.valid, present);
   std::vector<double> values;
@@ -58,6 +52,8 @@ std::vector<double> varied_values(const Slot& slot, double present, int steps) {
   if (nearest != values.end()) *nearest = present;
   return values;
 }
+
+}  // namespace
 
 void VariationStrip::vary(const Slot& slot) {
   const auto is_it = [&](const VariedValue& axis) { return axis.slot.pointer == slot.pointer; };
@@ -83,7 +79,7 @@ void VariationStrip::close() {
   axes_.clear();
   cells_.clear();
   base_.reset();
-  renders_.stop();
+  renders_.request({});
 }
 
 float VariationStrip::height(float width, int image_width, int image_height, float scale) const {
@@ -99,16 +95,6 @@ Rect VariationStrip::cell_at(const Rect& rect, std::size_t index, float scale) c
   const float height = (rect.height() - (head + gap) * scale) / static_cast<float>(rows());
   const float x = rect.x0 + space + column * (width + space), y = rect.y0 + head * scale + row * height;
   return {std::round(x), std::round(y), std::round(x + width), std::round(y + height - label_height * scale)};
-}
-
-/// Which of the pictures shows the scene as it is.
-void VariationStrip::look_at(const Scene& scene) {
-  marked_.assign(axes_.size(), -1);
-  for (std::size_t k = 0; k < axes_.size(); ++k) {
-    const auto slot = find_slot(scene, axes_[k].slot.pointer);
-    if (!slot) return close();  // what it belongs to is gone
-    marked_[k] = step_of(axes_[k], std::get<double>(slot->value));
-  }
 }
 
 void VariationStrip::ask(const Context& context, const Rect& rect, float scale) {
@@ -135,8 +121,14 @@ double VariationStrip::update(const Context& context, const Rect& rect, const Sc
   const bool begins = !base_;
   if (seen_changes_ != context.changes || begins) {
     seen_changes_ = context.changes;
-    look_at(scene);
-    if (!is_open()) return never;
+    marked_.assign(axes_.size(), -1);
+    for (std::size_t k = 0; k < axes_.size(); ++k) {
+      const auto slot = find_slot(scene, axes_[k].slot.pointer);
+      if (!slot) return close(), never;  // what it belongs to is gone
+      const std::vector<double>& values = axes_[k].values;
+      const auto found = std::find(values.begin(), values.end(), std::get<double>(slot->value));
+      if (found != values.end()) marked_[k] = static_cast<int>(found - values.begin());
+    }
     // Which step the scene has now makes no difference to the pictures.
     std::optional<Scene> base = varied_scene(scene, axes_, 0);
     if (!base) return close(), never;
@@ -166,18 +158,16 @@ void VariationStrip::show_pictures(const Display& display) {
   }
 }
 
-std::string VariationStrip::label_of_cell(std::size_t index) const {
-  std::string text;
-  const std::size_t steps[] = {index % strip_columns, index / strip_columns};
-  for (std::size_t k = 0; k < axes_.size(); ++k)
-    if (steps[k] < axes_[k].values.size())
-      text += (text.empty() ? "" : ", ") + value_text(axes_[k].slot, axes_[k].values[steps[k]]);
-  return text;
-}
-
 /// Returns whether it was clicked.
 bool VariationStrip::draw_cell(Ui& ui, const Rect& cell, std::size_t index) const {
-  const std::string label = label_of_cell(index);
+  const std::size_t steps[] = {index % strip_columns, index / strip_columns};
+  std::string label;
+  bool marked = true;
+  for (std::size_t k = 0; k < axes_.size(); ++k) {
+    if (steps[k] < axes_[k].values.size())
+      label += (label.empty() ? "" : ", ") + value_text(axes_[k].slot, axes_[k].values[steps[k]]);
+    marked = marked && marked_[k] == static_cast<int>(steps[k]);
+  }
   if (label.empty() || cell.width() < 1 || cell.height() < 1) return false;
   const float s = ui.scale;
   ImGui::SetCursorScreenPos({cell.x0, cell.y0});
@@ -191,9 +181,6 @@ bool VariationStrip::draw_cell(Ui& ui, const Rect& cell, std::size_t index) cons
   const ImVec2 low{cell.x0, cell.y0}, high{cell.x1, cell.y1};
   draw->AddRectFilled(low, high, shade(palette::field));
   if (known && known->texture) draw_fitted(*known->texture, cell, 0);
-  const int steps[] = {static_cast<int>(index) % strip_columns, static_cast<int>(index) / strip_columns};
-  bool marked = true;
-  for (std::size_t k = 0; k < axes_.size(); ++k) marked = marked && marked_[k] == steps[k];
   if (marked)
     draw->AddRect({low.x - s, low.y - s}, {high.x + s, high.y + s}, shade(palette::amber), 2 * s, 0, 2 * s);
   else if (ImGui::IsItemHovered())
@@ -216,9 +203,8 @@ std::optional<Scene> VariationStrip::draw(Ui& ui, const Context& context, const 
     std::string title;
     for (const VariedValue& axis : axes_) title += (title.empty() ? "" : " and ") + axis.slot.label;
     compat::push_font(ui.fonts.small);
-    ImGui::TextColored(
-        palette::dim, "%s%s", title.c_str(),
-        clean_ ? ": click or arrow keys take one over; filtered" : ": click or arrow keys take one over");
+    ImGui::TextColored(palette::dim, "%s: click or arrow keys take one over%s", title.c_str(),
+                       clean_ ? "; filtered" : "");
     ImGui::SameLine(std::max(1.0f, rect.width() - 60 * s));
     if (ImGui::SmallButton("close")) open = false;
     log_item(ui, "strip.close", "button");
@@ -227,13 +213,12 @@ std::optional<Scene> VariationStrip::draw(Ui& ui, const Context& context, const 
       if (draw_cell(ui, cell_at(rect, k, s), k)) wanted = k;
   });
   if (ui.log) ui.log->changed("strip", fmt::format("{:.3f}", renders_.seconds_to_stand()));
-  const int dx = std::exchange(move_x_, 0), dy = std::exchange(move_y_, 0);
-  if (wanted == count() && (dx != 0 || dy != 0)) {
-    const int columns = static_cast<int>(axes_[0].values.size());
-    const int lines = axes_.size() > 1 ? static_cast<int>(axes_[1].values.size()) : 1;
-    const int column = std::clamp(std::max(marked_[0], 0) + dx, 0, columns - 1);
-    const int line = std::clamp((axes_.size() > 1 ? std::max(marked_[1], 0) : 0) + dy, 0, lines - 1);
-    wanted = static_cast<std::size_t>(line * strip_columns + column);
+  const std::array<int, 2> by = std::exchange(move_, {});
+  if (wanted == count() && by != std::array{0, 0}) {
+    std::array<int, 2> steps{};
+    for (std::size_t k = 0; k < axes_.size(); ++k)
+      steps[k] = std::clamp(std::max(marked_[k], 0) + by[k], 0, static_cast<int>(axes_[k].values.size()) - 1);
+    wanted = static_cast<std::size_t>(steps[1] * strip_columns + steps[0]);
   }
   if (wanted < count()) taken = varied_scene(scene, axes_, wanted);
   if (!open) close();
@@ -242,8 +227,8 @@ std::optional<Scene> VariationStrip::draw(Ui& ui, const Context& context, const 
 
 bool VariationStrip::take_key(int key) {
   if (!is_open()) return false;
-  move_x_ += key == key_right ? 1 : key == key_left ? -1 : 0;
-  move_y_ += key == key_down ? 1 : key == key_up ? -1 : 0;
+  move_[0] += key == key_right ? 1 : key == key_left ? -1 : 0;
+  move_[1] += key == key_down ? 1 : key == key_up ? -1 : 0;
   return key == key_right || key == key_left || key == key_down || key == key_up;
 }
 

@@ -5,6 +5,7 @@
 #include "app/window/variations/small_renders.h"
 #include "core/scene/slots.h"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,10 +20,6 @@ struct VariedValue {
 };
 
 inline constexpr int strip_columns = 9, strip_rows = 3;
-
-/// Even steps over the slider's range, or over the power of ten around a value beyond it. The step next to the present
-/// value is that value.
-std::vector<double> varied_values(const Slot& slot, double present, int steps);
 
 /// The strip of small pictures along the bottom of the window: one row of them, and three where a second value varies.
 /// Lives within the window's OpenGL context; for the main thread.
@@ -57,12 +54,10 @@ class VariationStrip {
   int rows() const { return axes_.size() > 1 ? strip_rows : 1; }
   std::size_t count() const { return static_cast<std::size_t>(strip_columns * rows()); }
   Rect cell_at(const Rect& rect, std::size_t index, float scale) const;
-  void look_at(const Scene& scene);
   double update(const Context& context, const Rect& rect, const Scene& scene, float scale);
   void ask(const Context& context, const Rect& rect, float scale);
   void show_pictures(const Display& display);
   bool draw_cell(Ui& ui, const Rect& cell, std::size_t index) const;
-  std::string label_of_cell(std::size_t index) const;
 
   std::vector<VariedValue> axes_;  ///< one or two; none: the strip is closed
   std::vector<int> marked_;        ///< the step of each axis that the scene has now; -1: none
@@ -73,7 +68,7 @@ class VariationStrip {
   bool stale_ = true, clean_ = false;  ///< the pictures are of another scene
   int width_ = 0, height_ = 0;         ///< of the pictures, pixels
   Display display_;                    ///< how the textures show them
-  int move_x_ = 0, move_y_ = 0;        ///< where the arrow keys go in the next drawing
+  std::array<int, 2> move_{};          ///< where the arrow keys go in the next drawing: right and down
   SmallRenders renders_;
 };
 

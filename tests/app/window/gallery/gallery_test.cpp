@@ -1,5 +1,4 @@
 #include "app/window/gallery/gallery.h"
-#include "app/window/gallery/thumbnails.h"
 #include "tests/support/news.h"
 #include "tests/support/paths.h"
 #include "tests/support/scratch.h"

@@ -1,7 +1,6 @@
 #include "app/window/inspector/inspector.h"
 #include "app/report/replay.h"
 #include "app/window/inspector/drawings.h"
-#include "app/window/inspector/rectangle_tool.h"
 #include "core/compile/compile.h"
 #include "core/render/render.h"
 #include "core/scene/load.h"

@@ -20,7 +20,7 @@ Bytes shown(const std::vector<float>& rgba, const Look& look, int width = 1) {
 Bytes band(int stop) {
   const ScreenColour& c = stop_colours[static_cast<std::size_t>(stop - darkest_stop)];
   const auto byte = [](float v) { return static_cast<std::uint8_t>(std::lround(255 * v)); };
-  return {byte(c.r), byte(c.g), byte(c.b), 255};
+  return {byte(c[0]), byte(c[1]), byte(c[2]), 255};
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ TEST_CASE("a split view can be drawn at any size") {
   NullImGui imgui(64, 64);
   Ui ui;
   for (const Rect& rect : {Rect{0, 0, 20, 10}, Rect{0, 0, 1, 50}, Rect{0, 0, 0, 0}, Rect{0, 0, 372, 400}})
-    imgui.frame([&] { draw_split(ui, rect, {}, {"mis · sobol", "path"}); });
+    imgui.frame([&] { draw_split(ui, rect, {}, "mis · sobol", "path"); });
 }
 
 TEST_CASE("the divider follows the mouse that took it, also where its press is seen late") {
