@@ -33,8 +33,8 @@ std::optional<Scene> varied_scene(const Scene& scene, const std::vector<VariedVa
   return check(made) ? std::nullopt : std::optional(std::move(made));
 }
 
-/// Even steps over the slider's range, or over the power of ten around a value beyond it. The step next to the present
-/// value is that value.
+}  // namespace
+
 std::vector<double> varied_values(const Slot& slot, double present, int steps) {
   const Slider range = widened(slot.slider, slot.valid, present);
   std::vector<double> values;
@@ -52,8 +52,6 @@ std::vector<double> varied_values(const Slot& slot, double present, int steps) {
   if (nearest != values.end()) *nearest = present;
   return values;
 }
-
-}  // namespace
 
 void VariationStrip::vary(const Slot& slot) {
   const auto is_it = [&](const VariedValue& axis) { return axis.slot.pointer == slot.pointer; };

@@ -21,6 +21,10 @@ struct VariedValue {
 
 inline constexpr int strip_columns = 9, strip_rows = 3;
 
+/// Even steps over the slider's range, or over the power of ten around a value beyond it. The step next to the present
+/// value is that value.
+std::vector<double> varied_values(const Slot& slot, double present, int steps);
+
 /// The strip of small pictures along the bottom of the window: one row of them, and three where a second value varies.
 /// Lives within the window's OpenGL context; for the main thread.
 class VariationStrip {
