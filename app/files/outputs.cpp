@@ -171,7 +171,8 @@ void write_or_rescue(const fs::path& file, const std::function<void(const fs::pa
     const std::string problem = error.what();
     const fs::path near = free_name(file);
     if (succeeds(write, near)) throw at(problem, near);
-    const fs::path folder = make_temporary_folder("tyndall-"), far = folder / file.filename();  // "": none can be made
+    const fs::path folder = make_temporary_folder("tyndall-");  // empty if none can be made
+    const fs::path far = folder / file.filename();
     if (!folder.empty() && succeeds(write, far)) throw at(problem, far);
     std::error_code ignored;
     if (!folder.empty()) fs::remove(folder, ignored);

@@ -127,10 +127,16 @@ void Commands::ask_to_close() {
 }
 
 void Commands::escape() {
-  if (ui_.drag.active) return static_cast<void>(ui_.drag.cancel = true);
+  if (ui_.drag.active) {
+    ui_.drag.cancel = true;
+    return;
+  }
   if (dialog_.kind == Dialog::Kind::changed_file) session_.editor.answer_about_file(false);
   if (closing_.cancel()) return;
-  if (popup_is_open()) return static_cast<void>(ui_.close_popup = true);
+  if (popup_is_open()) {
+    ui_.close_popup = true;
+    return;
+  }
   if (palette_.is_open()) return palette_.close();
   if (std::exchange(ui_.sought.has_keys, false)) return;
   if (menu_.is_open()) return menu_.close();
