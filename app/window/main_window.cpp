@@ -50,13 +50,12 @@ MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Refer
   if (options.reference_scene) session_.render_reference(*options.reference_scene);
 }
 
-/// Asks the renderers for what is wanted now, see Session. Returns whether that is a new edit.
-bool MainWindow::send(double now, bool scene_too) {
+/// Asks the renderers for what is wanted now, see Session.
+void MainWindow::send(double now, bool scene_too) {
+  if (scene_too) picture_.note_shown();  // of the drawing before: the workers begin with a newer scene, if one is sent
   session_.send(now, scene_too);
   const std::uint64_t edit = session_.renderers.edit(Half::current);
-  if (edit == paced_edit_) return false;
-  session_.pacing.on_edit(paced_edit_ = edit, now);
-  return true;
+  if (edit != paced_edit_) session_.pacing.on_edit(paced_edit_ = edit, now);
 }
 
 bool MainWindow::picture_due(double now) const {
@@ -119,6 +118,9 @@ void MainWindow::draw(double now) {
     if (const auto frame = fresh ? picture_.take(half) : nullptr) session_.shown(half, frame);
   panels_.now = context(now);
   panels_.scene = EditedScene(session_.editor.shared());
+  panels_.set_value = [this, fresh](const std::string& pointer, const Value& value) {
+    set_value(pointer, value, !fresh);
+  };
   panels_.wanted_pictures.clear();
   ui_.size = target_distance(panels_.scene->camera);
   set_selected(panels_, session_.editor.selection());
@@ -127,13 +129,15 @@ void MainWindow::draw(double now) {
   const Rect& image = context.layout.image;
   session_.wanted.shown_pixels = std::llround(image.width() * image.height() * context.dots * context.dots);
   session_.input_time = std::exchange(input_since_, 0);
+  const std::uint64_t edit_before = paced_edit_;
+  follow_gesture(now);
   draw_interface();
   use_mouse_and_keys(now);
   apply_panels(now);
   session_.input_time = 0;
   session_.wanted.watched_pixel = picture_tools_.inspector.watched_pixel();
-  if (!fresh) picture_.note_shown();  // the one before; if a newer scene is sent now, the workers begin with that
-  if (send(now, !fresh) && !fresh) {
+  send(now, !fresh);
+  if (paced_edit_ != edit_before && !fresh) {
     awaits_until_ = now + longest_await;
     return platform_->drop_frame();
   }
@@ -243,7 +247,7 @@ void MainWindow::draw_timeline(const Rect& rect) {
     timeline_.stop();
     session_.messages.say(error.where + ": found " + error.found + ", expected " + error.expected, true);
   }
-  panels_.scene = EditedScene(session_.editor.shared());
+  panels_.scene.show(session_.editor.shared());
 }
 
 /// The strip, and what is taken over from it.
@@ -258,17 +262,21 @@ void MainWindow::draw_strip(const Rect& rect) {
   move_linked_objects(editor.scene(), editor.scene(), *taken);
   if (strip_gesture_ == 0) strip_gesture_ = session_.editor.gestures.begin();
   session_.editor.edit(std::move(*taken), strip_gesture_);
-  panels_.scene = EditedScene(session_.editor.shared());
+  panels_.scene.show(session_.editor.shared());
+}
+
+/// All edits of this drawing belong to what is held or turned now.
+void MainWindow::follow_gesture(double now) {
+  const Mouse mouse = read_mouse();
+  const bool holds = mouse.any_down() || holds_fly_key(platform_->held()) || objects_.active();
+  const bool rotates = pointer_.is_turning(mouse, panels_.now.layout, now);
+  session_.editor.gestures.update(holds ? Gesture::held : rotates ? Gesture::wheel : Gesture::none);
 }
 
 void MainWindow::use_mouse_and_keys(double now) {
   const Layout& layout = panels_.now.layout;
   const Mouse mouse = read_mouse();
   if (log_) log_->mouse(mouse);
-  const std::set<int>& held = platform_->held();
-  const bool holds = mouse.any_down() || holds_fly_key(held) || objects_.active();
-  const bool rotates = pointer_.is_turning(mouse, layout, now);
-  session_.editor.gestures.update(holds ? Gesture::held : rotates ? Gesture::wheel : Gesture::none);
   const bool free = !mouse.taken && !pointer_.is_pressed() && !commands_.has_question();
   const bool looks = !objects_.active() && picture_tools_.use_mouse(mouse, free);
   const bool divides = !looks && !objects_.active() && picture_.drag_divider(ui_, mouse, free, panels_.now);
@@ -282,7 +290,8 @@ void MainWindow::use_mouse_and_keys(double now) {
   }
   const bool grounded = mouse.control || objects_.active() || session_.shows_picture();
   Camera camera = panels_.scene->camera;
-  const bool flies = flight_.update(grounded ? std::set<int>{} : held, platform_->shift_held(), now, camera);
+  const bool flies =
+      flight_.update(grounded ? std::set<int>{} : platform_->held(), platform_->shift_held(), now, camera);
   if (flies) session_.pacing.wake_at(now + min_frame_interval);
   set_camera(camera);
 }
@@ -291,20 +300,30 @@ void MainWindow::set_camera(const Camera& camera) {
   if (!(camera == panels_.scene->camera)) panels_.scene.change().camera = camera;
 }
 
-/// Hands what the drawing has changed of the scene to the editor.
-void MainWindow::take_edit() {
+/// Sets a value of the scene, and asks for its picture before anything else is drawn. scene_too: see Session::send.
+void MainWindow::set_value(const std::string& pointer, const Value& value, bool scene_too) {
+  take_edit();
+  put_value(panels_.scene.change(), pointer, value);
+  take_edit(pointer);
+  send(panels_.now.seconds, scene_too);
+  panels_.now.wanted = session_.wanted;
+}
+
+/// Hands what the drawing has changed of the scene to the editor; what is drawn next shows what that has made of it.
+/// pointer: see Editor::edit.
+void MainWindow::take_edit(const std::string& pointer) {
   Editor& editor = session_.editor;
-  if (!panels_.scene.is_changed()) return;
-  const std::string pointer = panels_.scene.pointer();
-  const std::uint64_t gesture = session_.editor.gestures.current();
-  Scene next = panels_.scene.take();
+  std::optional<Scene> next = panels_.scene.take();
+  if (!next) return;
+  const std::uint64_t gesture = editor.gestures.current();
   if (session_.shows_picture()) {  // without a scene, how it is displayed is all that can be changed
-    const Display display = next.display;
+    const Display display = next->display;
     next = editor.scene();
-    next.display = display;
+    next->display = display;
   }
-  if (pointer.empty() || pointer.starts_with("/objects/")) start_.finish_edit(editor.shared(), next, gesture);
-  editor.edit(std::move(next), gesture, pointer);
+  if (pointer.empty() || pointer.starts_with("/objects/")) start_.finish_edit(editor.shared(), *next, gesture);
+  editor.edit(std::move(*next), gesture, pointer);
+  panels_.scene.show(editor.shared());
 }
 
 void MainWindow::apply_panels(double now) {

@@ -38,13 +38,15 @@ class MainWindow {
   void draw(double now);
   Context context(double now);
   void draw_interface();
+  void follow_gesture(double now);
   void use_mouse_and_keys(double now);
   void set_camera(const Camera& camera);
-  void take_edit();
+  void set_value(const std::string& pointer, const Value& value, bool scene_too);
+  void take_edit(const std::string& pointer = "");
   void apply_panels(double now);
   void draw_strip(const Rect& rect);
   void draw_timeline(const Rect& rect);
-  bool send(double now, bool scene_too = true);
+  void send(double now, bool scene_too = true);
   void keep_message(double now);
   void finish_drawing(double now, double cpu_before, bool fresh);
   Layout layout_for(const WindowSize& size, int image_width, int image_height) const;

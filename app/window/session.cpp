@@ -95,12 +95,12 @@ std::string Session::finish_files() {
 }
 
 bool Session::send(double now, bool scene_too) {
-  keep_edits();
   const std::uint64_t edit = renderers.edit(Half::current);
   const auto frame = renderers.latest(Half::current);
   const bool seen = edit == 0 || (frame && frame->edit >= edit);
   const bool due = scene_too && timer.due(seen, now);
   due ? submit(now) : static_cast<void>(ask());
+  keep_edits();
   return due;
 }
 

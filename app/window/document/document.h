@@ -54,7 +54,7 @@ ObjectPaths paths_after(const Scene& before, const Scene& after, const ObjectPat
 void move_keys(const Scene& before, Scene& after);
 
 /// The scene within one drawing of the window: the document's own until something of it is changed, then a copy, which
-/// becomes the document's at the end of the drawing and is the only one that the edit takes.
+/// becomes the document's and is the only one that the edit takes.
 class EditedScene {
  public:
   explicit EditedScene(std::shared_ptr<const Scene> scene = std::make_shared<const Scene>())
@@ -65,31 +65,19 @@ class EditedScene {
   bool is_changed() const { return changed_.has_value(); }
 
   /// For any change. What was read before, by the operators above, stays as it was.
-  Scene& change() {
-    pointer_.clear();
-    return copy();
-  }
-  /// Sets a value that the scene has.
-  void set(const std::string& pointer, const Value& value) {
-    pointer_ = changed_ && pointer != pointer_ ? "" : pointer;
-    put_value(copy(), pointer, value);
-  }
-
-  /// The pointer of the only value that was set; "": anything may have changed.
-  const std::string& pointer() const { return pointer_; }
-  /// The changed scene. Here it is as it was shown, then.
-  Scene take() {
-    Scene taken = std::move(*changed_);
+  Scene& change() { return changed_ ? *changed_ : changed_.emplace(*shown_); }
+  /// The changed scene, if it was changed. Here it is as it was shown, then.
+  std::optional<Scene> take() { return std::exchange(changed_, std::nullopt); }
+  /// Shows the document's scene of now. The ones before stay in memory, as parts of them may be in use.
+  void show(std::shared_ptr<const Scene> now) {
+    before_.push_back(std::exchange(shown_, std::move(now)));
     changed_.reset();
-    return taken;
   }
 
  private:
-  Scene& copy() { return changed_ ? *changed_ : changed_.emplace(*shown_); }
-
   std::shared_ptr<const Scene> shown_;
+  std::vector<std::shared_ptr<const Scene>> before_;
   std::optional<Scene> changed_;
-  std::string pointer_;
 };
 
 /// A loaded scene as a document without edits.

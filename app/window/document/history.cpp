@@ -8,10 +8,6 @@ namespace tyndall {
 
 namespace {
 
-std::shared_ptr<const Document> shared_document(Document document) {
-  return std::make_shared<const Document>(std::move(document));
-}
-
 /// Whether both are the same, known to differ in the value at the pointer at most; "": in anything.
 bool is_same(const Document& a, const Document& b, const std::string& pointer) {
   const auto now = pointer.empty() ? std::nullopt : find_slot(a.scene, pointer);
@@ -21,7 +17,7 @@ bool is_same(const Document& a, const Document& b, const std::string& pointer) {
 
 }  // namespace
 
-History::History(Document start) { steps_.push_back({shared_document(std::move(start)), {}}); }
+History::History(Document start) { steps_.push_back({std::make_shared<const Document>(std::move(start)), {}}); }
 
 bool History::record(Document next, std::uint64_t gesture, const std::string& pointer) {
   if (is_same(next, current(), pointer)) return false;
@@ -33,12 +29,12 @@ bool History::record(Document next, std::uint64_t gesture, const std::string& po
       --at_;
       open_ = false;
     } else {
-      steps_[at_].document = shared_document(std::move(next));
+      steps_[at_].document = std::make_shared<const Document>(std::move(next));
       select(std::move(selected));
     }
     return true;
   }
-  steps_.push_back({shared_document(std::move(next)), {}});
+  steps_.push_back({std::make_shared<const Document>(std::move(next)), {}});
   if (steps_.size() > max_steps) steps_.erase(steps_.begin());
   at_ = steps_.size() - 1;
   select(std::move(selected));
@@ -57,7 +53,8 @@ void History::set_origin(const std::shared_ptr<const Origin>& origin) {
   const auto before = current().origin;
   for (auto& [document, selection] : steps_) {
     if (document->origin != before) continue;
-    document = shared_document({move_textures(document->scene, before->folder, origin->folder), origin});
+    document = std::make_shared<const Document>(
+        Document{move_textures(document->scene, before->folder, origin->folder), origin});
   }
 }
 
@@ -81,7 +78,7 @@ bool History::take_pictures(const Scene& read) {
     if (step.document->origin != before) continue;
     Scene scene = step.document->scene;
     take(scene);
-    step.document = shared_document({std::move(scene), origin});
+    step.document = std::make_shared<const Document>(Document{std::move(scene), origin});
   }
   return true;
 }

@@ -68,7 +68,7 @@ void light_rows(Ui& ui, PanelState& state, const Slot& radiance) {
   slider_row(ui, power, light.power);
   stops_row(ui, light.power);
   if (light.power != before.power || !(light.colour == before.colour))
-    state.scene.set(radiance.pointer, light_radiance(light));
+    state.set_value(radiance.pointer, light_radiance(light));
 }
 
 void type_row(Ui& ui, PanelState& state, ObjectPath& path) {

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -92,6 +93,8 @@ struct PanelState {
   bool at_window = false;  ///< the picture is to have as many pixels as the window shows
   // Panels change these in place.
   EditedScene scene;
+  /// Sets a value that the scene has, in the document itself; `scene` shows it from then on.
+  std::function<void(const std::string& pointer, const Value& value)> set_value;
   ObjectPath selected;           ///< whose values the panels show; empty: nothing is selected
   std::vector<ObjectPath> also;  ///< further objects that are selected with it
   bool rename = false;           ///< the name of the selected object is to be typed

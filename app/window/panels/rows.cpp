@@ -124,7 +124,7 @@ void slot_row(Ui& ui, PanelState& state, const Slot& slot, const Row& row) {
                        : slot.form == ValueForm::place ? vector_row(ui, place, *vector)
                        : !slot.choices.empty()         ? choose(ui, slot, row, *number)
                                                        : slider_row(ui, row, *number);
-  if (changed) state.scene.set(slot.pointer, value);
+  if (changed) state.set_value(slot.pointer, value);
 }
 
 }  // namespace

@@ -34,9 +34,9 @@ TEST_CASE("an edit copies the scene once, and its kept file once more, on anothe
   REQUIRE(opened.finishes());
   opened.session->flush_edits();  // the file of the edit before, which would else be counted now and then
   const test::AllocationCount copies(many * sizeof(Object));
-  EditedScene next(opened.session->editor.shared());
-  next.set("/camera/vfov", next->camera.vfov - 1);
-  opened.session->editor.edit(next.take(), 0, "/camera/vfov");
+  Scene next = opened.session->editor.scene();
+  next.camera.vfov -= 1;
+  opened.session->editor.edit(std::move(next), 0, "/camera/vfov");
   REQUIRE(opened.finishes());
   opened.session->flush_edits();
   CHECK(opened.session->renderers.edit(Half::current) == 3);

@@ -28,7 +28,7 @@ struct Hand {
   bool update(bool free = true) {
     EditedScene edited(std::make_shared<const Scene>(scene));
     const bool taken = tool.update(mouse, layout, 1, free, selected, edited);
-    if (edited.is_changed()) scene = edited.take();
+    if (auto changed = edited.take()) scene = std::move(*changed);
     mouse.dx = mouse.dy = 0;
     for (bool& button : mouse.clicked) button = false;
     return taken;

@@ -30,6 +30,7 @@ class Column {
     state.now.origin = origin;
     state.now.accuracy = &accuracy_;
     state.look = &look;
+    state.set_value = [this](const std::string& pointer, const Value& value) { put_value(scene(), pointer, value); };
     state.now.scenes = {{"showroom", "Showroom", "", "showroom.json"},
                         {"cover", "Cover", "Stress: many balls. Fails: slow trees. Right: a cover.", "cover.json"}};
     origin->title = "showroom";
@@ -40,7 +41,7 @@ class Column {
   void draw() {
     imgui_.frame([&] {
       ui.problem.clear();
-      if (state.scene.is_changed()) state.scene = EditedScene(std::make_shared<const Scene>(state.scene.take()));
+      if (state.scene.is_changed()) state.scene = EditedScene(std::make_shared<const Scene>(*state.scene.take()));
       state.wanted_pictures.clear();
       draw_column(ui, state, {0, 0, 372, height});
       log_.end_of_widgets();
