@@ -24,6 +24,19 @@ TEST_CASE("the window: a slider's value goes to the renderer, is undone, and goe
   CHECK(driver.value("gold.fuzz") == "0.2");
 }
 
+TEST_CASE("the window: a value is asked for from its row, before anything else is drawn with it") {
+  Driver driver("row_asks");
+  driver.click("picture", 0.5, 0.45);
+  std::ifstream log("log");
+  log.seekg(0, std::ios::end);
+  driver.click("Ball.radius", 0.75);
+  std::string line;
+  while (std::getline(log, line) && !line.starts_with("submit 2")) CHECK_FALSE(line.starts_with("widget handle."));
+  while (std::getline(log, line) && !line.starts_with("widget handle.")) {
+  }
+  CHECK(log.good());
+}
+
 /// Vary or Key in the menu of a row. Does not wait until small pictures are finished.
 void choose(Driver& driver, const std::string& row, const std::string& what) {
   driver.push(row, 0.9, 0.5, 1);
