@@ -10,6 +10,7 @@ namespace tyndall {
 namespace {
 
 constexpr double degree = pi / 180;
+constexpr int left_shift = 340, right_shift = 344;  // GLFW's numbers
 
 double rounded(double value, double step) { return std::round(value / step) * step + 0.0; }
 
@@ -125,22 +126,15 @@ Vec3d in_camera_frame(const Camera& camera, Vec3d point) {
   return {dot(v, axes.right), dot(v, axes.up), dot(v, axes.forward)};
 }
 
-std::optional<FlyKey> fly_key(int key) {
-  constexpr std::string_view keys = "DAEQWS";  // each axis in both directions
-  const std::size_t at = key < 128 ? keys.find(static_cast<char>(key)) : keys.npos;
-  if (at == keys.npos) return {};
-  return FlyKey{static_cast<int>(at) / 2, at % 2 == 0 ? 1 : -1};
-}
-
 bool holds_fly_key(const std::set<int>& held) {
-  return std::any_of(held.begin(), held.end(), [](int key) { return fly_key(key).has_value(); });
+  constexpr std::string_view keys = "WASDQE";
+  return std::any_of(keys.begin(), keys.end(), [&](int key) { return held.contains(key); });
 }
 
-bool Flight::update(const std::set<int>& held, bool fast, double now, Camera& camera) {
-  Vec3d heading;
-  double* const axes[3] = {&heading.x, &heading.y, &heading.z};
-  for (const int key : held)
-    if (const auto direction = fly_key(key)) *axes[direction->axis] += direction->sign;
+bool Flight::update(const std::set<int>& held, double now, Camera& camera) {
+  const auto along = [&](int ahead, int back) -> double { return held.contains(ahead) - held.contains(back); };
+  const Vec3d heading{along('D', 'A'), along('E', 'Q'), along('W', 'S')};
+  const bool fast = held.contains(left_shift) || held.contains(right_shift);
   const bool flies = !(heading == Vec3d{}), tapped = !flies && last_ >= 0 && !moved_;
   const double seconds = tapped ? tap : flies && last_ >= 0 ? std::min(now - last_, 0.1) : 0;
   if (seconds > 0) {

@@ -1,7 +1,6 @@
 #pragma once
 #include "core/scene/scene.h"
 
-#include <optional>
 #include <set>
 
 /// Mouse and keys to cameras, and flying through the scene with W, A, S, D, Q and E. The functions are pure: a camera
@@ -40,20 +39,13 @@ Camera frame_sphere(const Camera& camera, Vec3d center, double radius, double as
 /// A point in the camera's frame: right, up, and depth along the axis.
 Vec3d in_camera_frame(const Camera& camera, Vec3d point);
 
-/// A direction of flight: axis 0 right, 1 up, 2 forward; sign 1 or -1.
-struct FlyKey {
-  int axis = 0, sign = 0;
-};
-/// What a key does while it is held; nothing for all but W, A, S, D, Q, E. key: GLFW's number.
-std::optional<FlyKey> fly_key(int key);
-
 /// Flies the camera while keys are held.
 class Flight {
  public:
-  /// To be called in each drawing; changes the camera. held: keys, by GLFW's numbers; fast: four times as fast. Keys
-  /// that are let go in the very next drawing have flown for `tap` seconds. Returns whether it flies: then the window
-  /// is to be drawn again soon.
-  bool update(const std::set<int>& held, bool fast, double now, Camera& camera);
+  /// To be called in each drawing; changes the camera. held: keys, by GLFW's numbers; with Shift it is four times as
+  /// fast. Keys that are let go in the very next drawing have flown for `tap` seconds. Returns whether it flies: then
+  /// the window is to be drawn again soon.
+  bool update(const std::set<int>& held, double now, Camera& camera);
 
  private:
   static constexpr double tap = 1 / 60.0;

@@ -1,6 +1,6 @@
 #pragma once
 #include "app/window/system/platform.h"
-#include "tests/app/window/imgui_without_window.h"
+#include "tests/app/window/panels/null_imgui.h"
 
 #include <glad/gl.h>
 
@@ -32,16 +32,16 @@ inline GLADapiproc null_function(const char* name) {
 /// A window system that shows nothing. Input comes from a Driver, one event before each frame.
 class NullPlatform : public Platform {
  public:
-  NullPlatform();
-  ~NullPlatform() override { ImGui::DestroyContext(); }
+  NullPlatform() {
+    gladLoadGL(null_function);
+    compat::mouse_pos(ImGui::GetIO(), -FLT_MAX, -FLT_MAX);  // nowhere
+  }
 
   void wait(double seconds) override;
   InputEvents take_events() override { return std::exchange(events, {}); }
-  bool take_close_wish() override { return false; }
   void hide() override {}
   WindowSize size() const override { return {1280, height, 1280, height, 1, 1}; }
   const std::set<int>& held() const override { return held_keys; }
-  bool shift_held() const override { return modifiers.shift; }
   void set_title(const std::string& text) override { title = text; }
   void toggle_full_screen() override {}
   void begin_frame() override {
@@ -63,20 +63,11 @@ class NullPlatform : public Platform {
   std::set<int> held_keys;
 
  private:
+  NullImGui imgui_{1280, static_cast<float>(height)};
   std::mutex mutex_;
   std::condition_variable news_;
   bool woken_ = false;
 };
-
-inline NullPlatform::NullPlatform() {
-  gladLoadGL(null_function);
-  ImGui::CreateContext();
-  ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = io.LogFilename = nullptr;
-  io.DisplaySize = {1280, static_cast<float>(height)};
-  io.DeltaTime = 1.0f / 60;
-  compat::init_without_window(io);
-}
 
 inline void NullPlatform::wait(double seconds) {
   std::unique_lock lock(mutex_);

@@ -152,10 +152,10 @@ TEST_CASE("what was typed into a palette that was closed cannot be undone in a l
   drawn.draw();
   drawn.palette.open(items);
   for (int k = 0; k < 3; ++k) drawn.draw();
-  compat::control_key(ImGui::GetIO(), true);
+  compat::modifiers(ImGui::GetIO(), true, false, false, false);
   drawn.press(ImGuiKey_Z);
   drawn.press(ImGuiKey_Y);
-  compat::control_key(ImGui::GetIO(), false);
+  compat::modifiers(ImGui::GetIO(), false, false, false, false);
   drawn.type("u");
   drawn.enter();
   CHECK(drawn.chosen == Request{"undo"});
