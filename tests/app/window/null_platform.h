@@ -37,7 +37,11 @@ class NullPlatform : public Platform {
     compat::mouse_pos(ImGui::GetIO(), -FLT_MAX, -FLT_MAX);  // nowhere
   }
 
-  void wait(double seconds) override;
+  void wait(double seconds) override {
+    std::unique_lock lock(mutex_);
+    news_.wait_for(lock, std::chrono::duration<double>(std::min(seconds, 0.02)), [&] { return woken_ || events.any; });
+    woken_ = false;
+  }
   InputEvents take_events() override { return std::exchange(events, {}); }
   void hide() override {}
   WindowSize size() const override { return {1280, height, 1280, height, 1, 1}; }
@@ -50,11 +54,18 @@ class NullPlatform : public Platform {
     compat::new_frame();
   }
   void clear() override {}
-  void end_frame() override;
+  void end_frame() override {
+    ImGui::Render();
+    compat::textures_without_window();
+  }
   void drop_frame() override { ImGui::EndFrame(); }
   void skip_frame() override {}
-  void renew_fonts() override;
-  void wake() override;
+  void renew_fonts() override { compat::init_without_window(ImGui::GetIO()); }
+  void wake() override {
+    const std::lock_guard lock(mutex_);
+    woken_ = true;
+    news_.notify_one();
+  }
 
   InputEvents events;  ///< for the next frame
   int height = 2640;   ///< of the window: so high that all of the column is in it
@@ -68,24 +79,5 @@ class NullPlatform : public Platform {
   std::condition_variable news_;
   bool woken_ = false;
 };
-
-inline void NullPlatform::wait(double seconds) {
-  std::unique_lock lock(mutex_);
-  news_.wait_for(lock, std::chrono::duration<double>(std::min(seconds, 0.02)), [&] { return woken_ || events.any; });
-  woken_ = false;
-}
-
-inline void NullPlatform::wake() {
-  const std::lock_guard lock(mutex_);
-  woken_ = true;
-  news_.notify_one();
-}
-
-inline void NullPlatform::end_frame() {
-  ImGui::Render();
-  compat::textures_without_window();
-}
-
-inline void NullPlatform::renew_fonts() { compat::init_without_window(ImGui::GetIO()); }
 
 }  // namespace tyndall::test
