@@ -37,9 +37,6 @@ class KeptSlot {
   KeptSlot() = default;
   /// Takes the lock if nobody has it.
   KeptSlot(KeepingPlace place, int number);
-  KeptSlot(KeptSlot&& other) noexcept = default;
-  KeptSlot& operator=(KeptSlot&& other) noexcept;
-  ~KeptSlot() { release(); }
 
   bool held() const { return static_cast<bool>(lock_); }
   /// Why it is not held: an error number; 0: another window has it.
@@ -50,12 +47,9 @@ class KeptSlot {
   std::filesystem::path file() const { return place_.file(number_); }
 
  private:
-  void take();
-  void release();
-
   KeepingPlace place_;
   int number_ = 0;
-  OpenFile lock_;
+  std::unique_ptr<OpenFile, std::function<void(OpenFile*)>> lock_;  ///< null: none
   int error_ = 0;
 };
 
