@@ -94,8 +94,7 @@ void Commands::open_menu(const std::string& title, CommandFlag which) {
   for (const Command& command : commands()) {
     if (!command.is(which)) continue;
     const bool line_above = command.is(in_add_menu) && !std::exchange(separated, true);
-    const std::string name = "menu." + log_name(command.name), why = why_not(command, command.argument);
-    items.push_back({name, command.name, text_of(command.key), why, line_above, Request{command.name}});
+    items.push_back({command.name, text_of(command.key), why_not(command, command.argument), line_above});
   }
   menu_.open(objects_.mouse().x, objects_.mouse().y, title, std::move(items));
 }
