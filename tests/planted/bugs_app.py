@@ -89,7 +89,7 @@ APP = [
     ("turns end at 360 degrees, not at 180", "app/window/edit/arrange.cpp", "const double revolutions = «std::round(degrees / 360) → std::floor(degrees / 360)»;", "app/window/edit/arrange"),
     ("materials behind one that is deleted move on", "app/window/edit/object_list.cpp", "material -= «material > k ? 1 : 0 → 0»;", "app/window/edit/object_list"),
     ("what is linked does not turn along", "app/window/edit/arrange.cpp",
-     "«if (own_transform(linked) == own_transform(leader_before)) own_transform(result) = own_transform(leader); → »", "app/window/edit/linked_objects"),
+     "«if (own_transform(linked) == own_transform(leader_before)) own_transform(result) = own_transform(leader); → »", "app/window/edit/arrange"),
     ("the object behind fog that is taken away is lost", "app/window/edit/material_edits.cpp",
      "«if (same_list && now[level] > medium[level]) --now[level]; → »", "app/window/edit/material_edits"),
     ("a box can be pulled inside out", "app/window/edit/arrange.cpp", "to = «value - from >= minimum → true» ? value", "app/window/edit/arrange"),

@@ -5,8 +5,25 @@
 
 /// Mouse and keys to cameras, and flying through the scene with W, A, S, D, Q and E. The functions are pure: a camera
 /// goes in, a camera comes out. All keep the camera valid (a direction, not parallel to vup) and round it to six digits
-/// of its distance, so that saved files stay readable.
+/// of its distance, so that saved files stay readable. And how all numbers are rounded that the mouse changes.
 namespace tyndall {
+
+/// A step that numbers are rounded to: multiple * 10^exponent, multiple being 1, 2 or 5.
+struct DragRounding {
+  int multiple = 1, exponent = 0;
+  double size() const;
+};
+/// The largest power of ten that is at most `size` > 0.
+DragRounding decimal_below(double size);
+/// The largest of 1, 2 or 5 times a power of ten that is at most `size` > 0.
+DragRounding nice_below(double size);
+
+/// The multiple of the grain that is nearest; it prints short.
+double rounded(double value, DragRounding drag_rounding);
+Vec3d rounded(Vec3d v, DragRounding drag_rounding);
+/// Twelve significant digits: 0.1 + 0.2 becomes 0.3.
+double without_noise(double value);
+Vec3d without_noise(Vec3d v);
 
 /// The camera's own axes, unit: to the right, up in the picture, and forward.
 struct CameraAxes {
