@@ -8,8 +8,8 @@ BackgroundThread::BackgroundThread(std::function<Time()> work, Time pause)
     : thread_([this, work = std::move(work), pause](const StopToken& stop) {
         std::unique_lock lock(mutex_);
         Time rest = never;
-        while (wake_.wait_for(lock, stop, rest, [this] { return asked_; }) || !stop.stop_requested()) {
-          asked_ = false;
+        while (wake_.wait_for(lock, stop, rest, [this] { return due_; }) || !stop.stop_requested()) {
+          due_ = false;
           lock.unlock();
           rest = work();
           lock.lock();
@@ -19,7 +19,7 @@ BackgroundThread::BackgroundThread(std::function<Time()> work, Time pause)
 
 void BackgroundThread::ask() {
   const std::lock_guard lock(mutex_);
-  asked_ = true;
+  due_ = true;
   wake_.notify_one();
 }
 

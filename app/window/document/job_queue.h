@@ -25,7 +25,7 @@ class BackgroundThread {
  private:
   Mutex mutex_;
   StoppableCondition wake_;
-  bool asked_ = false;
+  bool due_ = false;        ///< somebody asked for the work
   StoppableThread thread_;  // declared last, because it uses the others
 };
 

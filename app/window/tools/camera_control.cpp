@@ -156,8 +156,8 @@ bool holds_fly_key(const std::set<int>& held) {
 }
 
 bool Flight::update(const std::set<int>& held, double now, Camera& camera) {
-  const auto along = [&](int ahead, int back) -> double { return held.contains(ahead) - held.contains(back); };
-  const Vec3d heading{along('D', 'A'), along('E', 'Q'), along('W', 'S')};
+  const auto part = [&](int ahead, int back) -> double { return held.contains(ahead) - held.contains(back); };
+  const Vec3d heading{part('D', 'A'), part('E', 'Q'), part('W', 'S')};
   const bool fast = held.contains(left_shift) || held.contains(right_shift);
   const bool flies = !(heading == Vec3d{}), tapped = !flies && last_ >= 0 && !moved_;
   const double seconds = tapped ? tap : flies && last_ >= 0 ? std::min(now - last_, 0.1) : 0;
