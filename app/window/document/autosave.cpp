@@ -130,7 +130,7 @@ void Autosave::keep(std::shared_ptr<const Scene> scene, std::shared_ptr<const Or
 void Autosave::flush() {
   const std::lock_guard one_at_a_time(file_mutex_);
   std::unique_lock lock(mutex_);
-  if (!std::exchange(waits_, false) && !keeping_.failed()) return;
+  if (!std::exchange(waits_, false) && !keeping_.failed()) return;  // else a disk may have room again
   const auto edits = scene_;
   const auto of = origin_;
   lock.unlock();
