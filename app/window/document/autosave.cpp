@@ -96,6 +96,7 @@ fs::path Autosave::take_over(const std::string& what) {
     if (newer) newest = std::move(free);
   };
   for (const KeepingPlace& place : keeping_places(folder_, what)) for_free_files(place, see);
+  const std::lock_guard file(file_mutex_);
   const std::lock_guard lock(mutex_);
   slot_ = std::move(newest);
   used_ = slot_.held();
@@ -103,6 +104,7 @@ fs::path Autosave::take_over(const std::string& what) {
 }
 
 void Autosave::leave() {
+  const std::lock_guard file(file_mutex_);
   const std::lock_guard lock(mutex_);
   slot_ = {};
   used_ = false;
@@ -128,7 +130,7 @@ void Autosave::keep(std::shared_ptr<const Scene> scene, std::shared_ptr<const Or
 }
 
 void Autosave::flush() {
-  const std::lock_guard one_at_a_time(file_mutex_);
+  const std::lock_guard file(file_mutex_);
   std::unique_lock lock(mutex_);
   if (!std::exchange(waits_, false) && !keeping_.failed()) return;  // else a disk may have room again
   const auto edits = scene_;
@@ -146,6 +148,7 @@ Keeping Autosave::keeping() const {
 }
 
 std::string Autosave::last_words() const {
+  const std::lock_guard file(file_mutex_);
   const std::lock_guard lock(mutex_);
   const Keeping& now = keeping_;
   if (!scene_ && !now.failed()) return "";

@@ -129,8 +129,8 @@ class Autosave {
   void write_at(const KeepingPlace& place, const Scene& edits, const Origin& of);
 
   std::filesystem::path folder_;
-  Mutex file_mutex_;  ///< of the thread that writes
-  KeptSlot slot_;     ///< of that thread, once something is to be kept
+  mutable Mutex file_mutex_;  ///< guards the file and its slot; taken before the other one
+  KeptSlot slot_;
 
   mutable Mutex mutex_;  ///< guards what follows
   std::shared_ptr<const Scene> scene_;
