@@ -36,10 +36,6 @@ const HelpLine mouse_lines[] = {{"Left drag", "orbit; on a handle of the selecti
                                 {"Right click on them", "vary: small pictures of all its values; key of a film"},
                                 {"Double click on them", "back to what the scene's file has"}};
 
-bool is_pressed(const Key& key, int code, Modifiers modifiers) {
-  return code != 0 && key.code == code && key.control == modifiers.control && key.shift == modifiers.shift;
-}
-
 /// The help line of the views with a digit that the renderer draws, "1 … 7" and "views: beauty, albedo, …", or of those
 /// that show errors.
 HelpLine views_line(bool of_errors) {
@@ -155,10 +151,10 @@ const Command& command_named(std::string_view name) {
 }
 
 const Command* command_of_key(int key, Modifiers modifiers) {
-  const auto found = std::find_if(commands().begin(), commands().end(), [&](const Command& c) {
-    return is_pressed(c.key, key, modifiers) || is_pressed(c.other_key, key, modifiers);
-  });
-  return found == commands().end() || modifiers.alt ? nullptr : &*found;
+  const Key pressed{key, modifiers.control, modifiers.shift};
+  for (const Command& command : commands())
+    if (key != 0 && !modifiers.alt && (command.key == pressed || command.other_key == pressed)) return &command;
+  return nullptr;
 }
 
 std::string text_of(const Key& key) {

@@ -16,6 +16,7 @@ class Commands;
 struct Key {
   int code = 0;
   bool control = false, shift = false;
+  bool operator==(const Key&) const = default;
 };
 
 /// Where a command is offered, and what follows from it.

@@ -14,7 +14,26 @@ constexpr Key ctrl(char letter) { return {letter, true}; }
 constexpr Key shift(char letter) { return {letter, false, true}; }
 constexpr Key ctrl_shift(char letter) { return {letter, true, true}; }
 
-Theme other_theme(Theme theme) { return theme == Theme::dark ? Theme::light : Theme::dark; }
+Dialog open_dialog() {
+  return {"Open",
+          "a scene, an image that Tyndall has made of one, or a picture to measure the error against",
+          {{"dialog.open", "Open", Request{"open"}}, cancel_answer},
+          0,
+          "scene.json"};
+}
+
+Dialog reference_dialog(bool has_reference) {
+  Dialog dialog{"Measure the error against",
+                "an image of this scene and size, best an EXR of another seed; or one that is rendered now with "
+                "another seed",
+                {{"dialog.load", "Load", Request{"open the reference"}},
+                 {"dialog.render", "Render one", Request{"render a reference"}}},
+                0,
+                "reference.exr"};
+  if (has_reference) dialog.answers.push_back({"dialog.drop", "No reference", Request{"drop the reference"}});
+  dialog.answers.push_back(cancel_answer);
+  return dialog;
+}
 
 }  // namespace
 
@@ -155,7 +174,7 @@ std::vector<Command> Commands::table_of_window() {
           {"dark or light theme", "dark mode, light mode, colours of the window, colors of the window", no_key, 0,
            [](Commands& c, auto&) {
              Theme& theme = c.session_.preferences.theme;
-             theme = other_theme(theme);
+             theme = theme == Theme::dark ? Theme::light : Theme::dark;
            }},
           {"close the window", "exit, quit", ctrl('Q'), 0, [](Commands& c, auto&) { c.ask_to_close(); }},
           {"all actions by name", "", ctrl('K'), 0,
@@ -177,7 +196,6 @@ std::vector<Command> Commands::unlisted_table() {
        [](Commands& c, const std::string& name) { c.panels_.tabs.jump = section_named(name), c.shows_panels_ = true; },
        requires_of_part},
       {"row", "", no_key, unlisted,  // of the column; argument: its part and its label, "Camera/Focus"
-
        [](Commands& c, const std::string& place) {
          const std::size_t slash = place.find('/');
          seek_row(c.ui_, {place.substr(0, slash), place.substr(slash + 1)});

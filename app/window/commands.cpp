@@ -4,9 +4,50 @@
 #include "app/window/document/document.h"
 #include "app/window/tools/camera_control.h"
 
+#include <cstring>
 #include <utility>
 
 namespace tyndall {
+namespace {
+
+Dialog name_dialog(const std::filesystem::path& suggestion) {
+  Dialog dialog{
+      "Save the scene as", "", {{"dialog.save", "Save", Request{"save named"}}, cancel_answer}, 0, "scene.json"};
+  std::strncpy(dialog.name, suggestion.string().c_str(), sizeof dialog.name - 1);
+  return dialog;
+}
+
+/// Saving destroys something of the file: what another program has changed, else comments.
+Dialog loss_dialog(const Origin& origin, bool changed) {
+  return {changed ? "Another program has changed " + origin.title + " since it was read."
+                  : "Saving " + origin.title + " loses its comments.",
+          changed ? "Saving replaces what it holds now." : "Scenes are written in normal form, which has none.",
+          {{"dialog.save", "Save anyway", Request{"save to", origin.file.string()}},
+           {"dialog.save_as", "Save as…", Request{"save as"}},
+           cancel_answer},
+          1};
+}
+
+/// A picture was dropped that may be meant as either.
+Dialog picture_dialog(const std::filesystem::path& file) {
+  return {"What is " + file.filename().string() + "?",
+          "A sky lights the scene from all around; a reference is what the picture is compared with.",
+          {{"dialog.sky", "As sky", Request{"sky", file.string()}},
+           {"dialog.reference", "As reference", Request{"open the reference", file.string()}},
+           cancel_answer}};
+}
+
+Dialog changed_file_dialog(const Origin& origin) {
+  return {"Another program has changed " + origin.title + ".",
+          "You have edits of it that are not saved. If you take the file, Ctrl + Z brings them back.",
+          {{"dialog.keep", "Keep my edits", Request{"keep the edits"}},
+           {"dialog.take", "Take the file", Request{"take the file"}}},
+          0,
+          nullptr,
+          Dialog::Kind::changed_file};
+}
+
+}  // namespace
 
 /// What a menu, a movement or the strip makes of a key or character. Returns whether it was meant for one of them.
 bool Commands::take_key(const KeyPress& press) {
@@ -53,8 +94,7 @@ void Commands::open_menu(const std::string& title, CommandFlag which) {
   for (const Command& command : commands()) {
     if (!command.is(which)) continue;
     const bool line_above = command.is(in_add_menu) && !std::exchange(separated, true);
-    const std::string name = "menu." + log_name(command.name), why = why_not(command, command.argument);
-    items.push_back({name, command.name, text_of(command.key), why, line_above, Request{command.name}});
+    items.push_back({command.name, text_of(command.key), why_not(command, command.argument), line_above});
   }
   menu_.open(objects_.mouse().x, objects_.mouse().y, title, std::move(items));
 }
@@ -112,13 +152,21 @@ void Commands::save_named(std::filesystem::path file) {
   if (file.extension() != ".json") file += ".json";  // a scene file, as its name is to say
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) return save_to(file);
-  dialog_ = replace_dialog(file);
+  const std::string name = file.string();
+  dialog_ = {name + " exists.", "", {{"dialog.replace", "Replace it", Request{"save to", name}}, cancel_answer}, 1};
 }
 
 void Commands::end_split() {
   const std::string kept = session_.method(Half::kept), current = session_.method(Half::current);
   if (kept == current) return session_.set_split(false);
-  dialog_ = halves_dialog(kept, current);
+  dialog_ = {"Which half do you keep?",
+             "",
+             {{"dialog.a", "A   " + kept, Request{"keep half", "A"}},
+              {"dialog.b", "B   " + current, Request{"keep half", "B"}},
+              cancel_answer},
+             2,
+             nullptr,
+             Dialog::Kind::halves};
 }
 
 void Commands::ask_to_close() {
@@ -145,7 +193,7 @@ void Commands::escape() {
   if (!covered && strip_.is_open()) return strip_.close();
   if (!covered && picture_.escape()) return;
   if (has_question())
-    dialog_.kind = Dialog::Kind::none;
+    dialog_ = {};
   else if (shows_help_)
     shows_help_ = false;
   else if (session_.messages.current().error)
@@ -170,7 +218,7 @@ void Commands::draw(const Rect& area) {
   if (!has_question())
     if (const std::filesystem::path picture = session_.references.take_doubtful(); !picture.empty())
       dialog_ = picture_dialog(picture);
-  if (dialog_.kind == Dialog::Kind::halves && !session_.split()) dialog_.kind = Dialog::Kind::none;
+  if (dialog_.kind == Dialog::Kind::halves && !session_.split()) dialog_ = {};
   closing_.draw(ui_, area, dialog_);
   if (auto answer = draw_dialog(ui_, area, dialog_)) ui_.requests.push_back(std::move(*answer));
 }

@@ -2,7 +2,6 @@
 #include "app/window/command.h"
 #include "app/window/dialog.h"
 #include "app/window/menus/menu.h"
-#include "app/window/object_tools.h"
 #include "app/window/overlays.h"
 #include "app/window/panels/panels.h"
 #include "app/window/picture_tools.h"
@@ -48,7 +47,7 @@ class Commands {
   void draw(const Rect& area);
 
   /// Whether a dialog waits for an answer: until then nothing else takes clicks.
-  bool has_dialog() const { return dialog_.kind != Dialog::Kind::none; }
+  bool has_dialog() const { return !dialog_.question.empty(); }
   /// Whether a dialog or the palette has the keyboard.
   bool has_question() const { return has_dialog() || palette_.is_open(); }
   /// Whether the menu is open, or was closed by this drawing: a click beside it does nothing else.

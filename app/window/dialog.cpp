@@ -7,7 +7,6 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 namespace tyndall {
@@ -85,88 +84,8 @@ void end_box() {
   ImGui::PopStyleVar(2);
 }
 
-Dialog open_dialog() {
-  return {Dialog::Kind::other,
-          "Open",
-          "a scene, an image that Tyndall has made of one, or a picture to measure the error against",
-          {{"dialog.open", "Open", Request{"open"}}, {"dialog.cancel", "Cancel"}},
-          0,
-          "scene.json"};
-}
-
-Dialog name_dialog(const std::filesystem::path& suggestion) {
-  Dialog dialog{Dialog::Kind::other,
-                "Save the scene as",
-                "",
-                {{"dialog.save", "Save", Request{"save named"}}, {"dialog.cancel", "Cancel"}},
-                0,
-                "scene.json"};
-  std::strncpy(dialog.name, suggestion.string().c_str(), sizeof dialog.name - 1);
-  return dialog;
-}
-
-Dialog loss_dialog(const Origin& origin, bool changed) {
-  return {Dialog::Kind::other,
-          changed ? "Another program has changed " + origin.title + " since it was read."
-                  : "Saving " + origin.title + " loses its comments.",
-          changed ? "Saving replaces what it holds now." : "Scenes are written in normal form, which has none.",
-          {{"dialog.save", "Save anyway", Request{"save to", origin.file.string()}},
-           {"dialog.save_as", "Save as…", Request{"save as"}},
-           {"dialog.cancel", "Cancel"}},
-          1};
-}
-
-Dialog replace_dialog(const std::filesystem::path& file) {
-  return {Dialog::Kind::other,
-          file.string() + " exists.",
-          "",
-          {{"dialog.replace", "Replace it", Request{"save to", file.string()}}, {"dialog.cancel", "Cancel"}},
-          1};
-}
-
-Dialog reference_dialog(bool has_reference) {
-  Dialog dialog{Dialog::Kind::other,
-                "Measure the error against",
-                "an image of this scene and size, best an EXR of another seed; or one that is rendered now with "
-                "another seed",
-                {{"dialog.load", "Load", Request{"open the reference"}},
-                 {"dialog.render", "Render one", Request{"render a reference"}}},
-                0,
-                "reference.exr"};
-  if (has_reference) dialog.answers.push_back({"dialog.drop", "No reference", Request{"drop the reference"}});
-  dialog.answers.push_back({"dialog.cancel", "Cancel"});
-  return dialog;
-}
-
-Dialog picture_dialog(const std::filesystem::path& file) {
-  return {Dialog::Kind::other,
-          "What is " + file.filename().string() + "?",
-          "A sky lights the scene from all around; a reference is what the picture is compared with.",
-          {{"dialog.sky", "As sky", Request{"sky", file.string()}},
-           {"dialog.reference", "As reference", Request{"open the reference", file.string()}},
-           {"dialog.cancel", "Cancel"}}};
-}
-
-Dialog changed_file_dialog(const Origin& origin) {
-  return {Dialog::Kind::changed_file,
-          "Another program has changed " + origin.title + ".",
-          "You have edits of it that are not saved. If you take the file, Ctrl + Z brings them back.",
-          {{"dialog.keep", "Keep my edits", Request{"keep the edits"}},
-           {"dialog.take", "Take the file", Request{"take the file"}}}};
-}
-
-Dialog halves_dialog(const std::string& method_a, const std::string& method_b) {
-  return {Dialog::Kind::halves,
-          "Which half do you keep?",
-          "",
-          {{"dialog.a", "A   " + method_a, Request{"keep half", "A"}},
-           {"dialog.b", "B   " + method_b, Request{"keep half", "B"}},
-           {"dialog.cancel", "Cancel"}},
-          2};
-}
-
 std::optional<Request> draw_dialog(Ui& ui, const Rect& area, Dialog& dialog) {
-  if (dialog.kind == Dialog::Kind::none) return {};
+  if (dialog.question.empty()) return {};
   begin_dialog(ui, area);
   ImGui::TextUnformatted(dialog.question.c_str());
   note(ui, dialog.note, false);
@@ -177,7 +96,7 @@ std::optional<Request> draw_dialog(Ui& ui, const Rect& area, Dialog& dialog) {
   if (answer < 0 || (answer == 0 && types && dialog.name[0] == '\0')) return {};
   std::optional<Request> request = dialog.answers[static_cast<std::size_t>(answer)].request;
   if (request && types && answer == 0) request->argument = typed_file(dialog.name).string();
-  dialog.kind = Dialog::Kind::none;
+  dialog = {};
   return request;
 }
 
@@ -186,18 +105,16 @@ void Closing::begin(Dialog& dialog) {
   discards_ = false;
   const Document* unsaved = session_.unsaved();
   if (!unsaved) return finish();
-  step_ = Step::asking;
-  dialog = {Dialog::Kind::close,
-            "Save the edits of " + unsaved->origin->title + "?",
+  step_ = Step::none;
+  dialog = {"Save the edits of " + unsaved->origin->title + "?",
             "The file of the scene does not have them.",
             {{"dialog.save", "Save", Request{"save and close"}},
              {"dialog.discard", "Discard", Request{"discard and close"}},
-             {"dialog.cancel", "Cancel"}}};
+             cancel_answer}};
 }
 
 void Closing::draw(Ui& ui, const Rect& area, const Dialog& dialog) {
-  if (step_ == Step::asking && dialog.kind != Dialog::Kind::close) step_ = Step::none;
-  if (step_ == Step::saves && dialog.kind == Dialog::Kind::none) {
+  if (step_ == Step::saves && dialog.question.empty()) {
     step_ = Step::none;  // what was cancelled or failed leaves the window open
     if (!session_.unsaved()) finish();
   }
@@ -211,11 +128,11 @@ void Closing::discard() {
 
 /// Nothing is left but to write files; rendering would take the processors from that.
 void Closing::finish() {
-  step_ = !session_.saving.idle() ? Step::writes : Step::done;
+  step_ = Step::writes;
   since_ = clock_seconds();
   errors_before_ = session_.messages.errors();
   paused_before_ = std::exchange(session_.wanted.paused, true);
-  if (step_ == Step::done) leave();
+  if (session_.saving.idle()) leave();
 }
 
 void Closing::leave() {

@@ -1,9 +1,7 @@
 #pragma once
-#include "app/window/document/document.h"
 #include "app/window/panels/widgets.h"
 #include "app/window/session.h"
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,29 +16,19 @@ struct Answer {
   std::optional<Request> request{};  ///< nothing: the dialog goes, and that is all
 };
 
+/// Nothing happens.
+inline const Answer cancel_answer{"dialog.cancel", "Cancel"};
+
 /// A question that waits for an answer.
 struct Dialog {
-  enum class Kind { none, other, close, changed_file, halves } kind = Kind::none;
-  std::string question, note{};
+  std::string question{}, note{};  ///< no question: there is no dialog
   std::vector<Answer> answers{};
   int marked = 0;              ///< number of the answer that Return gives; at first the one that loses nothing
   const char* hint = nullptr;  ///< not null: the name of a file is typed, the first answer's text; grey without one
+  enum class Kind { other, changed_file, halves } kind = Kind::other;
   char name[512] = {};
   bool fresh = true;  ///< it was not drawn yet
 };
-
-/// All questions of the window.
-Dialog open_dialog();
-Dialog name_dialog(const std::filesystem::path& suggestion);
-/// Saving destroys something of the file: what another program has changed, else comments.
-Dialog loss_dialog(const Origin& origin, bool changed);
-Dialog replace_dialog(const std::filesystem::path& file);
-Dialog reference_dialog(bool has_reference);
-/// A picture was dropped that may be meant as either.
-Dialog picture_dialog(const std::filesystem::path& file);
-Dialog changed_file_dialog(const Origin& origin);
-/// method_a, method_b: how the halves of the split view are rendered.
-Dialog halves_dialog(const std::string& method_a, const std::string& method_b);
 
 /// Draws the question, which goes once it is answered. Returns what the answer asks for.
 std::optional<Request> draw_dialog(Ui& ui, const Rect& area, Dialog& dialog);
@@ -72,7 +60,6 @@ class Closing {
  private:
   enum class Step {
     none,
-    asking,  ///< whether to save
     saves,   ///< the user chose to; questions of saving may be open
     writes,  ///< files are still being written
     done

@@ -290,8 +290,7 @@ void MainWindow::use_mouse_and_keys(double now) {
   }
   const bool grounded = mouse.control || objects_.active() || session_.shows_picture();
   Camera camera = panels_.scene->camera;
-  const bool flies =
-      flight_.update(grounded ? std::set<int>{} : platform_->held(), platform_->shift_held(), now, camera);
+  const bool flies = flight_.update(grounded ? std::set<int>{} : platform_->held(), now, camera);
   if (flies) session_.pacing.wake_at(now + min_frame_interval);
   set_camera(camera);
 }

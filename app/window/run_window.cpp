@@ -53,8 +53,8 @@ bool MainWindow::step() {
   if (at_rest && wait >= 1) log_->rest();
   platform_->wait(wait);
   frame_rang_ = false;
-  if (platform_->take_close_wish()) commands_.ask_to_close();
   const InputEvents events = platform_->take_events();
+  if (events.closes) commands_.ask_to_close();
   if (input_since_ <= 0) input_since_ = events.first;
   const bool looked = picture_tools_.inspector.collect(session_.renderers), came = gallery_.collect(),
              varied = strip_.collect();

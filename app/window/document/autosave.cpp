@@ -5,7 +5,6 @@
 #include "core/base/error.h"
 
 #include <algorithm>
-#include <chrono>
 #include <exception>
 #include <system_error>
 #include <utility>
@@ -15,8 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr auto min_interval = std::chrono::milliseconds(250);
-constexpr auto retry_interval = std::chrono::seconds(5);
+constexpr BackgroundThread::Time min_interval(250), retry_interval(5000);
 
 /// How edits in the file come back: what the last line says of that.
 std::string way_back(const KeepingPlace& place, const fs::path& file, const Origin& of) {
@@ -77,39 +75,16 @@ Keeping Autosave::remove() {
   return {Keeping::Kind::nothing, slot_.file(), error.message()};
 }
 
-void Autosave::work(const StopToken& stop) {
-  std::unique_lock lock(mutex_);
-  for (;;) {
-    const auto has_news = [&] { return waits_; };
-    if (!keeping_.failed())
-      news_.wait(lock, stop, has_news);
-    else if (!news_.wait_for(lock, stop, retry_interval, has_news) && !stop.stop_requested())
-      waits_ = true;      // a disk may have room again
-    if (!waits_) return;  // asked to stop, and nothing is left to do
-    waits_ = false;
-    writes_ = true;
-    const auto edits = scene_;
-    const auto of = origin_;
-    lock.unlock();
-    Keeping now = write(edits.get(), of.get());
-    lock.lock();
-    const bool changed = now.kind != keeping_.kind || now.why != keeping_.why;
-    keeping_ = std::move(now);
-    holds_older_ = keeping_.kind == Keeping::Kind::lost && slot_.used();
-    lock.unlock();
-    if (changed && on_change_) on_change_();  // before flush() returns
-    lock.lock();
-    writes_ = false;
-    if (!waits_) hurries_ = false;
-    written_.notify_all();
-    news_.wait_for(lock, stop, min_interval, [&] { return hurries_; });
-  }
-}
-
 Autosave::Autosave(fs::path folder, std::function<void()> on_change)
     : folder_(std::move(folder)),
-      on_change_(std::move(on_change)),
-      thread_([this](const StopToken& stop) { work(stop); }) {}
+      writing_(
+          [this, on_change = std::move(on_change), told = Keeping()]() mutable {
+            flush();
+            const Keeping now = keeping(), before = std::exchange(told, now);
+            if (on_change && (now.kind != before.kind || now.why != before.why)) on_change();
+            return now.failed() ? retry_interval : BackgroundThread::never;
+          },
+          min_interval) {}
 
 fs::path Autosave::take_over(const std::string& what) {
   KeptSlot newest;
@@ -121,6 +96,7 @@ fs::path Autosave::take_over(const std::string& what) {
     if (newer) newest = std::move(free);
   };
   for (const KeepingPlace& place : keeping_places(folder_, what)) for_free_files(place, see);
+  const std::lock_guard file(file_mutex_);
   const std::lock_guard lock(mutex_);
   slot_ = std::move(newest);
   used_ = slot_.held();
@@ -128,6 +104,7 @@ fs::path Autosave::take_over(const std::string& what) {
 }
 
 void Autosave::leave() {
+  const std::lock_guard file(file_mutex_);
   const std::lock_guard lock(mutex_);
   slot_ = {};
   used_ = false;
@@ -146,19 +123,23 @@ std::vector<std::string> Autosave::others() const {
 void Autosave::keep(std::shared_ptr<const Scene> scene, std::shared_ptr<const Origin> origin) {
   const std::lock_guard lock(mutex_);
   if (!scene && !used_) return;
-  used_ = true;
+  used_ = waits_ = true;
   scene_ = std::move(scene);
   origin_ = std::move(origin);
-  waits_ = true;
-  news_.notify_one();
+  writing_.ask();
 }
 
 void Autosave::flush() {
+  const std::lock_guard file(file_mutex_);
   std::unique_lock lock(mutex_);
-  hurries_ = true;
-  if (keeping_.failed()) waits_ = true;
-  news_.notify_one();
-  written_.wait(lock, [this] { return !waits_ && !writes_; });
+  if (!std::exchange(waits_, false) && !keeping_.failed()) return;  // else a disk may have room again
+  const auto edits = scene_;
+  const auto of = origin_;
+  lock.unlock();
+  Keeping now = write(edits.get(), of.get());
+  lock.lock();
+  keeping_ = std::move(now);
+  holds_older_ = keeping_.kind == Keeping::Kind::lost && slot_.used();
 }
 
 Keeping Autosave::keeping() const {
@@ -167,6 +148,7 @@ Keeping Autosave::keeping() const {
 }
 
 std::string Autosave::last_words() const {
+  const std::lock_guard file(file_mutex_);
   const std::lock_guard lock(mutex_);
   const Keeping& now = keeping_;
   if (!scene_ && !now.failed()) return "";

@@ -1,6 +1,6 @@
 #pragma once
 #include "app/window/document/document.h"
-#include "core/base/stoppable.h"
+#include "app/window/document/job_queue.h"
 #include "core/scene/load.h"
 #include "core/system/open_file.h"
 
@@ -37,9 +37,6 @@ class KeptSlot {
   KeptSlot() = default;
   /// Takes the lock if nobody has it.
   KeptSlot(KeepingPlace place, int number);
-  KeptSlot(KeptSlot&& other) noexcept = default;
-  KeptSlot& operator=(KeptSlot&& other) noexcept;
-  ~KeptSlot() { release(); }
 
   bool held() const { return static_cast<bool>(lock_); }
   /// Why it is not held: an error number; 0: another window has it.
@@ -50,12 +47,9 @@ class KeptSlot {
   std::filesystem::path file() const { return place_.file(number_); }
 
  private:
-  void take();
-  void release();
-
   KeepingPlace place_;
   int number_ = 0;
-  OpenFile lock_;
+  std::unique_ptr<OpenFile, std::function<void(OpenFile*)>> lock_;  ///< null: none
   int error_ = 0;
 };
 
@@ -121,8 +115,7 @@ class Autosave {
   /// The edits that are to be kept from now on: the scene, and where it came from; null: none, the file is removed.
   /// Written at once, or a quarter of a second after the last time.
   void keep(std::shared_ptr<const Scene> scene, std::shared_ptr<const Origin> origin);
-  /// Waits until what was handed to keep() is in the file, or was tried to be written once more. From any thread but
-  /// the one that writes.
+  /// Waits until what was handed to keep() is in the file, or was tried to be written once more. From any thread.
   void flush();
   /// What has become of what was handed to keep(). From any thread.
   Keeping keeping() const;
@@ -131,26 +124,22 @@ class Autosave {
   std::string last_words() const;
 
  private:
-  void work(const StopToken& stop);
   Keeping write(const Scene* edits, const Origin* of);
   Keeping remove();
   void write_at(const KeepingPlace& place, const Scene& edits, const Origin& of);
 
   std::filesystem::path folder_;
-  std::function<void()> on_change_;
-  KeptSlot slot_;  ///< of the thread that writes, once something is to be kept
+  mutable Mutex file_mutex_;  ///< guards the file and its slot; taken before the other one
+  KeptSlot slot_;
 
   mutable Mutex mutex_;  ///< guards what follows
-  StoppableCondition news_, written_;
   std::shared_ptr<const Scene> scene_;
   std::shared_ptr<const Origin> origin_;
-  bool used_ = false;     ///< something was kept, or taken over
-  bool waits_ = false;    ///< the file does not hold the scene yet
-  bool writes_ = false;   ///< it is being written
-  bool hurries_ = false;  ///< somebody waits for it
+  bool used_ = false;   ///< something was kept, or taken over
+  bool waits_ = false;  ///< the file does not hold the scene yet
   Keeping keeping_;
   bool holds_older_ = false;  ///< where edits are lost: the file holds some that were made before
-  StoppableThread thread_;    // declared last, because it uses the others
+  BackgroundThread writing_;  // declared last, because it uses the others
 };
 
 }  // namespace tyndall

@@ -4,19 +4,35 @@
 
 namespace tyndall {
 
-JobQueue::JobQueue(std::function<void()> on_result)
-    : on_result_(std::move(on_result)), thread_([this](const StopToken& stop) { work(stop); }) {}
+BackgroundThread::BackgroundThread(std::function<Time()> work, Time pause)
+    : thread_([this, work = std::move(work), pause](const StopToken& stop) {
+        std::unique_lock lock(mutex_);
+        Time rest = never;
+        while (wake_.wait_for(lock, stop, rest, [this] { return due_; }) || !stop.stop_requested()) {
+          due_ = false;
+          lock.unlock();
+          rest = work();
+          lock.lock();
+          wake_.wait_for(lock, stop, pause, [] { return false; });
+        }
+      }) {}
 
-JobQueue::~JobQueue() {
-  thread_.request_stop();
-  thread_.join();
+void BackgroundThread::ask() {
+  const std::lock_guard lock(mutex_);
+  due_ = true;
+  wake_.notify_one();
 }
+
+JobQueue::JobQueue(std::function<void()> on_result)
+    : on_result_(std::move(on_result)), background_([this] { return work(); }) {}
 
 void JobQueue::run(Job job) {
   ++open_;
-  const std::lock_guard lock(mutex_);
-  jobs_.push_back(std::move(job));
-  wake_.notify_one();
+  {
+    const std::lock_guard lock(mutex_);
+    jobs_.push_back(std::move(job));
+  }
+  background_.ask();
 }
 
 bool JobQueue::collect() {
@@ -31,13 +47,12 @@ bool JobQueue::collect() {
   return !results.empty();
 }
 
-void JobQueue::work(const StopToken& stop) {
+BackgroundThread::Time JobQueue::work() {
   for (;;) {
     Job job;
     {
-      std::unique_lock lock(mutex_);
-      wake_.wait(lock, stop, [&] { return !jobs_.empty(); });
-      if (jobs_.empty()) return;  // asked to stop, and nothing is left to do
+      const std::lock_guard lock(mutex_);
+      if (jobs_.empty()) return BackgroundThread::never;
       job = std::move(jobs_.front());
       jobs_.pop_front();
     }

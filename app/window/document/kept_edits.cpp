@@ -87,37 +87,23 @@ std::vector<KeepingPlace> keeping_places(const fs::path& state, const std::strin
 }
 
 KeptSlot::KeptSlot(KeepingPlace place, int number) : place_(std::move(place)), number_(number) {
-  for (int attempt = 0; attempt < 100 && !lock_ && error_ == 0; ++attempt) {
-    take();
-    if (!lock_ || lock_.has_name()) return;
-    lock_.close();  // another window has removed it in between: the next attempt makes a new one
-  }
-}
-
-void KeptSlot::take() {
   const fs::path file = place_.lock(number_);
-  lock_ = OpenFile(file, OpenFor::changing, 0600);
-  const int why = lock_.error();
-  if (why == EROFS || why == EACCES) lock_ = OpenFile(file, OpenFor::reading);
-  if (!lock_) error_ = why;
-  const int problem = lock_ ? lock_.try_lock() : 0;
-  if (problem == 0) return;
-  error_ = problem == EWOULDBLOCK ? 0 : problem;
-  lock_.close();
-}
-
-KeptSlot& KeptSlot::operator=(KeptSlot&& other) noexcept {
-  release();
-  place_ = std::move(other.place_);
-  number_ = other.number_;
-  lock_ = std::move(other.lock_);
-  error_ = other.error_;
-  return *this;
-}
-
-void KeptSlot::release() {
-  if (lock_ && place_.beside_the_scene) remove_file(place_.lock(number_));
-  lock_.close();
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    OpenFile lock(file, OpenFor::changing, 0600);
+    error_ = lock.error();
+    if (error_ == EROFS || error_ == EACCES) lock = OpenFile(file, OpenFor::reading);
+    if (!lock) return;
+    const int problem = lock.try_lock();
+    error_ = problem == EWOULDBLOCK ? 0 : problem;
+    if (problem != 0) return;
+    if (!lock.has_name()) continue;  // another window has removed it in between: the next attempt makes a new one
+    const auto free = [file, removes = place_.beside_the_scene](OpenFile* held) {
+      if (removes) remove_file(file);
+      delete held;
+    };
+    lock_ = {new OpenFile(std::move(lock)), free};
+    return;
+  }
 }
 
 bool KeptSlot::used() const {

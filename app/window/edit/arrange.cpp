@@ -9,8 +9,6 @@
 namespace tyndall {
 namespace {
 
-constexpr int min_exponent = -300, max_exponent = 300;  // where powers of ten are numbers
-
 template <class Shape>
 auto& place_of(Shape& shape) {
   if constexpr (requires { shape.center; })
@@ -30,29 +28,15 @@ void set_place(Shape& shape, Vec3d place) {
   place_of(shape) = place;
 }
 
-Vec3d middle(const Sphere<>& sphere) {
-  return sphere.center_end ? 0.5 * (sphere.center + *sphere.center_end) : sphere.center;
-}
-Vec3d middle(const Quad<>& quad) { return quad.corner + 0.5 * (quad.u + quad.v); }
-Vec3d middle(const Box<>& box) { return 0.5 * (box.min + box.max); }
-Vec3d middle(const Triangle<>& triangle) { return triangle.corner + (1.0 / 3) * (triangle.u + triangle.v); }
-Vec3d middle(const Disk<>& disk) { return disk.center; }
-
 /// The middle of an object in the frame that own_transform() places.
 Vec3d own_middle(const Object& object) {
-  Vec3d result;
-  if (std::holds_alternative<Group>(object.kind)) {
-    Object free = object;
-    free.transform.clear();
-    Scene alone;
-    alone.objects.push_back(std::move(free));
-    const auto sphere = bounding_sphere(alone, {0});
-    return sphere ? sphere->center : result;
-  }
-  with_shape(object, [&](const auto& shape) { result = middle(shape); });
-  const Volume* volume = std::get_if<Volume>(&object.kind);
-  const bool inner = volume && &own_transform(object) != &volume->boundary_transform;
-  return inner ? place(placement_of(volume->boundary_transform), result) : result;
+  if (const Triangle<>* triangle = shape_of<Triangle<>>(object))
+    return triangle->corner + (1.0 / 3) * (triangle->u + triangle->v);
+  Scene alone;
+  alone.objects.push_back(object);
+  own_transform(alone.objects[0]).clear();
+  const auto sphere = bounding_sphere(alone, {0});
+  return sphere ? sphere->center : Vec3d{};
 }
 
 double within_180_degrees(double degrees) {
@@ -67,25 +51,23 @@ Grips grips_of(const Sphere<>& sphere, const Placement& at, Vec3d across) {
   return {{place(at, sphere.center) + radius * across, across, radius, "radius"}};
 }
 
+/// At the end of an edge, or of a half axis, that begins at `foot`.
+SizeGrip grip_of(const Placement& at, Vec3d foot, Vec3d edge, const char* name) {
+  return {place(at, foot + edge), normalize(rotate(at, edge)), length(edge), name};
+}
+
 Grips grips_of(const Quad<>& quad, const Placement& at, Vec3d /*across*/) {
-  return {{place(at, quad.corner + quad.u + 0.5 * quad.v), normalize(rotate(at, quad.u)), length(quad.u), "u"},
-          {place(at, quad.corner + quad.v + 0.5 * quad.u), normalize(rotate(at, quad.v)), length(quad.v), "v"}};
+  return {grip_of(at, quad.corner + 0.5 * quad.v, quad.u, "u"), grip_of(at, quad.corner + 0.5 * quad.u, quad.v, "v")};
 }
 
 Grips grips_of(const Triangle<>& triangle, const Placement& at, Vec3d /*across*/) {
-  const auto grip = [&](Vec3d edge, const char* name) {
-    return SizeGrip{place(at, triangle.corner + edge), normalize(rotate(at, edge)), length(edge), name};
-  };
-  return {grip(triangle.u, "u"), grip(triangle.v, "v")};
+  return {grip_of(at, triangle.corner, triangle.u, "u"), grip_of(at, triangle.corner, triangle.v, "v")};
 }
 
 /// The half axes, and the hole of a ring.
 Grips grips_of(const Disk<>& disk, const Placement& at, Vec3d /*across*/) {
-  const auto grip = [&](Vec3d arm, const char* name) {
-    return SizeGrip{place(at, disk.center + arm), normalize(rotate(at, arm)), length(arm), name};
-  };
-  Grips grips{grip(disk.u, "u"), grip(disk.v, "v")};
-  if (disk.inner > 0) grips.push_back(grip(-disk.inner * disk.u, "inner"));
+  Grips grips{grip_of(at, disk.center, disk.u, "u"), grip_of(at, disk.center, disk.v, "v")};
+  if (disk.inner > 0) grips.push_back(grip_of(at, disk.center, -disk.inner * disk.u, "inner"));
   return grips;
 }
 
@@ -107,21 +89,15 @@ void set_value(Sphere<>& sphere, std::size_t /*grip*/, double value, double mini
   sphere.radius = std::copysign(std::max(value, minimum), sphere.radius);
 }
 
-void set_edge(Vec3d& edge, double value, double minimum) {
-  edge = without_noise((std::max(value, minimum) / length(edge)) * edge);
-}
-void set_value(Quad<>& quad, std::size_t grip, double value, double minimum) {
-  set_edge(grip == 0 ? quad.u : quad.v, value, minimum);
-}
-void set_value(Triangle<>& triangle, std::size_t grip, double value, double minimum) {
-  set_edge(grip == 0 ? triangle.u : triangle.v, value, minimum);
-}
-void set_value(Disk<>& disk, std::size_t grip, double value, double minimum) {
+/// Of a quad, a triangle or a disk: an edge or half axis, or the hole of a ring.
+template <class Flat>
+void set_value(Flat& flat, std::size_t grip, double value, double minimum) {
   constexpr double narrowest = 0.99;  // of the rim's radius, to which the hole can be pulled
-  if (grip < 2)
-    set_edge(grip == 0 ? disk.u : disk.v, value, minimum);
-  else
-    disk.inner = without_noise(std::min(std::max(value, minimum) / length(disk.u), narrowest));
+  Vec3d& edge = grip == 1 ? flat.v : flat.u;
+  const double part = std::max(value, minimum) / length(edge);
+  if (grip < 2) edge = without_noise(part * edge);
+  if constexpr (requires { flat.inner; })
+    if (grip == 2) flat.inner = without_noise(std::min(part, narrowest));
 }
 
 void set_value(Box<>& box, std::size_t grip, double value, double minimum) {
@@ -134,41 +110,45 @@ void set_value(Box<>& box, std::size_t grip, double value, double minimum) {
     from = to + value >= minimum ? -value + 0.0 : without_noise(to - minimum);
 }
 
-}  // namespace
-
-double DragRounding::size() const { return multiple * std::pow(10.0, exponent); }
-
-DragRounding decimal_below(double size) {
-  const double exponent = std::floor(std::log10(size) + 1e-9);
-  return {1, static_cast<int>(std::fmin(std::fmax(exponent, min_exponent), max_exponent))};
+/// Whether the object is a smaller sphere around the centre of a sphere of glass.
+bool is_inner_sphere(const Scene& scene, const Object& object, const Object& leader) {
+  const Sphere<>*inner = shape_of<Sphere<>>(object), *outer = shape_of<Sphere<>>(leader);
+  const Material* material = material_of(scene, leader);
+  const bool glass = material && std::holds_alternative<Dielectric<>>(material->kind);
+  return glass && inner && outer && inner->center == outer->center && inner->center_end == outer->center_end &&
+         std::abs(inner->radius) < std::abs(outer->radius);
 }
 
-DragRounding nice_below(double size) {
-  DragRounding drag_rounding = decimal_below(size);
-  for (const int multiple : {2, 5})
-    if (multiple * std::pow(10.0, drag_rounding.exponent) <= size * (1 + 1e-9)) drag_rounding.multiple = multiple;
-  return drag_rounding;
+/// leader: a solid.
+bool belongs_to(const Scene& scene, const Object& object, const Object& leader) {
+  const Volume* volume = std::get_if<Volume>(&object.kind);
+  return (volume && fills(*volume, std::get<Solid3d>(leader.kind))) || is_inner_sphere(scene, object, leader);
 }
 
-double rounded(double value, DragRounding drag_rounding) {
-  // Grains below 1 divide by a power of ten, which is exact: the result prints short.
-  if (drag_rounding.exponent < 0) {
-    const double per_unit = std::pow(10.0, -drag_rounding.exponent);
-    return std::round(value * per_unit / drag_rounding.multiple) * drag_rounding.multiple / per_unit + 0.0;
+/// Gives the companion the changes between two states of its sphere. linked: as it was before.
+void follow(const Object& leader_before, const Object& leader, const Object& linked, Object& result) {
+  const Solid3d &solid_before = std::get<Solid3d>(leader_before.kind), &solid = std::get<Solid3d>(leader.kind);
+  Volume* volume = std::get_if<Volume>(&result.kind);
+  if (volume && fills(std::get<Volume>(linked.kind), solid_before)) {
+    std::visit(
+        [&]<class Shape>(const Shape& shape) {
+          if constexpr (std::is_constructible_v<decltype(volume->boundary), Shape>) volume->boundary = shape;
+        },
+        solid.shape);
+  } else if (const Sphere<>* outer = std::get_if<Sphere<>>(&solid.shape)) {
+    const Sphere<>&before = std::get<Sphere<>>(solid_before.shape), &inner = *shape_of<Sphere<>>(linked);
+    Sphere<>& sphere = *shape_of<Sphere<>>(result);
+    sphere.center = outer->center;
+    if (!volume) sphere.center_end = outer->center_end;
+    const double ratio = std::abs(outer->radius / before.radius);
+    sphere.radius =
+        ratio == 1 ? inner.radius
+                   : rounded(inner.radius * ratio, {1, decimal_below(std::abs(inner.radius * ratio)).exponent - 5});
   }
-  return std::round(value / drag_rounding.size()) * drag_rounding.size() + 0.0;
+  if (own_transform(linked) == own_transform(leader_before)) own_transform(result) = own_transform(leader);
 }
 
-Vec3d rounded(Vec3d v, DragRounding drag_rounding) {
-  return {rounded(v.x, drag_rounding), rounded(v.y, drag_rounding), rounded(v.z, drag_rounding)};
-}
-
-double without_noise(double value) {
-  if (value == 0 || !std::isfinite(value)) return value;
-  return rounded(value, {1, decimal_below(std::abs(value)).exponent - 11});
-}
-
-Vec3d without_noise(Vec3d v) { return {without_noise(v.x), without_noise(v.y), without_noise(v.z)}; }
+}  // namespace
 
 Transform& own_transform(Object& object) {
   Volume* volume = std::get_if<Volume>(&object.kind);
@@ -238,6 +218,39 @@ Grips size_grips(const Scene& scene, const ObjectPath& path, Vec3d across) {
 
 void set_size(Scene& scene, const ObjectPath& path, std::size_t grip, double value, double minimum) {
   with_shape(*find_object(scene, path), [&](auto& shape) { set_value(shape, grip, value, minimum); });
+}
+
+bool fills(const Volume& volume, const Solid3d& solid) {
+  return std::visit(
+      [&]<class Shape>(const Shape& boundary) {
+        const Shape* shape = std::get_if<Shape>(&solid.shape);
+        return shape && *shape == boundary;
+      },
+      volume.boundary);
+}
+
+std::vector<ObjectPath> linked_objects(const Scene& scene, const ObjectPath& path) {
+  const Object* leader = find_object(scene, path);
+  std::vector<ObjectPath> found;
+  if (!leader || !std::holds_alternative<Solid3d>(leader->kind)) return found;
+  const Placement placed = placement_at(scene, path);
+  for (const ObjectPath& other : leaves(scene))
+    if (other != path && belongs_to(scene, *find_object(scene, other), *leader) && placement_at(scene, other) == placed)
+      found.push_back(other);
+  return found;
+}
+
+void move_linked_objects(const Scene& start, const Scene& last, Scene& next) {
+  if (last.objects == next.objects) return;
+  const std::vector<ObjectPath> paths = leaves(start);
+  if (paths != leaves(next) || paths != leaves(last)) return;
+  for (const ObjectPath& path : paths) {
+    const Object &was = *find_object(start, path), leader = *find_object(next, path);
+    const Solid3d *before = std::get_if<Solid3d>(&was.kind), *now = std::get_if<Solid3d>(&leader.kind);
+    if (!before || !now || leader == *find_object(last, path) || before->shape.index() != now->shape.index()) continue;
+    for (const ObjectPath& other : linked_objects(start, path))
+      follow(was, leader, *find_object(start, other), *find_object(next, other));
+  }
 }
 
 }  // namespace tyndall

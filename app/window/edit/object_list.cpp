@@ -63,10 +63,6 @@ int material_like(Scene& scene, const Material& wanted) {
   return static_cast<int>(scene.materials.size()) - 1;
 }
 
-int matt(Scene& scene) { return material_like(scene, {"matt", Vec3d{0.7, 0.7, 0.7}, Lambertian<>{}}); }
-int glass(Scene& scene) { return material_like(scene, {"glass", Material().colour, Dielectric<>{1.5}}); }
-int light_material(Scene& scene) { return material_like(scene, {"lamp", Vec3d{8, 8, 8}, Light<>{}}); }
-
 ObjectPath append(Scene& scene, const char* name, std::variant<Solid3d, Volume, Group> kind) {
   scene.objects.push_back({free_name(scene, name), std::move(kind), {}});
   return {static_cast<int>(scene.objects.size()) - 1};
@@ -94,12 +90,13 @@ struct Standing {
 };
 
 ObjectPaths add_matt(Scene& scene, const char* name, const decltype(Solid3d::shape)& shape) {
-  return {append(scene, name, Solid3d{shape, matt(scene)})};
+  const int matt = material_like(scene, {"matt", Vec3d{0.7, 0.7, 0.7}, Lambertian<>{}});
+  return {append(scene, name, Solid3d{shape, matt})};
 }
 
 ObjectPaths add_hollow_sphere(Scene& scene, const Spot& spot) {
   const Standing standing{spot};
-  const int material = glass(scene);
+  const int material = material_like(scene, {"glass", Material().colour, Dielectric<>{1.5}});
   const ObjectPath outer = append(scene, "shell", Solid3d{standing.sphere(standing.half), material});
   return {outer, append(scene, "shell inside", Solid3d{standing.sphere(-0.9 * standing.half), material})};
 }
@@ -121,7 +118,8 @@ constexpr Addition all_additions[] = {
      }},
     {"a lamp", "light, lamp, add light, area light",
      [](Scene& scene, const Spot& spot) -> ObjectPaths {
-       return {append(scene, "lamp", Solid3d{Standing{spot}.flat(2 * spot.size), light_material(scene)})};
+       const int material = material_like(scene, {"lamp", Vec3d{8, 8, 8}, Light<>{}});
+       return {append(scene, "lamp", Solid3d{Standing{spot}.flat(2 * spot.size), material})};
      }},
     {"fog", "volume, fog, smoke, mist, add a volume", [](Scene& scene, const Spot& spot) -> ObjectPaths {
        const Medium<> medium{nice_below(1 / spot.size).size(), 0};

@@ -27,8 +27,8 @@ DragRounding drag_rounding_of(const PictureFrame& frame, const HandleDrag& drag)
 /// Where the line of sight through a place of the window meets the plane through the origin that faces the camera.
 Vec3d in_plane(const PictureFrame& frame, Vec3d origin, WindowPoint at) {
   const ViewRay view_ray = frame.view_ray(at);
-  const Vec3d forward = axes_of(frame.projection.camera()).forward;
-  const double minimum = 1e-3 * target_distance(frame.projection.camera());
+  const Vec3d forward = axes_of(frame.projection.camera).forward;
+  const double minimum = 1e-3 * target_distance(frame.projection.camera);
   const double depth = std::max(dot(origin - view_ray.origin, forward), minimum);
   return view_ray.origin + (depth / dot(view_ray.direction, forward)) * view_ray.direction;
 }

@@ -134,7 +134,7 @@ ViewRay PictureFrame::view_ray(WindowPoint at) const {
 }
 
 double PictureFrame::unit_at(Vec3d p) const {
-  const double minimum = 1e-3 * target_distance(projection.camera());
+  const double minimum = 1e-3 * target_distance(projection.camera);
   return projection.height_at(std::max(projection.depth_of(p), minimum)) /
          std::max(1.0, static_cast<double>(image.height()));
 }

@@ -38,10 +38,10 @@ void draw_label_and_key(Ui& ui, ImVec2 at, float width, const std::string& label
 bool menu_line(Ui& ui, const MenuItem& item, bool marked, float width) {
   const bool can = item.why_not.empty();
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const bool pressed = ImGui::Selectable(("##" + item.name).c_str(), marked, 0, {width, ImGui::GetTextLineHeight()});
-  log_item(ui, item.name, can ? "item" : "missing");
+  const bool pressed = ImGui::Selectable(("##" + item.command).c_str(), marked, 0, {width, ImGui::GetTextLineHeight()});
+  log_item(ui, "menu." + item.command, can ? "item" : "missing");
   const ImU32 colour = shade(can ? palette::text : palette::dim, can ? 1.0f : 0.6f);
-  draw_label_and_key(ui, at, width, item.label, colour, item.key);
+  draw_label_and_key(ui, at, width, item.command, colour, item.key);
   tooltip(ui, item.why_not);
   return pressed && can;
 }
@@ -120,7 +120,7 @@ std::optional<Request> Menu::draw(Ui& ui, const Rect& area) {
   const float s = ui.scale, pad = 10 * s, line = ImGui::GetTextLineHeight() + 6 * s;
   float width = 120 * s;
   for (const MenuItem& item : items_)
-    width = std::max(width, ImGui::CalcTextSize((item.label + "    " + item.key).c_str()).x);
+    width = std::max(width, ImGui::CalcTextSize((item.command + "    " + item.key).c_str()).x);
   const auto separators =
       static_cast<float>(std::count_if(items_.begin(), items_.end(), [](auto& i) { return i.separated; }));
   const float height = line * (static_cast<float>(items_.size()) + 1) + 6 * s * separators + 2 * pad;
@@ -139,7 +139,7 @@ std::optional<Request> Menu::draw(Ui& ui, const Rect& area) {
   for (std::size_t k = 0; k < items_.size(); ++k) {
     if (items_[k].separated) ImGui::Separator();
     const int number = static_cast<int>(k);
-    if (menu_line(ui, items_[k], number == mark_, width) || number == by_key) chosen = items_[k].request;
+    if (menu_line(ui, items_[k], number == mark_, width) || number == by_key) chosen = Request{items_[k].command};
   }
   const bool pressed = ImGui::IsMouseClicked(0) || ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2);
   const bool beside = pressed && !fresh_ && is_mouse_beside();

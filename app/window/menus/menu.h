@@ -10,12 +10,10 @@ namespace tyndall {
 
 /// A line of a menu.
 struct MenuItem {
-  std::string name;  ///< in the log: "menu.duplicate"
-  std::string label;
+  std::string command;     ///< that it asks for; its label, too
   std::string key;         ///< shown on the right: "Ctrl + D"
   std::string why_not;     ///< not "": it cannot be chosen, and why
   bool separated = false;  ///< a line above it
-  Request request{};
 };
 
 /// A list of items at a place of the window, from which one is chosen by a click, or by the arrow keys and Enter.

@@ -22,8 +22,9 @@ struct KeyPress {
 
 /// What the user did since this was last taken.
 struct InputEvents {
-  bool any = false;  ///< something happened that may change what is drawn
-  double first = 0;  ///< clock second at which the oldest event of keys or mouse came; 0: there was none
+  bool any = false;     ///< something happened that may change what is drawn
+  bool closes = false;  ///< the user wants the window closed, which stays, and shows if it was minimised
+  double first = 0;     ///< clock second at which the oldest event of keys or mouse came; 0: there was none
   std::vector<KeyPress> keys;
   std::vector<std::filesystem::path> dropped;  ///< files
 };

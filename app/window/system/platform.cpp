@@ -1,6 +1,7 @@
 #include "app/window/system/platform.h"
 
 #include "app/window/system/imgui_compat.h"
+#include "app/window/system/layout.h"
 #include "app/window/system/platform_events.h"
 #include "app/window/system/style.h"
 #include "core/base/error.h"
@@ -29,13 +30,6 @@ std::string last_glfw_error() {
   return text ? text : "no reason given";
 }
 
-/// Room on the screen for a window, without its frame.
-std::pair<int, int> screen_room() {
-  int x = 0, y = 0, width = 0, height = 0;
-  if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
-  return width > 0 && height > 0 ? std::pair{width, height} : std::pair{1280, 800};
-}
-
 /// Whether the processors draw: then nothing is gained by waiting for the screen's next refresh.
 bool draws_in_software() {
   const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
@@ -49,8 +43,12 @@ GLFWwindow* open_window(int image_width, int image_height) {
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   float sx = 1, sy = 1;
-  if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) glfwGetMonitorContentScale(monitor, &sx, &sy);
-  const auto [room_width, room_height] = screen_room();
+  int x = 0, y = 0, room_width = 0, room_height = 0;  // on the screen, for a window without its frame
+  if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) {
+    glfwGetMonitorContentScale(monitor, &sx, &sy);
+    glfwGetMonitorWorkarea(monitor, &x, &y, &room_width, &room_height);
+  }
+  if (room_width <= 0 || room_height <= 0) room_width = 1280, room_height = 800;
   // Room for the column and the status line, though the image may be smaller.
   constexpr float min_width = 640, min_height = 720;
   const auto room = [&](int image, float minimum, float more) {
@@ -64,163 +62,125 @@ GLFWwindow* open_window(int image_width, int image_height) {
 /// By GLFW and Dear ImGui's backends, which are used here only.
 class GlfwPlatform : public Platform {
  public:
-  GlfwPlatform(int image_width, int image_height);
-  ~GlfwPlatform() override;
+  GlfwPlatform(int image_width, int image_height) {
+    if (!glfwInit()) throw IoError("the display cannot be used: " + last_glfw_error());
+    state_.window = open_window(image_width, image_height);
+    if (!state_.window) {
+      const std::string why = last_glfw_error();
+      glfwTerminate();
+      throw IoError("no window with OpenGL 3.3: " + why);
+    }
+    glfwMakeContextCurrent(state_.window);
+    if (!gladLoadGL(glfwGetProcAddress)) {
+      glfwTerminate();
+      throw IoError("no window: OpenGL's functions cannot be loaded");
+    }
+    glfwSwapInterval(draws_in_software() ? 0 : 1);
+    glfwSetWindowUserPointer(state_.window, &state_);
+    glfwSetWindowSizeLimits(state_.window, 160, 120, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+#if IMGUI_VERSION_NUM >= 18700
+    ImGui::GetIO().ConfigInputTrickleEventQueue = false;  // InputQueue says what belongs to a frame
+#endif
+    ImGui_ImplGlfw_InitForOpenGL(state_.window, false);
+    ImGui_ImplOpenGL3_Init(glsl_version);
+    install_callbacks(state_.window);
+  }
+  ~GlfwPlatform() override {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+    glfwTerminate();
+  }
 
-  void wait(double seconds) override;
-  InputEvents take_events() override;
-  bool take_close_wish() override;
+  void wait(double seconds) override {
+    if (seconds <= 0)
+      glfwPollEvents();
+    else if (seconds > 1e6)
+      glfwWaitEvents();
+    else
+      glfwWaitEventsTimeout(seconds);
+  }
+  InputEvents take_events() override {
+    deliver_input(state_);
+    if (glfwWindowShouldClose(state_.window)) {
+      state_.events.closes = true;
+      glfwSetWindowShouldClose(state_.window, GLFW_FALSE);
+      if (glfwGetWindowAttrib(state_.window, GLFW_ICONIFIED)) glfwRestoreWindow(state_.window);
+    }
+    return std::exchange(state_.events, {});
+  }
   void hide() override { glfwHideWindow(state_.window); }
-  WindowSize size() const override;
+  WindowSize size() const override {
+    WindowSize size;
+    GLFWwindow* window = state_.window;
+    glfwGetWindowSize(window, &size.width, &size.height);
+    if (!glfwGetWindowAttrib(window, GLFW_ICONIFIED))
+      glfwGetFramebufferSize(window, &size.framebuffer_width, &size.framebuffer_height);
+    float density = 1, unused = 1;
+    glfwGetWindowContentScale(window, &density, &unused);
+    size.scale = size.pixels = std::clamp(density, 0.5f, 8.0f);
+    // Where the system counts the window in points, a framebuffer of more pixels makes up for the density already.
+    if (size.framebuffer_width > 0)
+      size.scale =
+          size.pixels * static_cast<float>(std::max(1, size.width)) / static_cast<float>(size.framebuffer_width);
+    return size;
+  }
   const std::set<int>& held() const override { return state_.held; }
-  bool shift_held() const override;
-  void set_title(const std::string& title) override;
-  void toggle_full_screen() override;
-  void begin_frame() override;
-  void clear() override;
-  void end_frame() override;
-  void drop_frame() override;
+  void set_title(const std::string& title) override {
+    if (title == state_.title) return;
+    glfwSetWindowTitle(state_.window, title.c_str());
+    state_.title = title;
+  }
+  void toggle_full_screen() override {
+    GLFWwindow* window = state_.window;
+    int(&place)[4] = state_.windowed;
+    if (glfwGetWindowMonitor(window))
+      return glfwSetWindowMonitor(window, nullptr, place[0], place[1], place[2], place[3], GLFW_DONT_CARE);
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+    if (!mode) return;
+    glfwGetWindowPos(window, &place[0], &place[1]);
+    glfwGetWindowSize(window, &place[2], &place[3]);
+    glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+  }
+  void begin_frame() override {
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    set_delivered_input(state_);
+    compat::new_frame();
+  }
+  void clear() override {
+    glDisable(GL_SCISSOR_TEST);
+    const WindowSize now = size();
+    glViewport(0, 0, now.framebuffer_width, now.framebuffer_height);
+    const Tone ink = palette::ink;
+    glClearColor(ink.x, ink.y, ink.z, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+  }
+  void end_frame() override {
+    ImGui::Render();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    glfwSwapBuffers(state_.window);
+    end_input_frame(state_);
+  }
+  void drop_frame() override {
+    ImGui::EndFrame();
+    end_input_frame(state_);
+  }
   void skip_frame() override { end_input_frame(state_); }
-  void renew_fonts() override;
+  void renew_fonts() override {
+#if IMGUI_VERSION_NUM < 19200
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+#endif
+  }
   void wake() override { glfwPostEmptyEvent(); }
 
  private:
   WindowState state_;
 };
-
-GlfwPlatform::GlfwPlatform(int image_width, int image_height) {
-  if (!glfwInit()) throw IoError("the display cannot be used: " + last_glfw_error());
-  state_.window = open_window(image_width, image_height);
-  if (!state_.window) {
-    const std::string why = last_glfw_error();
-    glfwTerminate();
-    throw IoError("no window with OpenGL 3.3: " + why);
-  }
-  glfwMakeContextCurrent(state_.window);
-  if (!gladLoadGL(glfwGetProcAddress)) {
-    glfwTerminate();
-    throw IoError("no window: OpenGL's functions cannot be loaded");
-  }
-  glfwSwapInterval(draws_in_software() ? 0 : 1);
-  glfwSetWindowUserPointer(state_.window, &state_);
-  glfwSetWindowSizeLimits(state_.window, 160, 120, GLFW_DONT_CARE, GLFW_DONT_CARE);
-  ImGui::CreateContext();
-  ImGui::GetIO().IniFilename = nullptr;
-#if IMGUI_VERSION_NUM >= 18700
-  ImGui::GetIO().ConfigInputTrickleEventQueue = false;  // InputQueue says what belongs to a frame
-#endif
-  ImGui_ImplGlfw_InitForOpenGL(state_.window, false);
-  ImGui_ImplOpenGL3_Init(glsl_version);
-  install_callbacks(state_.window);
-}
-
-GlfwPlatform::~GlfwPlatform() {
-  ImGui_ImplOpenGL3_Shutdown();
-  ImGui_ImplGlfw_Shutdown();
-  ImGui::DestroyContext();
-  glfwTerminate();
-}
-
-void GlfwPlatform::wait(double seconds) {
-  if (seconds <= 0)
-    glfwPollEvents();
-  else if (seconds > 1e6)
-    glfwWaitEvents();
-  else
-    glfwWaitEventsTimeout(seconds);
-}
-
-InputEvents GlfwPlatform::take_events() {
-  deliver_input(state_);
-  return std::exchange(state_.events, {});
-}
-
-bool GlfwPlatform::take_close_wish() {
-  if (!glfwWindowShouldClose(state_.window)) return false;
-  glfwSetWindowShouldClose(state_.window, GLFW_FALSE);
-  if (glfwGetWindowAttrib(state_.window, GLFW_ICONIFIED)) glfwRestoreWindow(state_.window);
-  return true;
-}
-
-WindowSize GlfwPlatform::size() const {
-  WindowSize size;
-  GLFWwindow* window = state_.window;
-  glfwGetWindowSize(window, &size.width, &size.height);
-  if (!glfwGetWindowAttrib(window, GLFW_ICONIFIED))
-    glfwGetFramebufferSize(window, &size.framebuffer_width, &size.framebuffer_height);
-  float density = 1, unused = 1;
-  glfwGetWindowContentScale(window, &density, &unused);
-  size.scale = size.pixels = std::clamp(density, 0.5f, 8.0f);
-  // Where the system counts the window in points, a framebuffer of more pixels makes up for the density already.
-  if (size.framebuffer_width > 0)
-    size.scale = size.pixels * static_cast<float>(std::max(1, size.width)) / static_cast<float>(size.framebuffer_width);
-  return size;
-}
-
-bool GlfwPlatform::shift_held() const {
-  return state_.held.contains(GLFW_KEY_LEFT_SHIFT) || state_.held.contains(GLFW_KEY_RIGHT_SHIFT);
-}
-
-void GlfwPlatform::set_title(const std::string& title) {
-  if (title == state_.title) return;
-  glfwSetWindowTitle(state_.window, title.c_str());
-  state_.title = title;
-}
-
-void GlfwPlatform::toggle_full_screen() {
-  GLFWwindow* window = state_.window;
-  if (glfwGetWindowMonitor(window)) {
-    const Rect& r = state_.windowed;
-    const auto whole = [](float v) { return static_cast<int>(v); };
-    glfwSetWindowMonitor(window, nullptr, whole(r.x0), whole(r.y0), whole(r.width()), whole(r.height()),
-                         GLFW_DONT_CARE);
-    return;
-  }
-  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
-  const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
-  if (!mode) return;
-  int x = 0, y = 0;
-  glfwGetWindowPos(window, &x, &y);
-  const auto real = [](int v) { return static_cast<float>(v); };
-  const WindowSize now = size();
-  state_.windowed = {real(x), real(y), real(x + now.width), real(y + now.height)};
-  glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
-}
-
-void GlfwPlatform::begin_frame() {
-  ImGui_ImplOpenGL3_NewFrame();
-  ImGui_ImplGlfw_NewFrame();
-  set_delivered_input(state_);
-  compat::new_frame();
-}
-
-void GlfwPlatform::clear() {
-  glDisable(GL_SCISSOR_TEST);
-  const WindowSize now = size();
-  glViewport(0, 0, now.framebuffer_width, now.framebuffer_height);
-  const Tone ink = palette::ink;
-  glClearColor(ink.x, ink.y, ink.z, 1);
-  glClear(GL_COLOR_BUFFER_BIT);
-}
-
-void GlfwPlatform::end_frame() {
-  ImGui::Render();
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  glfwSwapBuffers(state_.window);
-  end_input_frame(state_);
-}
-
-void GlfwPlatform::drop_frame() {
-  ImGui::EndFrame();
-  end_input_frame(state_);
-}
-
-void GlfwPlatform::renew_fonts() {
-#if IMGUI_VERSION_NUM < 19200
-  ImGui_ImplOpenGL3_DestroyFontsTexture();
-  ImGui_ImplOpenGL3_CreateFontsTexture();
-#endif
-}
 
 }  // namespace
 

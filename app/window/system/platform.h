@@ -26,15 +26,12 @@ class Platform {
   /// Waits for events up to `seconds`; infinite: until one comes. 0: only looks.
   virtual void wait(double seconds) = 0;
   virtual InputEvents take_events() = 0;
-  /// Whether the user has asked the window system to close the window; the window stays, and shows if it was minimised.
-  virtual bool take_close_wish() = 0;
   /// Takes the window off the screen: what is left to be done needs none.
   virtual void hide() = 0;
 
   virtual WindowSize size() const = 0;
   /// Keys that are held down, were pressed without Ctrl or Alt, and no control wants.
   virtual const std::set<int>& held() const = 0;
-  virtual bool shift_held() const = 0;
 
   virtual void set_title(const std::string& title) = 0;
   virtual void toggle_full_screen() = 0;

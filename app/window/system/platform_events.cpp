@@ -72,12 +72,6 @@ void deliver_button(WindowState& state, const RawInput& input) {
   state.clicked[input.code] = state.clicked[input.code] || input.action == GLFW_PRESS;
 }
 
-/// Dear ImGui takes all keys as released where the focus is lost.
-void deliver_focus(WindowState& state, bool focused) {
-  if (!focused) state.held.clear(), state.modifier_keys.clear(), state.modifiers = 0;
-  ImGui_ImplGlfw_WindowFocusCallback(state.window, focused);
-}
-
 void deliver(WindowState& state, const RawInput& input) {
   switch (input.kind) {
     case RawInput::Kind::key:
@@ -95,7 +89,9 @@ void deliver(WindowState& state, const RawInput& input) {
     case RawInput::Kind::scroll:
       return ImGui_ImplGlfw_ScrollCallback(state.window, input.x, input.y);
     case RawInput::Kind::focus:
-      return deliver_focus(state, input.action != 0);
+      // Dear ImGui takes all keys as released where the focus is lost.
+      if (input.action == 0) state.held.clear(), state.modifier_keys.clear(), state.modifiers = 0;
+      return ImGui_ImplGlfw_WindowFocusCallback(state.window, input.action);
   }
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 #include "app/window/system/input_events.h"
-#include "app/window/system/layout.h"
 
 #include <GLFW/glfw3.h>
 
@@ -17,7 +16,7 @@ struct WindowState {
   InputQueue queue;
   InputEvents events;
   std::set<int> held;
-  Rect windowed;                  ///< place before full screen
+  int windowed[4] = {};           ///< place before full screen: x, y, width, height
   double told_x = 0, told_y = 0;  ///< where the newest callback has put the pointer
 
   // Modifiers and mouse as they were delivered.

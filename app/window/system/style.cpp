@@ -21,14 +21,11 @@ ImVec4 faded(Tone tone, float alpha) {
 namespace fs = std::filesystem;
 
 /// Latin, Greek, Cyrillic and the signs that the panels use.
-const ImWchar* glyphs() {
-  static constexpr ImWchar ranges[] = {0x0020, 0x017f, 0x0370, 0x045f, 0x2010, 0x2026, 0x2070, 0x209c, 0x2190, 0x2193,
-                                       0x2212, 0x2212, 0x221e, 0x221e, 0x2248, 0x2248, 0x2264, 0x2265, 0};
-  return ranges;
-}
+constexpr ImWchar usual_ranges[] = {0x0020, 0x017f, 0x0370, 0x045f, 0x2010, 0x2026, 0x2070, 0x209c, 0x2190, 0x2193,
+                                    0x2212, 0x2212, 0x221e, 0x221e, 0x2248, 0x2248, 0x2264, 0x2265, 0};
 
 bool is_always_loaded(ImWchar c) {
-  for (const ImWchar* range = glyphs(); *range != 0; range += 2)
+  for (const ImWchar* range = usual_ranges; *range != 0; range += 2)
     if (c >= range[0] && c <= range[1]) return true;
   return c < 0x20;
 }
@@ -98,7 +95,7 @@ ImFont* add_font(const std::string& file, float size, const Further& further) {
   usual.OversampleH = 2;
   usual.OversampleV = 1;
   built_in.SizePixels = size;
-  ImFont* font = file.empty() ? nullptr : atlas->AddFontFromFileTTF(file.c_str(), size, &usual, glyphs());
+  ImFont* font = file.empty() ? nullptr : atlas->AddFontFromFileTTF(file.c_str(), size, &usual, usual_ranges);
   if (!font) font = atlas->AddFontDefault(&built_in);
   for (const std::string& more : further.files) {
     ImFontConfig config;
@@ -113,10 +110,7 @@ ImFont* add_font(const std::string& file, float size, const Further& further) {
 
 ThemeTone::operator Tone() const { return current_theme == Theme::dark ? dark : light; }
 
-ImU32 shade(Tone colour, float alpha) {
-  colour.w *= alpha;
-  return ImGui::ColorConvertFloat4ToU32(colour);
-}
+ImU32 shade(Tone colour, float alpha) { return ImGui::ColorConvertFloat4ToU32(faded(colour, alpha)); }
 
 void set_style(float scale, Theme theme) {
   current_theme = theme;

@@ -10,26 +10,17 @@ namespace tyndall {
 namespace {
 
 constexpr double degree = pi / 180;
+constexpr int left_shift = 340, right_shift = 344;  // GLFW's numbers
 
-double rounded(double value, double step) { return std::round(value / step) * step + 0.0; }
+constexpr int min_exponent = -300, max_exponent = 300;  // where powers of ten are numbers
 
-/// Rounds to six digits of `size`, so that saved files stay readable. Steps below 1 divide by a power of ten, which is
-/// exact: the result prints short.
-double tidy_number(double value, double size) {
-  const double digits = std::floor(std::log10(size)) - 5;
-  if (digits >= 0) return rounded(value, std::pow(10.0, digits));
-  const double per_unit = std::pow(10.0, -digits);
-  return std::round(value * per_unit) / per_unit + 0.0;
-}
-
-Vec3d tidy_vector(Vec3d v, double size) {
-  return {tidy_number(v.x, size), tidy_number(v.y, size), tidy_number(v.z, size)};
-}
+/// To six digits of `size` > 0, so that saved files stay readable.
+DragRounding six_digits_of(double size) { return {1, decimal_below(size).exponent - 5}; }
 
 Camera tidy(Camera camera) {
-  const double size = target_distance(camera);
-  camera.look_from = tidy_vector(camera.look_from, size);
-  camera.look_at = tidy_vector(camera.look_at, size);
+  const DragRounding drag_rounding = six_digits_of(target_distance(camera));
+  camera.look_from = rounded(camera.look_from, drag_rounding);
+  camera.look_at = rounded(camera.look_at, drag_rounding);
   return camera;
 }
 
@@ -42,6 +33,40 @@ Vec3d rotated(Vec3d v, Vec3d axis, double angle) {
 double half_tangent(const Camera& camera) { return std::tan(0.5 * degree * camera.vfov); }
 
 }  // namespace
+
+double DragRounding::size() const { return multiple * std::pow(10.0, exponent); }
+
+DragRounding decimal_below(double size) {
+  const double exponent = std::floor(std::log10(size) + 1e-9);
+  return {1, static_cast<int>(std::fmin(std::fmax(exponent, min_exponent), max_exponent))};
+}
+
+DragRounding nice_below(double size) {
+  DragRounding drag_rounding = decimal_below(size);
+  for (const int multiple : {2, 5})
+    if (multiple * std::pow(10.0, drag_rounding.exponent) <= size * (1 + 1e-9)) drag_rounding.multiple = multiple;
+  return drag_rounding;
+}
+
+double rounded(double value, DragRounding drag_rounding) {
+  // Grains below 1 divide by a power of ten, which is exact: the result prints short.
+  if (drag_rounding.exponent < 0) {
+    const double per_unit = std::pow(10.0, -drag_rounding.exponent);
+    return std::round(value * per_unit / drag_rounding.multiple) * drag_rounding.multiple / per_unit + 0.0;
+  }
+  return std::round(value / drag_rounding.size()) * drag_rounding.size() + 0.0;
+}
+
+Vec3d rounded(Vec3d v, DragRounding drag_rounding) {
+  return {rounded(v.x, drag_rounding), rounded(v.y, drag_rounding), rounded(v.z, drag_rounding)};
+}
+
+double without_noise(double value) {
+  if (value == 0 || !std::isfinite(value)) return value;
+  return rounded(value, {1, decimal_below(std::abs(value)).exponent - 11});
+}
+
+Vec3d without_noise(Vec3d v) { return {without_noise(v.x), without_noise(v.y), without_noise(v.z)}; }
 
 CameraAxes axes_of(const Camera& camera) {
   const Vec3d forward = normalize(camera.look_at - camera.look_from);
@@ -101,10 +126,10 @@ Camera fly(const Camera& camera, double right, double up, double forward) {
 
 Camera focus(const Camera& camera, double depth, bool keep_blur) {
   Camera result = camera;
-  result.focus_distance = tidy_number(depth, depth);
+  result.focus_distance = rounded(depth, six_digits_of(depth));
   if (!keep_blur && camera.defocus_angle > 0) {
     const double lens = focus_distance(camera) * std::tan(0.5 * degree * camera.defocus_angle);
-    result.defocus_angle = tidy_number(2 / degree * std::atan(lens / depth), camera.defocus_angle);
+    result.defocus_angle = rounded(2 / degree * std::atan(lens / depth), six_digits_of(camera.defocus_angle));
   }
   return result;
 }
@@ -125,22 +150,15 @@ Vec3d in_camera_frame(const Camera& camera, Vec3d point) {
   return {dot(v, axes.right), dot(v, axes.up), dot(v, axes.forward)};
 }
 
-std::optional<FlyKey> fly_key(int key) {
-  constexpr std::string_view keys = "DAEQWS";  // each axis in both directions
-  const std::size_t at = key < 128 ? keys.find(static_cast<char>(key)) : keys.npos;
-  if (at == keys.npos) return {};
-  return FlyKey{static_cast<int>(at) / 2, at % 2 == 0 ? 1 : -1};
-}
-
 bool holds_fly_key(const std::set<int>& held) {
-  return std::any_of(held.begin(), held.end(), [](int key) { return fly_key(key).has_value(); });
+  constexpr std::string_view keys = "WASDQE";
+  return std::any_of(keys.begin(), keys.end(), [&](int key) { return held.contains(key); });
 }
 
-bool Flight::update(const std::set<int>& held, bool fast, double now, Camera& camera) {
-  Vec3d heading;
-  double* const axes[3] = {&heading.x, &heading.y, &heading.z};
-  for (const int key : held)
-    if (const auto direction = fly_key(key)) *axes[direction->axis] += direction->sign;
+bool Flight::update(const std::set<int>& held, double now, Camera& camera) {
+  const auto part = [&](int ahead, int back) -> double { return held.contains(ahead) - held.contains(back); };
+  const Vec3d heading{part('D', 'A'), part('E', 'Q'), part('W', 'S')};
+  const bool fast = held.contains(left_shift) || held.contains(right_shift);
   const bool flies = !(heading == Vec3d{}), tapped = !flies && last_ >= 0 && !moved_;
   const double seconds = tapped ? tap : flies && last_ >= 0 ? std::min(now - last_, 0.1) : 0;
   if (seconds > 0) {

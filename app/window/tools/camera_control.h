@@ -1,13 +1,29 @@
 #pragma once
 #include "core/scene/scene.h"
 
-#include <optional>
 #include <set>
 
 /// Mouse and keys to cameras, and flying through the scene with W, A, S, D, Q and E. The functions are pure: a camera
 /// goes in, a camera comes out. All keep the camera valid (a direction, not parallel to vup) and round it to six digits
-/// of its distance, so that saved files stay readable.
+/// of its distance, so that saved files stay readable. And how all numbers are rounded that the mouse changes.
 namespace tyndall {
+
+/// A step that numbers are rounded to: multiple * 10^exponent, multiple being 1, 2 or 5.
+struct DragRounding {
+  int multiple = 1, exponent = 0;
+  double size() const;
+};
+/// The largest power of ten that is at most `size` > 0.
+DragRounding decimal_below(double size);
+/// The largest of 1, 2 or 5 times a power of ten that is at most `size` > 0.
+DragRounding nice_below(double size);
+
+/// The multiple of the grain that is nearest; it prints short.
+double rounded(double value, DragRounding drag_rounding);
+Vec3d rounded(Vec3d v, DragRounding drag_rounding);
+/// Twelve significant digits: 0.1 + 0.2 becomes 0.3.
+double without_noise(double value);
+Vec3d without_noise(Vec3d v);
 
 /// The camera's own axes, unit: to the right, up in the picture, and forward.
 struct CameraAxes {
@@ -40,20 +56,13 @@ Camera frame_sphere(const Camera& camera, Vec3d center, double radius, double as
 /// A point in the camera's frame: right, up, and depth along the axis.
 Vec3d in_camera_frame(const Camera& camera, Vec3d point);
 
-/// A direction of flight: axis 0 right, 1 up, 2 forward; sign 1 or -1.
-struct FlyKey {
-  int axis = 0, sign = 0;
-};
-/// What a key does while it is held; nothing for all but W, A, S, D, Q, E. key: GLFW's number.
-std::optional<FlyKey> fly_key(int key);
-
 /// Flies the camera while keys are held.
 class Flight {
  public:
-  /// To be called in each drawing; changes the camera. held: keys, by GLFW's numbers; fast: four times as fast. Keys
-  /// that are let go in the very next drawing have flown for `tap` seconds. Returns whether it flies: then the window
-  /// is to be drawn again soon.
-  bool update(const std::set<int>& held, bool fast, double now, Camera& camera);
+  /// To be called in each drawing; changes the camera. held: keys, by GLFW's numbers; with Shift it is four times as
+  /// fast. Keys that are let go in the very next drawing have flown for `tap` seconds. Returns whether it flies: then
+  /// the window is to be drawn again soon.
+  bool update(const std::set<int>& held, double now, Camera& camera);
 
  private:
   static constexpr double tap = 1 / 60.0;

@@ -17,25 +17,19 @@ constexpr int circle_points = 96;
 constexpr std::size_t max_lines = 4000;
 
 /// Turns lines in space into lines of the image.
-class Projector {
- public:
-  explicit Projector(const Scene& scene) : projection_(scene) {}
+struct Projector {
+  Projection projection;
+  std::vector<ImageLine> lines{};
 
   void add(Vec3d from, Vec3d to) {
-    const auto line = projection_.line(from, to);
+    const auto line = projection.line(from, to);
     if (line && lines.size() < max_lines) lines.push_back(*line);
   }
-  Vec3d eye() const { return projection_.camera().look_from; }
-
-  std::vector<ImageLine> lines;
-
- private:
-  Projection projection_;
 };
 
 /// The circle where lines from the eye touch the sphere.
 void add_shape(Projector& out, const Sphere<>& sphere, const Placement& at) {
-  const Vec3d center = place(at, sphere.center), to_eye = out.eye() - center;
+  const Vec3d center = place(at, sphere.center), to_eye = out.projection.camera.look_from - center;
   const double distance2 = dot(to_eye, to_eye), radius2 = sphere.radius * sphere.radius;
   if (distance2 <= radius2) return;
   const Vec3d middle = center + (radius2 / distance2) * to_eye;
@@ -75,7 +69,7 @@ void add_shape(Projector& out, const Box<>& box, const Placement& at) {
   const Vec3d centre = place(at, {0, 0, 0});
   const Vec3d rows[3] = {rotate(at, {1, 0, 0}), rotate(at, {0, 1, 0}), rotate(at, {0, 0, 1})};
   const auto in_front = [&](int axis, bool plus) {
-    const double eye = dot(out.eye() - centre, rows[axis]);
+    const double eye = dot(out.projection.camera.look_from - centre, rows[axis]);
     return plus ? eye > high[axis] : eye < low[axis];
   };
   for (int axis = 0; axis < 3; ++axis)
@@ -163,7 +157,7 @@ double begins_at(const Object& object, const ViewRay& view_ray) {
 }  // namespace
 
 Projection::Projection(const Scene& scene)
-    : camera_(scene.camera),
+    : camera(scene.camera),
       height_(2 * std::tan(scene.camera.vfov * (pi / 360))),
       width_(height_ * scene.width / scene.height),
       near_(1e-3 * target_distance(scene.camera)) {}
@@ -171,13 +165,13 @@ Projection::Projection(const Scene& scene)
 ImagePoint Projection::seen(Vec3d p) const { return {0.5 + p.x / (p.z * width_), 0.5 - p.y / (p.z * height_)}; }
 
 std::optional<ImagePoint> Projection::point(Vec3d p) const {
-  const Vec3d in_frame = in_camera_frame(camera_, p);
+  const Vec3d in_frame = in_camera_frame(camera, p);
   if (in_frame.z < near_) return {};
   return seen(in_frame);
 }
 
 std::optional<ImageLine> Projection::line(Vec3d from, Vec3d to) const {
-  Vec3d a = in_camera_frame(camera_, from), b = in_camera_frame(camera_, to);
+  Vec3d a = in_camera_frame(camera, from), b = in_camera_frame(camera, to);
   if (a.z < near_ && b.z < near_) return {};
   const auto cut = [&](Vec3d behind, Vec3d ahead) {
     return behind + ((near_ - behind.z) / (ahead.z - behind.z)) * (ahead - behind);
@@ -188,15 +182,15 @@ std::optional<ImageLine> Projection::line(Vec3d from, Vec3d to) const {
 }
 
 ViewRay Projection::view_ray(ImagePoint at) const {
-  const CameraAxes axes = axes_of(camera_);
+  const CameraAxes axes = axes_of(camera);
   const double x = (at.x - 0.5) * width_, y = (0.5 - at.y) * height_;
-  return {camera_.look_from, normalize(x * axes.right + y * axes.up + axes.forward)};
+  return {camera.look_from, normalize(x * axes.right + y * axes.up + axes.forward)};
 }
 
-double Projection::depth_of(Vec3d p) const { return in_camera_frame(camera_, p).z; }
+double Projection::depth_of(Vec3d p) const { return in_camera_frame(camera, p).z; }
 
 std::vector<ImageLine> outline(const Scene& scene, const ObjectPath& path) {
-  Projector out(scene);
+  Projector out{Projection(scene)};
   add_object(out, scene, path);
   return std::move(out.lines);
 }

@@ -27,7 +27,7 @@ class Projection {
  public:
   explicit Projection(const Scene& scene);
 
-  const Camera& camera() const { return camera_; }
+  const Camera camera;
   /// Where a point is seen; nothing for points that are behind the eye or too close before it.
   std::optional<ImagePoint> point(Vec3d p) const;
   /// The part of a line that is before the eye; nothing where there is none.
@@ -42,7 +42,6 @@ class Projection {
  private:
   ImagePoint seen(Vec3d in_frame) const;
 
-  Camera camera_;
   double height_, width_, near_;
 };
 

@@ -44,50 +44,111 @@ class Driver {
   /// Draws what input leads to; after an edit until its picture is finished and nothing will change any more.
   void settle();
   /// Puts the mouse on a control; across and down: from 0 to 1.
-  void point(const std::string& name, double across = 0.5, double down = 0.5);
+  void point(const std::string& name, double across = 0.5, double down = 0.5) {
+    REQUIRE_MESSAGE(has(name), name);
+    const Widget& at = widgets_.at(name);
+    compat::mouse_pos(ImGui::GetIO(), at.x0 + static_cast<float>(across) * (at.x1 - at.x0),
+                      at.y0 + static_cast<float>(down) * (at.y1 - at.y0));
+    step();
+  }
   /// Moves the mouse by window units.
-  void move(float right, float down);
+  void move(float right, float down) {
+    const ImVec2 now = ImGui::GetIO().MousePos;
+    compat::mouse_pos(ImGui::GetIO(), now.x + right, now.y + down);
+    step();
+  }
   void press(int button = 0) { hold(button, true); }
   void release(int button = 0) { hold(button, false); }
   void click(const std::string& name, double across = 0.5, double down = 0.5, int button = 0) {
     push(name, across, down, button), settle();
   }
   /// The same without waiting for a picture.
-  void push(const std::string& name, double across = 0.5, double down = 0.5, int button = 0);
+  void push(const std::string& name, double across = 0.5, double down = 0.5, int button = 0) {
+    point(name, across, down);
+    press(button);
+    release(button);
+    for (int k = 0; k < 3; ++k) step();
+  }
   /// Presses at one place of the picture and releases at another one.
-  void drag(double from_across, double from_down, double to_across, double to_down, int button = 0);
-  void wheel(float notches);
+  void drag(double from_across, double from_down, double to_across, double to_down, int button = 0) {
+    point("picture", from_across, from_down);
+    press(button);
+    for (const double way : {0.5, 1.0})
+      point("picture", from_across + way * (to_across - from_across), from_down + way * (to_down - from_down));
+    release(button);
+    settle();
+  }
+  void wheel(float notches) {
+    compat::mouse_wheel(ImGui::GetIO(), notches);
+    settle();
+  }
   /// What is held while mouse and wheel are used, until it is told otherwise.
   void hold(Modifiers modifiers) { platform_->modifiers = modifiers; }
   /// A key that flies the camera.
-  void fly(int code);
+  void fly(int code) {
+    platform_->held_keys = {code};
+    for (int k = 0; k < 3; ++k) step();
+    platform_->held_keys.clear();
+    settle();
+  }
   /// A key: GLFW's number, letters by their capital.
   void key(int code, Modifiers modifiers = {}) { send_key(code, modifiers), settle(); }
-  void send_key(int code, Modifiers modifiers = {});
-  void escape();
+  void send_key(int code, Modifiers modifiers = {}) {
+    platform_->events.keys.push_back({code, modifiers, ImGui::GetIO().WantTextInput});
+    step();
+  }
+  void escape() {
+    strike(ImGuiKey_Escape);  // for a control that has the keyboard
+    key(256);
+  }
   void undo() { key('Z', {.control = true}); }
   /// Characters, as shortcuts get them.
-  void press_characters(const std::string& text);
+  void press_characters(const std::string& text) {
+    for (const char c : text) platform_->events.keys.push_back({0, {}, false, c});
+    settle();
+  }
   /// Into the control that has the keyboard.
-  void write(const std::string& text);
+  void write(const std::string& text) {
+    for (const char c : text) ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(c));
+    step();
+  }
   /// The same in place of all that it holds, and Enter.
-  void type(const std::string& text);
+  void type(const std::string& text) {
+    hold({.control = true});
+    strike(ImGuiKey_A);
+    hold({});
+    write(text);
+    strike(ImGuiKey_Enter);
+    settle();
+  }
   /// A value, into the box of its row.
-  void set(const std::string& row, const std::string& text);
+  void set(const std::string& row, const std::string& text) {
+    click(row + ".value");
+    type(text);
+  }
   /// What Ctrl + K finds first is carried out.
-  void find(const std::string& words);
+  void find(const std::string& words) {
+    key('K', {.control = true});
+    type(words);
+  }
   /// Lets the window go on until that is so.
   void wait_until(const std::function<bool()>& is_so);
 
   /// Whether a control is on the screen, and its value as the log has it.
   bool has(const std::string& control) const { return widgets_.contains(control); }
-  std::string value(const std::string& control) const;
+  std::string value(const std::string& control) const {
+    const auto found = widgets_.find(control);
+    return found == widgets_.end() ? "" : found->second.value;
+  }
   double number(const std::string& control) const { return std::stod(value(control)); }
   /// Its width on the screen.
   float width(const std::string& control) const { return widgets_.at(control).x1 - left(control); }
   float left(const std::string& control) const { return widgets_.at(control).x0; }
   /// The newest line of a kind, without its first word; "": there is none.
-  std::string last(const std::string& kind) const;
+  std::string last(const std::string& kind) const {
+    const auto found = last_.find(kind);
+    return found == last_.end() ? "" : found->second;
+  }
   /// How many edits were sent to the renderer.
   int submits() const { return submits_; }
   NullPlatform& platform() { return *platform_; }
@@ -98,10 +159,28 @@ class Driver {
     float x0 = 0, y0 = 0, x1 = 0, y1 = 0;
     std::string value;
   };
-  void pass();
-  void step();
-  void hold(int button, bool down);
-  void strike(ImGuiKey key);
+  void pass() {
+    skipped_seconds = skipped_seconds + echo_interval;  // drawings keep a distance
+    window_->step();
+    read_log();
+  }
+  /// A drawing, as after input.
+  void step() {
+    const int before = drawn_;
+    platform_->events.any = true;
+    for (int k = 0; k < 100 && drawn_ == before; ++k) pass();
+  }
+  void hold(int button, bool down) {
+    compat::mouse_button(ImGui::GetIO(), button, down);
+    step();
+  }
+  /// A key of Dear ImGui's own.
+  void strike(ImGuiKey key) {
+    for (const bool down : {true, false}) {
+      compat::key(ImGui::GetIO(), key, down);
+      step();
+    }
+  }
   void read_log();
 
   std::filesystem::path folder_, before_;
@@ -143,19 +222,6 @@ inline Driver::~Driver() {
   std::filesystem::current_path(before_);
 }
 
-inline void Driver::pass() {
-  skipped_seconds = skipped_seconds + echo_interval;  // drawings keep a distance
-  window_->step();
-  read_log();
-}
-
-/// A drawing, as after input.
-inline void Driver::step() {
-  const int before = drawn_;
-  platform_->events.any = true;
-  for (int k = 0; k < 100 && drawn_ == before; ++k) pass();
-}
-
 inline void Driver::settle() {
   for (int k = 0; k < 4; ++k) step();  // what was typed or clicked reaches its control a few frames later
   const float before = std::exchange(ImGui::GetIO().DeltaTime, 1.0f);  // tooltips that wait for a moment come now
@@ -193,113 +259,9 @@ inline void Driver::read_log() {
   }
 }
 
-inline void Driver::point(const std::string& name, double across, double down) {
-  REQUIRE_MESSAGE(has(name), name);
-  const Widget& at = widgets_.at(name);
-  compat::mouse_pos(ImGui::GetIO(), at.x0 + static_cast<float>(across) * (at.x1 - at.x0),
-                    at.y0 + static_cast<float>(down) * (at.y1 - at.y0));
-  step();
-}
-
-inline void Driver::move(float right, float down) {
-  const ImVec2 now = ImGui::GetIO().MousePos;
-  compat::mouse_pos(ImGui::GetIO(), now.x + right, now.y + down);
-  step();
-}
-
-inline void Driver::hold(int button, bool down) {
-  compat::mouse_button(ImGui::GetIO(), button, down);
-  step();
-}
-
-inline void Driver::push(const std::string& name, double across, double down, int button) {
-  point(name, across, down);
-  press(button);
-  release(button);
-  for (int k = 0; k < 3; ++k) step();
-}
-
-inline void Driver::send_key(int code, Modifiers modifiers) {
-  platform_->events.keys.push_back({code, modifiers, ImGui::GetIO().WantTextInput});
-  step();
-}
-
-inline void Driver::drag(double from_across, double from_down, double to_across, double to_down, int button) {
-  point("picture", from_across, from_down);
-  press(button);
-  for (const double way : {0.5, 1.0})
-    point("picture", from_across + way * (to_across - from_across), from_down + way * (to_down - from_down));
-  release(button);
-  settle();
-}
-
-inline void Driver::wheel(float notches) {
-  compat::mouse_wheel(ImGui::GetIO(), notches);
-  settle();
-}
-
-inline void Driver::fly(int code) {
-  platform_->held_keys = {code};
-  for (int k = 0; k < 3; ++k) step();
-  platform_->held_keys.clear();
-  settle();
-}
-
-inline void Driver::escape() {
-  strike(ImGuiKey_Escape);  // for a control that has the keyboard
-  key(256);
-}
-
-inline void Driver::press_characters(const std::string& text) {
-  for (const char c : text) platform_->events.keys.push_back({0, {}, false, c});
-  settle();
-}
-
-inline void Driver::write(const std::string& text) {
-  for (const char c : text) ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(c));
-  step();
-}
-
-inline void Driver::type(const std::string& text) {
-  hold({.control = true});
-  strike(ImGuiKey_A);
-  hold({});
-  write(text);
-  strike(ImGuiKey_Enter);
-  settle();
-}
-
-/// A key of Dear ImGui's own.
-inline void Driver::strike(ImGuiKey key) {
-  for (const bool down : {true, false}) {
-    compat::key(ImGui::GetIO(), key, down);
-    step();
-  }
-}
-
-inline void Driver::set(const std::string& row, const std::string& text) {
-  click(row + ".value");
-  type(text);
-}
-
 inline void Driver::wait_until(const std::function<bool()>& is_so) {
   for (int k = 0; k < 2000 && !is_so(); ++k) pass();
   REQUIRE(is_so());
-}
-
-inline void Driver::find(const std::string& words) {
-  key('K', {.control = true});
-  type(words);
-}
-
-inline std::string Driver::value(const std::string& control) const {
-  const auto found = widgets_.find(control);
-  return found == widgets_.end() ? "" : found->second.value;
-}
-
-inline std::string Driver::last(const std::string& kind) const {
-  const auto found = last_.find(kind);
-  return found == last_.end() ? "" : found->second;
 }
 
 }  // namespace tyndall::test

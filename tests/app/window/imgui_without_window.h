@@ -26,13 +26,6 @@ inline void mouse_wheel(ImGuiIO& io, float notches) {
   io.MouseWheel += notches;
 #endif
 }
-inline void control_key(ImGuiIO& io, bool down) {
-#if IMGUI_VERSION_NUM >= 18700
-  io.AddKeyEvent(ImGuiMod_Ctrl, down);
-#else
-  io.KeyCtrl = down;
-#endif
-}
 inline void key(ImGuiIO& io, ImGuiKey name, bool down) {
 #if IMGUI_VERSION_NUM >= 18700
   io.AddKeyEvent(name, down);

@@ -1,6 +1,6 @@
 #pragma once
 #include "app/window/system/platform.h"
-#include "tests/app/window/imgui_without_window.h"
+#include "tests/app/window/panels/null_imgui.h"
 
 #include <glad/gl.h>
 
@@ -32,16 +32,20 @@ inline GLADapiproc null_function(const char* name) {
 /// A window system that shows nothing. Input comes from a Driver, one event before each frame.
 class NullPlatform : public Platform {
  public:
-  NullPlatform();
-  ~NullPlatform() override { ImGui::DestroyContext(); }
+  NullPlatform() {
+    gladLoadGL(null_function);
+    compat::mouse_pos(ImGui::GetIO(), -FLT_MAX, -FLT_MAX);  // nowhere
+  }
 
-  void wait(double seconds) override;
+  void wait(double seconds) override {
+    std::unique_lock lock(mutex_);
+    news_.wait_for(lock, std::chrono::duration<double>(std::min(seconds, 0.02)), [&] { return woken_ || events.any; });
+    woken_ = false;
+  }
   InputEvents take_events() override { return std::exchange(events, {}); }
-  bool take_close_wish() override { return false; }
   void hide() override {}
   WindowSize size() const override { return {1280, height, 1280, height, 1, 1}; }
   const std::set<int>& held() const override { return held_keys; }
-  bool shift_held() const override { return modifiers.shift; }
   void set_title(const std::string& text) override { title = text; }
   void toggle_full_screen() override {}
   void begin_frame() override {
@@ -50,11 +54,18 @@ class NullPlatform : public Platform {
     compat::new_frame();
   }
   void clear() override {}
-  void end_frame() override;
+  void end_frame() override {
+    ImGui::Render();
+    compat::textures_without_window();
+  }
   void drop_frame() override { ImGui::EndFrame(); }
   void skip_frame() override {}
-  void renew_fonts() override;
-  void wake() override;
+  void renew_fonts() override { compat::init_without_window(ImGui::GetIO()); }
+  void wake() override {
+    const std::lock_guard lock(mutex_);
+    woken_ = true;
+    news_.notify_one();
+  }
 
   InputEvents events;  ///< for the next frame
   int height = 2640;   ///< of the window: so high that all of the column is in it
@@ -63,38 +74,10 @@ class NullPlatform : public Platform {
   std::set<int> held_keys;
 
  private:
+  NullImGui imgui_{1280, static_cast<float>(height)};
   std::mutex mutex_;
   std::condition_variable news_;
   bool woken_ = false;
 };
-
-inline NullPlatform::NullPlatform() {
-  gladLoadGL(null_function);
-  ImGui::CreateContext();
-  ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = io.LogFilename = nullptr;
-  io.DisplaySize = {1280, static_cast<float>(height)};
-  io.DeltaTime = 1.0f / 60;
-  compat::init_without_window(io);
-}
-
-inline void NullPlatform::wait(double seconds) {
-  std::unique_lock lock(mutex_);
-  news_.wait_for(lock, std::chrono::duration<double>(std::min(seconds, 0.02)), [&] { return woken_ || events.any; });
-  woken_ = false;
-}
-
-inline void NullPlatform::wake() {
-  const std::lock_guard lock(mutex_);
-  woken_ = true;
-  news_.notify_one();
-}
-
-inline void NullPlatform::end_frame() {
-  ImGui::Render();
-  compat::textures_without_window();
-}
-
-inline void NullPlatform::renew_fonts() { compat::init_without_window(ImGui::GetIO()); }
 
 }  // namespace tyndall::test

@@ -12,7 +12,6 @@
 #include <doctest/doctest.h>
 
 #include <string>
-#include <utility>
 
 /// Many edits of all kinds, as a person's hands make them, while a renderer works.
 namespace tyndall::test {

@@ -28,6 +28,7 @@ std::shared_ptr<const Document> edited_document(const fs::path& folder, const st
 
 void keep(Autosave& kept, const Document& document) {
   kept.keep(std::make_shared<const Scene>(document.scene), document.origin);
+  kept.flush();
 }
 
 Kept read_all(const fs::path& file) {
@@ -62,8 +63,6 @@ TEST_CASE("what one window has kept is taken over by the next, but not while the
     Autosave first(state), second(state);
     keep(first, *one);
     keep(second, *two);
-    first.flush();
-    second.flush();
     CHECK(first.keeping().kind == Keeping::Kind::kept);
     CHECK(first.last_words() == "the edits of one.json are kept and come back at the next start with this scene");
     Autosave third(state);
@@ -90,7 +89,8 @@ TEST_CASE("a broken file of kept edits is left as it is") {
     const fs::path file = kept.take_over("showroom");
     CHECK_THROWS(read(file));
     kept.leave();
-    keep(kept, *edited_document(folder, "scene.json", 20));
+    const auto document = edited_document(folder, "scene.json", 20);
+    kept.keep(std::make_shared<const Scene>(document->scene), document->origin);  // written at the end
   }
   CHECK(fs::file_size(folder / "unsaved-1.json") < 60);
   CHECK(fs::exists(folder / "unsaved-2.json"));
@@ -130,20 +130,19 @@ TEST_CASE("where the state folder cannot be written or has no name, edits are ke
     fs::create_directory(scenes);
     const fs::path state = named ? no_folder(folder) : fs::path();
     const auto document = edited_document(scenes, "scene.json", 31);
+    std::atomic<int> changes = 0;
     {
-      std::atomic<int> changes = 0;
       Autosave kept(state, [&changes] { ++changes; });
       keep(kept, *document);
-      kept.flush();
       const Keeping keeping = kept.keeping();
       CHECK(keeping.kind == Keeping::Kind::beside);
       CHECK(keeping.file == scenes / ".scene.json.unsaved-1");
       CHECK(keeping.why.find(named ? "file" : "HOME") != std::string::npos);
-      CHECK(changes >= 1);
       CHECK(kept.last_words() == "the edits of scene.json are kept in " + keeping.file.string() +
                                      " and come back at the next start with this scene");
       CHECK(names_in(scenes).size() == 3);  // with the lock
     }
+    CHECK(changes == 1);
     CHECK(names_in(scenes) == std::vector<std::string>{".scene.json.unsaved-1", "scene.json"});
     Autosave next(state);
     CHECK(next.take_over("").empty());
@@ -152,7 +151,6 @@ TEST_CASE("where the state folder cannot be written or has no name, edits are ke
     CHECK(read(file).scene == document->scene);
     CHECK(Autosave(state).take_over(document->origin->what).empty());  // that window has it
     keep(next, *edited_document(scenes, "scene.json", 32));
-    next.flush();
     CHECK(read(file).scene.camera.vfov == 32);
     next.keep(nullptr, nullptr);  // saved
     next.flush();
@@ -167,7 +165,6 @@ TEST_CASE("edits that can be kept nowhere are lost, and that is said with the re
     CAPTURE(what);
     Autosave nowhere(no_folder(folder));
     keep(nowhere, *edited_elsewhere(what));
-    nowhere.flush();
     CHECK(nowhere.keeping().kind == Keeping::Kind::lost);
     CHECK(nowhere.last_words().find("the edits of showroom are lost: ") == 0);
     CHECK(nowhere.last_words().find("Not a directory") != std::string::npos);
@@ -176,7 +173,6 @@ TEST_CASE("edits that can be kept nowhere are lost, and that is said with the re
   Autosave nameless("");
   CHECK(nameless.last_words().empty());
   keep(nameless, *edited_elsewhere("showroom"));
-  nameless.flush();
   CHECK(nameless.last_words().find("neither XDG_STATE_HOME nor HOME names a folder") != std::string::npos);
   const auto document = edited_document(folder, "scene.json", 31);
   auto origin = std::make_shared<Origin>(*document->origin);
@@ -193,7 +189,6 @@ TEST_CASE("a folder that can be written again, as after a full disk, is written 
   const auto first = edited_elsewhere("showroom");
   Autosave kept(state);
   keep(kept, *first);
-  kept.flush();
   CHECK(kept.keeping().kind == Keeping::Kind::kept);
   // No file can be replaced by a folder that holds something: as where no room is left, the older edits stay.
   const fs::path file = kept.keeping().file;
@@ -202,7 +197,6 @@ TEST_CASE("a folder that can be written again, as after a full disk, is written 
   Document newer = *first;
   newer.scene.camera.vfov = 44;
   keep(kept, newer);
-  kept.flush();
   CHECK(kept.keeping().kind == Keeping::Kind::lost);
   CHECK(kept.last_words().find("the newest edits of showroom are lost (") == 0);
   CHECK(kept.last_words().find("; older ones are kept and come back at the next start with this scene") !=
@@ -219,12 +213,10 @@ TEST_CASE("edits go on beside the scene when the state folder fails later, and o
   const auto document = edited_document(scenes, "scene.json", 31);
   Autosave kept(state);
   keep(kept, *document);
-  kept.flush();
   const fs::path before = kept.keeping().file;
   fs::remove(before);
   fs::create_directories(before);  // no file takes the place of a folder, but it can be removed
   keep(kept, *edited_document(scenes, "scene.json", 32));
-  kept.flush();
   CHECK(kept.keeping().kind == Keeping::Kind::beside);
   CHECK_FALSE(fs::exists(before));
   CHECK(read(scenes / ".scene.json.unsaved-1").scene.camera.vfov == 32);
@@ -234,7 +226,6 @@ TEST_CASE("edits that were given up and cannot be removed are said to come back"
   const fs::path folder = scratch_folder("kept_stays"), state = folder / "state";
   Autosave kept(state);
   keep(kept, *edited_elsewhere("showroom"));
-  kept.flush();
   const fs::path file = kept.keeping().file;
   fs::remove(file);
   fs::create_directories(file / "cannot be removed");
@@ -253,8 +244,6 @@ TEST_CASE("of two windows on one scene neither says that the next start brings i
     Autosave first(state), second(state);
     keep(first, *document);
     keep(second, *document);
-    first.flush();
-    second.flush();
     for (const Autosave* window : {&first, &second})
       CHECK(window->last_words() ==
             "the edits of scene.json are kept, and so are others; each start with this "
@@ -288,8 +277,6 @@ TEST_CASE("edits of a scene whose file is gone: the last line promises no start 
   Autosave kept(state), apart(no_folder(folder));
   keep(kept, *document);
   keep(apart, *document);
-  kept.flush();
-  apart.flush();
   fs::remove(folder / "scene.json");
   CHECK(kept.last_words() == "the edits of scene.json are kept and come back at the next start without a scene");
   const std::string beside = (folder / ".scene.json.unsaved-1").string();
@@ -298,7 +285,6 @@ TEST_CASE("edits of a scene whose file is gone: the last line promises no start 
   CHECK(load_scene(beside).scene.camera.vfov == 31);
   Autosave other(state);
   keep(other, *edited_elsewhere("showroom"));
-  other.flush();
   CHECK(kept.last_words() ==
         "the edits of scene.json are kept, and so are others; each start without a scene brings "
         "back the newest that no window has");

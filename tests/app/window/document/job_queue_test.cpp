@@ -40,4 +40,29 @@ TEST_CASE("jobs run in order elsewhere, results here, and none is lost at the en
   CHECK(ran == 6);
 }
 
+TEST_CASE("a thread works when it is asked to or its time has come, after a pause, and once more at its end if asked") {
+  std::atomic<int> done = 0;
+  test::News news;
+  const auto work = [&] {
+    news.tell();
+    return ++done == 1 ? BackgroundThread::Time(1) : BackgroundThread::never;
+  };
+  {
+    BackgroundThread thread(work);
+    thread.ask();
+    CHECK(news.wait_until([&] { return done == 2; }));
+    thread.ask();
+  }
+  CHECK(done == 3);
+  {
+    BackgroundThread thread(work, std::chrono::hours(1));
+    thread.ask();
+    CHECK(news.wait_until([&] { return done == 4; }));
+    thread.ask();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    CHECK(done == 4);
+  }
+  CHECK(done == 5);
+}
+
 }  // namespace tyndall::test::job_queue_test

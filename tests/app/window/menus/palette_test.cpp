@@ -128,7 +128,7 @@ TEST_CASE("what cannot be done in a menu is passed over by keys, and does nothin
       if (const auto now = menu.draw(ui, {0, 0, 900, 700})) chosen = now;
     });
   };
-  menu.open(100, 100, "ball", {{"menu.no", "no", "", "it cannot"}});
+  menu.open(100, 100, "ball", {{"no", "", "it cannot"}});
   draw();
   for (float y = 100; y < 200; y += 3) {
     compat::mouse_pos(ImGui::GetIO(), 130, y);
@@ -138,7 +138,7 @@ TEST_CASE("what cannot be done in a menu is passed over by keys, and does nothin
     }
   }
   CHECK_FALSE(chosen);
-  menu.open(100, 100, "ball", {{"menu.no", "no", "", "it cannot"}, {"menu.yes", "yes", "", "", false, {"undo"}}});
+  menu.open(100, 100, "ball", {{"no", "", "it cannot"}, {"undo", "", ""}});
   CHECK(menu.take_key(264));  // down
   CHECK(menu.take_key(257));  // Enter
   draw();
@@ -152,10 +152,10 @@ TEST_CASE("what was typed into a palette that was closed cannot be undone in a l
   drawn.draw();
   drawn.palette.open(items);
   for (int k = 0; k < 3; ++k) drawn.draw();
-  compat::control_key(ImGui::GetIO(), true);
+  compat::modifiers(ImGui::GetIO(), true, false, false, false);
   drawn.press(ImGuiKey_Z);
   drawn.press(ImGuiKey_Y);
-  compat::control_key(ImGui::GetIO(), false);
+  compat::modifiers(ImGui::GetIO(), false, false, false, false);
   drawn.type("u");
   drawn.enter();
   CHECK(drawn.chosen == Request{"undo"});

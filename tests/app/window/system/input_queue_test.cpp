@@ -28,64 +28,17 @@ std::string frames_of(InputQueue& queue) {
   return seen;
 }
 
-}  // namespace
-
-TEST_CASE("what is typed after a click waits until the click has moved the keyboard") {
-  InputQueue queue;
-  queue.push({.kind = Kind::motion});
-  queue.push({.kind = Kind::button, .action = GLFW_PRESS});
-  queue.push({.kind = Kind::button, .action = GLFW_RELEASE});
-  for (int k = 0; k < 2; ++k) {
-    queue.push({.kind = Kind::key, .code = '5', .action = GLFW_PRESS});
-    queue.push({.kind = Kind::character, .character = '5'});
-    queue.push({.kind = Kind::key, .code = '5', .action = GLFW_RELEASE});
-  }
-  CHECK(frames_of(queue) == "mb|b||||||kc|k|kc|k|");
-}
-
-TEST_CASE("a click waits for the frame of what was typed before, and the pointer stays where it clicked") {
-  InputQueue queue;
-  queue.push({.kind = Kind::character, .character = '5'});
-  queue.push({.kind = Kind::button, .action = GLFW_PRESS});
-  queue.push({.kind = Kind::motion});
-  queue.push({.kind = Kind::motion});
-  CHECK(frames_of(queue) == "c|b|mm|");
-}
-
-TEST_CASE("a modifier that is released with the button counts for the click") {
-  InputQueue queue;
-  queue.push({.kind = Kind::button, .action = GLFW_PRESS});
-  queue.push({.kind = Kind::button, .action = GLFW_RELEASE});
-  queue.push({.kind = Kind::key, .code = GLFW_KEY_LEFT_SHIFT, .action = GLFW_RELEASE});
-  CHECK(frames_of(queue) == "b|b|k|");
-}
-
-TEST_CASE("what is typed after Tab, Return, Esc or a shortcut waits, what is typed without them does not") {
-  for (const int key : {GLFW_KEY_TAB, GLFW_KEY_ENTER, GLFW_KEY_KP_ENTER, GLFW_KEY_ESCAPE}) {
-    InputQueue queue;
-    queue.push({.kind = Kind::key, .code = key, .action = GLFW_PRESS});
-    queue.push({.kind = Kind::character, .character = '1'});
-    CHECK(frames_of(queue) == "k||||||c|");
-  }
-  InputQueue shortcut;
-  shortcut.push(
-      {.kind = Kind::key, .code = GLFW_KEY_LEFT_CONTROL, .action = GLFW_PRESS, .modifiers = GLFW_MOD_CONTROL});
-  shortcut.push({.kind = Kind::key, .code = 'S', .action = GLFW_PRESS, .modifiers = GLFW_MOD_CONTROL});
-  shortcut.push({.kind = Kind::character, .character = 'a'});
-  CHECK(frames_of(shortcut) == "kk||||||c|");
-  InputQueue plain;
-  plain.push({.kind = Kind::key, .code = GLFW_KEY_BACKSPACE, .action = GLFW_PRESS});
-  plain.push({.kind = Kind::character, .character = 'a'});
-  CHECK(frames_of(plain) == "k|c|");
-}
-
-namespace {
-
 constexpr int control = GLFW_MOD_CONTROL, shift = GLFW_MOD_SHIFT;
+const RawInput press{.kind = Kind::button, .action = GLFW_PRESS}, release{.kind = Kind::button, .action = GLFW_RELEASE},
+    motion{.kind = Kind::motion}, scroll{.kind = Kind::scroll, .y = 1};
 
 RawInput key(int code, int action, int modifiers = 0) {
   return {.kind = Kind::key, .code = code, .action = action, .modifiers = modifiers};
 }
+RawInput down(int code, int modifiers = 0) { return key(code, GLFW_PRESS, modifiers); }
+RawInput up(int code) { return key(code, GLFW_RELEASE); }
+RawInput typed(char c) { return {.kind = Kind::character, .character = static_cast<unsigned>(c)}; }
+
 /// A key that is pressed and released with modifiers, and the character that it types.
 void tap(std::vector<RawInput>& events, int code, int modifiers, unsigned character = 0) {
   const std::pair<int, int> held[] = {{control, GLFW_KEY_LEFT_CONTROL}, {shift, GLFW_KEY_RIGHT_SHIFT}};
@@ -98,24 +51,17 @@ void tap(std::vector<RawInput>& events, int code, int modifiers, unsigned charac
     if ((modifiers & flag) != 0) events.push_back(key(modifier, GLFW_RELEASE, modifiers));
 }
 
-ImGuiKey imgui_key(int code) {
-  static constexpr std::pair<int, ImGuiKey> keys[] = {
-      {'A', ImGuiKey_A},
-      {'C', ImGuiKey_C},
-      {'V', ImGuiKey_V},
-      {'X', ImGuiKey_X},
-      {'Z', ImGuiKey_Z},
-      {GLFW_KEY_LEFT, ImGuiKey_LeftArrow},
-      {GLFW_KEY_RIGHT, ImGuiKey_RightArrow},
-      {GLFW_KEY_HOME, ImGuiKey_Home},
-      {GLFW_KEY_END, ImGuiKey_End},
-      {GLFW_KEY_BACKSPACE, ImGuiKey_Backspace},
-      {GLFW_KEY_DELETE, ImGuiKey_Delete},
-  };
-  for (const auto& [from, to] : keys)
-    if (from == code) return to;
-  return ImGuiKey_COUNT;
-}
+constexpr std::pair<int, ImGuiKey> keys[] = {{'A', ImGuiKey_A},
+                                             {'C', ImGuiKey_C},
+                                             {'V', ImGuiKey_V},
+                                             {'X', ImGuiKey_X},
+                                             {'Z', ImGuiKey_Z},
+                                             {GLFW_KEY_LEFT, ImGuiKey_LeftArrow},
+                                             {GLFW_KEY_RIGHT, ImGuiKey_RightArrow},
+                                             {GLFW_KEY_HOME, ImGuiKey_Home},
+                                             {GLFW_KEY_END, ImGuiKey_End},
+                                             {GLFW_KEY_BACKSPACE, ImGuiKey_Backspace},
+                                             {GLFW_KEY_DELETE, ImGuiKey_Delete}};
 
 /// A text box that sees what a queue delivers.
 class TextBox {
@@ -151,8 +97,8 @@ class TextBox {
     if (input.kind != Kind::key) return;
     if (is_modifier(input.code))
       input.action == GLFW_PRESS ? void(modifiers_.insert(input.code)) : void(modifiers_.erase(input.code));
-    if (const ImGuiKey name = imgui_key(input.code); name != ImGuiKey_COUNT)
-      compat::key(ImGui::GetIO(), name, input.action != GLFW_RELEASE);
+    for (const auto& [code, name] : keys)
+      if (code == input.code) compat::key(ImGui::GetIO(), name, input.action != GLFW_RELEASE);
   }
 
   NullImGui imgui_;
@@ -194,17 +140,6 @@ TEST_CASE("each key acts with its own modifiers and in its turn, however many co
 }
 
 TEST_CASE("random keys within frames of any length leave the same text as one by one") {
-  const int keys[] = {'A',
-                      'C',
-                      'V',
-                      'X',
-                      'Z',
-                      GLFW_KEY_LEFT,
-                      GLFW_KEY_RIGHT,
-                      GLFW_KEY_END,
-                      GLFW_KEY_HOME,
-                      GLFW_KEY_DELETE,
-                      GLFW_KEY_BACKSPACE};
   std::mt19937 random(1);
   const auto below = [&](std::size_t count) {
     return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
@@ -212,7 +147,7 @@ TEST_CASE("random keys within frames of any length leave the same text as one by
   for (int trial = 0; trial < 15; ++trial) {
     std::vector<RawInput> events;
     for (int k = 0; k < 30; ++k) {
-      const int code = keys[below(std::size(keys))], modifiers[] = {0, 0, 0, shift, control, control | shift};
+      const int code = keys[below(std::size(keys))].first, modifiers[] = {0, 0, 0, shift, control, control | shift};
       const int held = modifiers[below(std::size(modifiers))];
       const bool types = code < 128 && (held & control) == 0;
       tap(events, code, held, types ? static_cast<unsigned>(held ? code : code - 'A' + 'a') : 0u);
@@ -223,47 +158,46 @@ TEST_CASE("random keys within frames of any length leave the same text as one by
   }
 }
 
-TEST_CASE("a button and the wheel are seen with the modifiers that were held, not with those that came after") {
-  InputQueue queue;
-  queue.push(key(GLFW_KEY_LEFT_CONTROL, GLFW_PRESS));
-  queue.push({.kind = Kind::scroll, .y = 1});
-  queue.push(key(GLFW_KEY_LEFT_CONTROL, GLFW_RELEASE));
-  queue.push({.kind = Kind::scroll, .y = 1});
-  queue.push(key(GLFW_KEY_LEFT_ALT, GLFW_PRESS));
-  queue.push({.kind = Kind::button, .action = GLFW_PRESS});
-  queue.push({.kind = Kind::button, .action = GLFW_RELEASE});
-  queue.push(key(GLFW_KEY_LEFT_ALT, GLFW_RELEASE));
-  CHECK(frames_of(queue) == "ks|ks|kb|b|k|");
-}
-
-TEST_CASE("a key that is let go at once is held for a frame, and one that repeats while it is held waits for none") {
-  InputQueue queue;
-  queue.push(key('W', GLFW_PRESS));
-  queue.push(key('W', GLFW_RELEASE));
-  CHECK(frames_of(queue) == "k|k|");
-  for (const int action : {GLFW_PRESS, GLFW_REPEAT, GLFW_REPEAT}) queue.push(key(GLFW_KEY_BACKSPACE, action));
-  CHECK(frames_of(queue) == "kkk|");
-}
-
-TEST_CASE("what is typed after F2 or Insert waits for the keyboard, what follows an arrow does not") {
-  for (const int code : {GLFW_KEY_F2, GLFW_KEY_INSERT}) {
+TEST_CASE("each event comes in a frame in which it is not misread") {
+  struct Case {
+    const char* what;
+    std::vector<RawInput> events;
+    const char* frames;
+  };
+  std::vector<Case> cases{
+      {"what is typed after a click waits until the click has moved the keyboard",
+       {motion, press, release, down('5'), typed('5'), up('5'), down('5'), typed('5'), up('5')},
+       "mb|b||||||kc|k|kc|k|"},
+      {"a click waits for the frame of what was typed before, and the pointer stays where it clicked",
+       {typed('5'), press, motion, motion},
+       "c|b|mm|"},
+      {"a modifier that is released with the button counts for the click",
+       {press, release, up(GLFW_KEY_LEFT_SHIFT)},
+       "b|b|k|"},
+      {"a button and the wheel are seen with the modifiers that were held, not with those that came after",
+       {down(GLFW_KEY_LEFT_CONTROL), scroll, up(GLFW_KEY_LEFT_CONTROL), scroll, down(GLFW_KEY_LEFT_ALT), press, release,
+        up(GLFW_KEY_LEFT_ALT)},
+       "ks|ks|kb|b|k|"},
+      {"what is typed after a shortcut waits",
+       {down(GLFW_KEY_LEFT_CONTROL, control), down('S', control), typed('a')},
+       "kk||||||c|"},
+      {"a key that is let go at once is held for a frame", {down('W'), up('W')}, "k|k|"},
+      {"a key that repeats while it is held waits for none",
+       {down(GLFW_KEY_BACKSPACE), key(GLFW_KEY_BACKSPACE, GLFW_REPEAT), key(GLFW_KEY_BACKSPACE, GLFW_REPEAT)},
+       "kkk|"},
+      {"the focus is lost once a frame has seen what came before",
+       {down('S', control), {.kind = Kind::focus, .action = 0}, up('S')},
+       "k|fk|"}};
+  for (const int code :
+       {GLFW_KEY_TAB, GLFW_KEY_ENTER, GLFW_KEY_KP_ENTER, GLFW_KEY_ESCAPE, GLFW_KEY_F2, GLFW_KEY_INSERT})
+    cases.push_back({"a key that moves the keyboard", {down(code), typed('1')}, "k||||||c|"});
+  for (const int code : {GLFW_KEY_BACKSPACE, GLFW_KEY_LEFT})
+    cases.push_back({"a key that stays in the text", {down(code), typed('a')}, "k|c|"});
+  for (const auto& [what, events, frames] : cases) {
     InputQueue queue;
-    queue.push(key(code, GLFW_PRESS));
-    queue.push({.kind = Kind::character, .character = 'a'});
-    CHECK(frames_of(queue) == "k||||||c|");
+    for (const RawInput& event : events) queue.push(event);
+    CHECK_MESSAGE(frames_of(queue) == frames, what);
   }
-  InputQueue queue;
-  queue.push(key(GLFW_KEY_LEFT, GLFW_PRESS));
-  queue.push({.kind = Kind::character, .character = 'a'});
-  CHECK(frames_of(queue) == "k|c|");
-}
-
-TEST_CASE("the focus is lost once a frame has seen what came before") {
-  InputQueue queue;
-  queue.push(key('S', GLFW_PRESS, control));
-  queue.push({.kind = Kind::focus, .action = 0});
-  queue.push(key('S', GLFW_RELEASE));
-  CHECK(frames_of(queue) == "k|fk|");
 }
 
 }  // namespace tyndall::test::input_queue_test
