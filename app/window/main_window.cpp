@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <utility>
 
@@ -48,54 +47,6 @@ MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Refer
   if (log_) log_commands(*log_);
   if (reference) session_.references.set(std::move(reference));
   if (options.reference_scene) session_.render_reference(*options.reference_scene);
-}
-
-/// Asks the renderers for what is wanted now, see Session.
-void MainWindow::send(double now, bool scene_too) {
-  if (scene_too) picture_.note_shown();  // of the drawing before: the workers begin with a newer scene, if one is sent
-  session_.send(now, scene_too);
-  const std::uint64_t edit = session_.renderers.edit(Half::current);
-  if (edit != paced_edit_) session_.pacing.on_edit(paced_edit_ = edit, now);
-}
-
-bool MainWindow::picture_due(double now) const {
-  const auto frame = picture_.unseen();
-  if (!frame || now < session_.pacing.next_drawing()) return false;
-  return now >= session_.pacing.picture_due() || frame->finished;
-}
-
-bool MainWindow::hidden() const {
-  const WindowSize size = platform_->size();
-  return size.framebuffer_width <= 0 || size.framebuffer_height <= 0;
-}
-
-double MainWindow::waiting_time(double now) {
-  if (takes_in_again_) return 0;
-  const double sends = std::max(0.0, session_.timer.latest() - now);
-  if (hidden()) {  // nothing to draw until an event shows the window again
-    frame_due_ = std::numeric_limits<double>::infinity();
-    return sends;
-  }
-  // The order matters: a frame that comes from here on, after its time, wakes the window. One that came before is seen
-  // below. One that comes in between is seen when its time has come.
-  const double due = std::max(session_.pacing.picture_due(), session_.pacing.next_drawing());
-  frame_due_ = due;
-  const auto frame = picture_.unseen();
-  double wait = std::max(session_.pacing.wait(now), awaits_until_ - now);
-  if (frame)
-    wait = std::min(wait, std::max(0.0, (frame->finished ? session_.pacing.next_drawing() : due) - now));
-  else if (due > now)
-    wait = std::min(wait, due - now);
-  return std::min(wait, sends);
-}
-
-/// What the user changed about the window's look is remembered, once no button is held any more.
-void MainWindow::use_preferences() {
-  std::set<std::string>& folded = session_.preferences.folded;
-  folded.clear();
-  for (const Section& one : column_sections())
-    if (!one.is(starts_folded) && ui_.folded.contains(one.heading)) folded.insert(one.heading);
-  if (!read_mouse().any_down()) session_.keep_preferences();
 }
 
 void MainWindow::draw(double now) {
@@ -147,28 +98,6 @@ void MainWindow::draw(double now) {
   awaits_until_ = 0;
   takes_in_again_ = fresh && std::isfinite(session_.timer.latest());
   if (!takes_in_again_) picture_.note_shown();  // else once the newer scene is ready
-}
-
-/// Where things are for a picture of that shape.
-Layout MainWindow::layout_for(const WindowSize& size, int image_width, int image_height) const {
-  const float column = commands_.shows_panels() ? static_cast<float>(session_.preferences.column) : 0;
-  const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
-  const float shown = std::min(std::round(column * ui_.scale), std::floor(width / 2));
-  return make_layout(width, height, image_width, image_height, ui_.scale, column,
-                     strip_.height(width - shown, image_width, image_height, ui_.scale) +
-                         Timeline::height(session_.editor.scene(), ui_.scale));
-}
-
-/// Renders as many pixels as the window shows of the picture, where the user wants that.
-void MainWindow::follow_window_size() {
-  const Scene& scene = session_.editor.scene();
-  const float dots = panels_.now.dots;
-  const Rect image = layout_for(platform_->size(), scene.width, scene.height).image;
-  const PictureSize shown{static_cast<int>(std::lround(image.width() * dots)),
-                          static_cast<int>(std::lround(image.height() * dots))};
-  const bool seen = shown.width > 0 && shown.height > 0;
-  const bool follows = panels_.at_window && seen && !session_.shows_picture();
-  session_.set_picture_size(follows ? std::optional(shown) : std::nullopt);
 }
 
 /// What this drawing goes by. The old picture keeps its shape until the new one is there.

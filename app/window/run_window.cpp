@@ -6,6 +6,8 @@
 #include "core/base/text.h"
 #include "core/system/process.h"
 
+#include <algorithm>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -42,6 +44,45 @@ int MainWindow::run() {
   if (const std::string edits = session_.flush_edits(); !edits.empty()) complain(printable(edits, 2000));
   if (const std::string files = session_.finish_files(); !files.empty()) complain(printable(files, 2000));
   return signal == 0 ? 0 : 128 + signal;
+}
+
+/// Asks the renderers for what is wanted now, see Session.
+void MainWindow::send(double now, bool scene_too) {
+  if (scene_too) picture_.note_shown();  // of the drawing before: the workers begin with a newer scene, if one is sent
+  session_.send(now, scene_too);
+  const std::uint64_t edit = session_.renderers.edit(Half::current);
+  if (edit != paced_edit_) session_.pacing.on_edit(paced_edit_ = edit, now);
+}
+
+bool MainWindow::picture_due(double now) const {
+  const auto frame = picture_.unseen();
+  if (!frame || now < session_.pacing.next_drawing()) return false;
+  return now >= session_.pacing.picture_due() || frame->finished;
+}
+
+bool MainWindow::hidden() const {
+  const WindowSize size = platform_->size();
+  return size.framebuffer_width <= 0 || size.framebuffer_height <= 0;
+}
+
+double MainWindow::waiting_time(double now) {
+  if (takes_in_again_) return 0;
+  const double sends = std::max(0.0, session_.timer.latest() - now);
+  if (hidden()) {  // nothing to draw until an event shows the window again
+    frame_due_ = std::numeric_limits<double>::infinity();
+    return sends;
+  }
+  // The order matters: a frame that comes from here on, after its time, wakes the window. One that came before is seen
+  // below. One that comes in between is seen when its time has come.
+  const double due = std::max(session_.pacing.picture_due(), session_.pacing.next_drawing());
+  frame_due_ = due;
+  const auto frame = picture_.unseen();
+  double wait = std::max(session_.pacing.wait(now), awaits_until_ - now);
+  if (frame)
+    wait = std::min(wait, std::max(0.0, (frame->finished ? session_.pacing.next_drawing() : due) - now));
+  else if (due > now)
+    wait = std::min(wait, due - now);
+  return std::min(wait, sends);
 }
 
 bool MainWindow::step() {
