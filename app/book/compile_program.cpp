@@ -105,7 +105,7 @@ fs::path source_beside(const fs::path& header) {
   std::error_code error;
   for (const fs::path& place : {folder, folder.parent_path() / "src", folder.parent_path() / "source"})
     for (const char* ending : {".cpp", ".cc", ".cxx"}) {
-      const fs::path file = place / header.stem().concat(ending);
+      fs::path file = place / header.stem().concat(ending);
       if (fs::is_regular_file(file, error)) return file;
     }
   return {};

@@ -1,5 +1,7 @@
 #include "app/book/inserted_calls.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <map>
 
@@ -241,11 +243,13 @@ class Inserter {
         else
           low = name + ".min", high = name + ".max";
       }
-      const std::string body = &function == roles_.hit ? "return ::tyndall_book::probe_answer()(&" + ray + ", " + low +
-                                                             ", " + high + ", &" + record + ");"
-                                                       : "throw 0;";
-      text += "  " + function.result + " " + function.name + "(" + parameters + ")" + function.suffix +
-              (function.suffix.find("override") == std::string::npos ? " override" : "") + " { " + body + " }\n";
+      const std::string body =
+          &function != roles_.hit
+              ? "throw 0;"
+              : fmt::format("return ::tyndall_book::probe_answer()(&{}, {}, {}, &{});", ray, low, high, record);
+      const bool overrides = function.suffix.find("override") != std::string::npos;
+      text += fmt::format("  {} {}({}){}{} {{ {} }}\n", function.result, function.name, parameters, function.suffix,
+                          overrides ? "" : " override", body);
     }
     return text + "};\n" + (shape.space.empty() ? "" : "}\n");
   }
@@ -283,7 +287,7 @@ class Inserter {
       } else if (is_real(parameter)) {
         argument = "density", begin += last + " density{}; ", has_densities = true;
       } else {
-        begin += last + " " + argument + "{}; ";
+        begin += fmt::format("{} {}{{}}; ", last, argument);
         others.push_back(last);
       }
       arguments += (arguments.empty() ? "" : ", ") + argument;

@@ -11,14 +11,22 @@
 /// Guided Image Filtering, TPAMI 35 (2013).
 namespace tyndall::filter {
 
-/// The index, among the sums of a cell, of the product of the terms i >= j for a half. channel_sum(), below: of the
-/// product of a channel and a term.
+/// The index of row i, column j <= i, of a triangular matrix that is stored row by row.
+TYNDALL_INLINE constexpr int triangle(int i, int j) { return i * (i + 1) / 2 + j; }
+
+// The sums of a cell: first the triangle of the products of the plain terms, and each output channel times each of
+// them; then, for each half, the half's emission terms times the plain ones, their own triangle, and each channel of
+// the half times each of them.
+
+/// The index of the product of the terms i >= j for a half.
 TYNDALL_INLINE int product_sum(int half, int i, int j) {
-  if (i < plain_terms) return i * (i + 1) / 2 + j;
+  if (i < plain_terms) return triangle(i, j);
   const int first = plain_sums + half * emission_sums, k = i - plain_terms;
   if (j < plain_terms) return first + k * plain_terms + j;
-  return first + emission_terms * plain_terms + k * (k + 1) / 2 + j - plain_terms;
+  return first + emission_terms * plain_terms + triangle(k, j - plain_terms);
 }
+/// The index of the product of a channel and the term i. output: 0 to 2 are the channels of the first half, 3 to 5
+/// those of the second one.
 TYNDALL_INLINE int channel_sum(int output, int i) {
   if (i < plain_terms) return plain_products + output * plain_terms + i;
   const int half = output / 3, channel = output % 3;
@@ -67,6 +75,7 @@ TYNDALL_INLINE F block_product(const BlockCells<F>& cells, int half, int i, int 
   if (j == 2) return own + cells.down(product_sum(half, i, 0));
   return own;
 }
+/// The same for the product of a channel and the term i.
 template <class F>
 TYNDALL_INLINE F block_channel(const BlockCells<F>& cells, int output, int i) {
   const F own = cells.sum(channel_sum(output, i));
@@ -74,8 +83,6 @@ TYNDALL_INLINE F block_channel(const BlockCells<F>& cells, int output, int i) {
   if (i == 2) return own + cells.down(channel_sum(output, 0));
   return own;
 }
-
-TYNDALL_INLINE constexpr int triangle(int i, int j) { return i * (i + 1) / 2 + j; }
 
 /// The normal equations of all terms but the first, for a group of blocks: the factor L of their matrix G = L Lᵀ
 /// (Cholesky). Its diagonal is stored as 1 / L[i][i].
@@ -87,7 +94,8 @@ struct Normal {
   F factor[terms * (terms + 1) / 2];
 };
 
-/// Differences of a feature below this value count as noise of the feature.
+/// Differences of a term below this value count as its noise: of the place (terms 1 and 2), the albedo (3 to 5), the
+/// normal (6 to 8), the depth (9) and the emission (10 to 12).
 TYNDALL_INLINE float feature_floor(int term) {
   return term < 3 ? 0.05f : term < 6 ? 0.02f : term < 9 ? 0.03f : term < 10 ? 0.01f : 0.02f;
 }

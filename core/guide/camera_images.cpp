@@ -131,10 +131,10 @@ class Finder {
     const GuideView& g = s_.guide;
     std::set<std::pair<std::int32_t, Events>> known;
     for (int i = 0; i < g.lobes; ++i) {
-      const std::int32_t* e = g.events + i * numbers_of_events;
+      const std::int32_t* e = g.events + std::ptrdiff_t{i} * numbers_of_events;
       const Events events = metal_events({e[events_next_low], e[events_next_high]});
       if (e[events_image] < 0 || events.empty() || !known.insert({e[events_image], events}).second) continue;
-      const float* n = g.images + e[events_image] * numbers_of_image;
+      const float* n = g.images + std::ptrdiff_t{e[events_image]} * numbers_of_image;
       const auto place = [&](int k) { return to_double({n[k], n[k + 1], n[k + 2]}); };
       const LightImage<double> image{place(image_light), place(image_sphere), static_cast<double>(n[image_radius])};
       const SeenImage<double> seen = see_image(image, to_double(s_.camera.center));

@@ -206,6 +206,7 @@ struct DrawnSequence {
   MaskOf<F> drawn;  ///< false for mirrors, invalid ends, and event sequences of more than max_decisions events
 };
 
+/// Whether both have the same events, in whatever order.
 template <class F>
 TYNDALL_INLINE MaskOf<F> same_sequence(const EventSequence<F>& a, const EventSequence<F>& b) {
   return mask_and(mask_and(equal(a.outer, b.outer), equal(a.inner, b.inner)),
@@ -279,14 +280,17 @@ TYNDALL_INLINE SequenceEvent<F> step_walk(SequenceWalk<F>& walk) {
   const auto at_outer = mask_and(walk.open, equal(walk.next, I(0)));
   const auto reflects = mask_or(walk.decide.below(3), mask_and(at_outer, walk.inside));
   const SequenceEvent<F> event{at_outer, mask_and_not(walk.open, at_outer), reflects};
+  // A reflection stays on its side of the inner sphere, a crossing goes to the other one. At the outer sphere it stays
+  // in the glass, or leaves, and the walk ends.
   const auto from_glass = equal(walk.next, I(1));
   const I after_inner = select(reflects, select(from_glass, I(0), I(2)), select(from_glass, I(2), I(0)));
   walk.next = select(at_outer, select(walk.layered, I(1), I(0)), select(event.at_inner, after_inner, walk.next));
   walk.open = mask_and_not(walk.open, mask_and_not(at_outer, reflects));
   if (!any(walk.inside)) return event;
+  // With both ends inside, the walk may end wherever the near end lies.
   const auto in_hollow = equal(walk.next, I(2));
-  const auto there = mask_or(mask_and_not(walk.to_glass, in_hollow), mask_and_not(in_hollow, walk.to_glass));
-  walk.open = mask_and_not(walk.open, walk.decide.below(4, mask_and(mask_and(walk.inside, walk.open), there)));
+  const auto may_end = mask_or(mask_and_not(walk.to_glass, in_hollow), mask_and_not(in_hollow, walk.to_glass));
+  walk.open = mask_and_not(walk.open, walk.decide.below(4, mask_and(mask_and(walk.inside, walk.open), may_end)));
   return event;
 }
 
@@ -323,11 +327,11 @@ template <class F>
 TYNDALL_INLINE F inside_walks(const SpecularSphere<F>& b, const PathEnds<F>& e, const EventSequence<F>& w) {
   const F yes = F(take_octal), no = F(1.0f) - yes;
   const F in_glass = F(2.0f) * w.outer + select(less(F(0.0f), w.near_sign), F(1.0f), F(0.0f));
-  // The number of events from which the path goes on where its near end lies.
-  const F there = select(e.near_in_glass, in_glass, select(b.hollow, w.inner - w.outer, w.outer));
+  // The number of events from which the path goes on where its near end lies, at which the walk may end.
+  const F may_end = select(e.near_in_glass, in_glass, select(b.hollow, w.inner - w.outer, w.outer));
   const F walk = whole_power(yes, w.inner_reflected) * whole_power(no, w.inner - w.inner_reflected);
   const auto fits = less(w.outer + w.inner, F(max_inside_events + 0.5f));
-  return select(fits, walk * whole_power(F(0.5f), there), F(0.0f));
+  return select(fits, walk * whole_power(F(0.5f), may_end), F(0.0f));
 }
 
 /// Expected number of times that a query tries these events in one given order: the probability that draw_sequence()
@@ -339,13 +343,14 @@ TYNDALL_INLINE F expected_queries(const SpecularSphere<F>& b, const PathEnds<F>&
   const F reflections = (w.outer - outside) + w.inner_reflected, crossings = (w.inner - w.inner_reflected) + F(1.0f);
   const auto short_enough = less(reflections + crossings, F(max_decisions + 0.5f));
   const F chosen = reflections - select(b.hollow, F(0.0f), F(1.0f));  // the first one in solid glass is not drawn
-  const F walk = whole_power(yes, max(chosen, F(0.0f))) * whole_power(no, crossings);
+  const F events = whole_power(yes, max(chosen, F(0.0f))) * whole_power(no, crossings);
+  // The first decisions, from outside: not off the outside of the glass, and past the inner sphere or not.
   const auto past = mask_and_not(b.hollow, less(F(0.0f), w.inner));
-  const F layers = select(is_thick(b), select(past, yes, no), select(past, F(0.0f), F(1.0f)));
-  const F start = layers * no;
+  const F passes = select(is_thick(b), select(past, yes, no), select(past, F(0.0f), F(1.0f)));
+  const F start = passes * no;
   const auto off = mask_and(e.both_out, equal(w.outer, F(1.0f)));
-  const auto walks = mask_and(short_enough, less(F(-0.5f), chosen));
-  const F walked = select(walks, walk * select(e.both_out, start, F(1.0f)), F(0.0f));
+  const auto can_be_drawn = mask_and(short_enough, less(F(-0.5f), chosen));
+  const F walked = select(can_be_drawn, events * select(e.both_out, start, F(1.0f)), F(0.0f));
   F other = select(b.mirror, F(0.0f), select(off, yes, walked));
   if (any(e.both_in)) other = select(e.both_in, inside_walks(b, e, w), other);
   return select(e.valid, other + select(same_sequence(w, main_sequence(b, e)), main_queries(b), F(0.0f)), F(0.0f));

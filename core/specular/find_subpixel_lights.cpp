@@ -22,7 +22,7 @@ constexpr float largest = 16;         // size of a box, in pixels
 constexpr float margin = 0.1f;        // of a box, on each side: the box is found from a few points of the light only
 constexpr float uncertainty = 4e-6f;  // of directions, in radians
 
-/// SubpixelLight::route
+/// SubpixelLight::route of a path with so many reflections and crossings of surfaces; 0: it is not steered.
 std::int32_t route_by(int reflections, int crossings) {
   return reflections > 0 ? pack_route(reflections, std::min(crossings, 15)) : 0;
 }
@@ -58,6 +58,7 @@ class Finder {
  public:
   explicit Finder(const SceneView& s) : s_(s) {}
 
+  /// Adds the boxes of all lights that a specular object may show, as the camera sees them directly and by the object.
   void find() {
     std::set<std::int32_t> seen;
     for (int k = 0; k < std::min(s_.specular.pairs, max_pairs); ++k) {
@@ -132,7 +133,7 @@ class Finder {
     query_ = {};
     query_.sphere = load_sphere<float>(s_.specular, sphere, 0.0f);
     query_.light_columns = light_;
-    if (!ask(points_.front())) return;
+    if (!aim_at(points_.front())) return;
     const bool hollow = query_.sphere.hollow, both_out = query_.ends.both_out;
     if (both_out) by_sequence({1, 0, 0});
     if (query_.sphere.mirror) return;
@@ -163,7 +164,9 @@ class Finder {
             static_cast<float>(inner_reflected)};
   }
 
-  bool ask(Vec3f point) {
+  /// Makes the query one of paths from the camera by the sphere to that point of the light. Returns whether there may
+  /// be some, and not only in the direction of the sphere's centre, where no plane of the path is defined.
+  bool aim_at(Vec3f point) {
     query_.at.point = point;
     query_.plane = plane_of(query_.sphere, s_.camera.center, point);
     query_.ends = ends_of(query_.sphere, query_.plane.near, query_.plane.far);
@@ -177,9 +180,10 @@ class Finder {
     if (!query_.ends.both_out) add_sequence(sequence, near_in ? EndSigns<float>{-1, 1} : EndSigns<float>{1, -1});
   }
 
+  /// Adds the images of the light by one event sequence: one for each root of its deflection.
   void add_sequence(const EventSequence<float>& sequence, EndSigns<float> sign) {
     const auto see = [&](Vec3f point, int root) -> SeenPoint {
-      if (!ask(point)) return {};
+      if (!aim_at(point)) return {};
       SolvedPath<float> found{deflection_of(s_.specular, query_.sphere, query_.ends, sequence, sign), sign, {}};
       if (!found.path.possible) return {};
       const DeflectionRoots<float> roots = list_roots(found.path.deflection, query_.plane.angle, true);
@@ -188,7 +192,7 @@ class Finder {
       return rays.found && rays.throughput >= min_throughput ? SeenPoint{rays.direction, rays.throughput} : SeenPoint{};
     };
     add(see, max_roots, route_of(sequence));
-    ask(points_.front());
+    aim_at(points_.front());
   }
 
   /// SubpixelLight::route of an event sequence. 0 for paths that start inside the glass, which are not steered.

@@ -112,16 +112,23 @@ TYNDALL_INLINE SpecularRays<F> rays_of(const SpecularQuery<F>& a, const EventSeq
   return r;
 }
 
+/// The rays of a path between flat faces, which go on with the light's spread alone: off a mirror or through a slab.
 template <class F>
-TYNDALL_INLINE SpecularRays<F> rays_off_mirror(const SpecularQuery<F>& a, Vec3<F> point) {
-  const MirrorPath<F> path = mirror_path(a.mirror, point, a.at.point);
+TYNDALL_INLINE SpecularRays<F> rays_by_faces(const SpecularQuery<F>& a, const auto& path) {
   const F cosine = light_cosine(a.light_columns, a.at.normal, path.arrive);
   SpecularRays<F> r;
   r.found = path.found, r.direction = path.direction, r.arrive = path.arrive;
   r.near_distance = path.near_distance, r.far_distance = path.far_distance;
-  r.wall = a.sphere.outer, r.from = a.sphere.outer * IntOf<F>(4) + select(path.behind, IntOf<F>(1), IntOf<F>(0));
   r.pdf = path.spread / max(cosine, F(1e-30f)) * a.at.pdf * a.probability;
   r.throughput = F(1.0f), r.count = F(1.0f), r.optical_depth = F(0.0f);
+  return r;
+}
+
+template <class F>
+TYNDALL_INLINE SpecularRays<F> rays_off_mirror(const SpecularQuery<F>& a, Vec3<F> point) {
+  const MirrorPath<F> path = mirror_path(a.mirror, point, a.at.point);
+  SpecularRays<F> r = rays_by_faces(a, path);
+  r.wall = a.sphere.outer, r.from = a.sphere.outer * IntOf<F>(4) + select(path.behind, IntOf<F>(1), IntOf<F>(0));
   return r;
 }
 
@@ -129,15 +136,13 @@ template <class F>
 TYNDALL_INLINE SpecularRays<F> rays_through_slab(const SpecularQuery<F>& a, Vec3<F> point) {
   const SlabFrame<F> s = slab_frame(a.slab, point, a.at.point, a.slab_path.sequence.across);
   const SlabPath<F> path = slab_path(a.slab, s, a.slab_path.sequence);
-  const IntOf<F> lower = a.slab.element + a.slab_path.sequence.across + a.slab_path.sequence.across, one = IntOf<F>(1);
-  const IntOf<F> last = select(less(F(0.0f), s.far.height), lower + one, lower);
-  const F cosine = light_cosine(a.light_columns, a.at.normal, path.arrive);
-  SpecularRays<F> r;
-  r.found = path.found, r.direction = path.direction, r.arrive = path.arrive;
-  r.near_distance = path.near_distance, r.far_distance = path.far_distance;
-  r.wall = select(less(F(0.0f), s.near.height), lower + one, lower), r.from = last * IntOf<F>(4);
-  r.pdf = path.spread / max(cosine, F(1e-30f)) * a.at.pdf * a.probability;
-  r.throughput = path.throughput, r.count = F(1.0f) / max(a.slab_path.probability, F(1e-30f)),
+  // The two faces across one edge are elements that follow each other, the lower one first.
+  const IntOf<F> lower = a.slab.element + a.slab_path.sequence.across + a.slab_path.sequence.across;
+  const IntOf<F> upper = lower + IntOf<F>(1);
+  SpecularRays<F> r = rays_by_faces(a, path);
+  r.wall = select(less(F(0.0f), s.near.height), upper, lower);
+  r.from = select(less(F(0.0f), s.far.height), upper, lower) * IntOf<F>(4);
+  r.throughput = path.throughput, r.count = F(1.0f) / max(a.slab_path.probability, F(1e-30f));
   r.optical_depth = a.slab.medium_density * path.within;
   return r;
 }

@@ -34,6 +34,22 @@ struct StepResult {
   MaskOf<F> cut;        ///< max_depth ended their paths
 };
 
+/// Direct light: one light and one shadow ray, and requests for the light of specular and guided paths.
+template <class F>
+TYNDALL_INLINE void add_direct_light(const auto& s, Paths<F>& p, Event<F>& e, MaskOf<F> scattering, auto& samples,
+                                     WaitingRequests<F>& waiting, auto& recorder, std::uint32_t& shadow_rays) {
+  if (s.light_sampling && any(scattering)) {
+    const LightQuery<F> query{choose_light_or_sky(s, e.point, p.sampler.next_1d(dimension::light_choice)),
+                              p.sampler.next_2d(dimension::light_point), p.flight, false};
+    Vec3<F> light = direct_light(s, p, e, scattering, query, shadow_rays);
+    if (s.has_guide()) light = weigh_beside_guide(s, p, e, light);
+    p.radiance = p.radiance + light;
+  }
+  if (s.has_specular_paths())
+    request_specular_paths(s, p, e, scattering, samples.slot_of(p), waiting.specular, recorder, shadow_rays);
+  if (s.has_guide()) request_guided_light(s, p, e, scattering, samples.slot_of(p), waiting, recorder, shadow_rays);
+}
+
 /// Takes the paths in `active` one step further: to the next surface, the next event in a medium, or out of the scene.
 /// Lanes that end have their whole sample in p.radiance, except for the requests still in `waiting`.
 ///
@@ -80,17 +96,7 @@ TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, 
   const auto cut = mask_and(useful, deep), scattering = mask_and_not(useful, deep);
   auto exempt = samples.on_scatter(s, p, e, scattering);
 
-  // ---- direct light: one light and one shadow ray, and specular paths
-  if (s.light_sampling && any(scattering)) {
-    const LightQuery<F> query{choose_light_or_sky(s, e.point, p.sampler.next_1d(dimension::light_choice)),
-                              p.sampler.next_2d(dimension::light_point), p.flight, false};
-    Vec3<F> light = direct_light(s, p, e, scattering, query, shadow_rays);
-    if (s.has_guide()) light = weigh_beside_guide(s, p, e, light);
-    p.radiance = p.radiance + light;
-  }
-  if (s.has_specular_paths())
-    request_specular_paths(s, p, e, scattering, samples.slot_of(p), waiting.specular, recorder, shadow_rays);
-  if (s.has_guide()) request_guided_light(s, p, e, scattering, samples.slot_of(p), waiting, recorder, shadow_rays);
+  add_direct_light(s, p, e, scattering, samples, waiting, recorder, shadow_rays);
 
   // ---- sample the BSDF or the phase function
   F weight;
