@@ -158,13 +158,13 @@ APP = [
     ("the down key goes up in the palette", "app/window/menus/menu.cpp", "mark_ += «key == key_down → key != key_down» ? 1 : -1;", "app/window/menus/palette"),
 
     ("a rectangle without its last column and row", "app/window/inspector/drawings.cpp",
-     "«std::ceil(std::max(a, b) * static_cast<float>(size) - rounding) → std::floor(std::max(a, b) * static_cast<float>(size) - rounding)»", "app/window/inspector/inspector"),
+     "«std::ceil(at * size - rounding) → std::floor(at * size - rounding)»", "app/window/inspector/inspector"),
     ("rejected samples are not told of", "app/window/inspector/inspector.cpp", "(«report.rejected > 0 → false» ? fmt::format", "app/window/inspector/inspector"),
     ("the last stop of a long path is left out", "app/window/inspector/inspector.cpp", "k >= max_told - 1 && «k + 1 < stops.size() → true»;", "app/window/inspector/inspector"),
     ("a legend in hundredths of a percent", "app/window/inspector/drawings.cpp",
      "grey_bar(\"estimated relative error\", «100 * white → white», \" %\")", "app/window/inspector/inspector"),
     ("a click is a rectangle", "app/window/inspector/drawings.cpp",
-     "«if (std::abs(from.x - to_.x) * image.width() < 3 || std::abs(from.y - to_.y) * image.height() < 3) return Region{}; → »", "app/window/inspector/inspector"),
+     "«if (b.x - a.x < 3 || b.y - a.y < 3) return Region{}; → »", "app/window/inspector/inspector"),
 
     ("a split view shows the picture of before", "app/window/session.cpp", "«if (split) ++wanted.restarts; → »", "app/window/session_accuracy app/window/session_picture"),
     ("a picture pauses again after Space", "app/window/session.cpp", "«frame.edit == limited_edit_ → false» || wanted.paused) return;", "app/window/window_files"),

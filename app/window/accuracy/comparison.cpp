@@ -13,6 +13,8 @@
 #include "core/scene/scene.h"
 #include "core/system/process.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <exception>
 #include <numeric>
@@ -42,8 +44,6 @@ bool has_picture(const Frame& frame) { return frame.spp > 0 && (frame.view == Vi
 
 namespace fs = std::filesystem;
 
-std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
-
 /// The scene inside an image that Tyndall made, with the paths of its textures as the document would write them;
 /// nothing where there is none.
 std::optional<Scene> scene_in(const fs::path& file, const Document& document) {
@@ -66,13 +66,6 @@ Scene without_method(Scene scene) {
   scene.display = {};
   scene.name.clear();
   return scene;
-}
-
-/// Throws UsageError unless the sizes are equal.
-void check_size(const std::string& name, const LinearImage& image, const Scene& scene) {
-  if (image.width == scene.width && image.height == scene.height) return;
-  throw UsageError(name + ": found " + size_text(image.width, image.height) + " pixels, expected " +
-                   size_text(scene.width, scene.height) + " as the picture has");
 }
 
 }  // namespace
@@ -112,7 +105,10 @@ Reference read_reference(const fs::path& name, const Document& document) {
   PictureFile picture = read_whole_picture(name);
   Reference reference{std::move(picture.image), 0, name.filename().string(), document.scene};
   reference.remarks = std::move(picture.remarks);
-  check_size(name.string(), reference.image, document.scene);
+  const LinearImage& image = reference.image;
+  if (image.width != document.scene.width || image.height != document.scene.height)
+    throw UsageError(fmt::format("{}: found {}x{} pixels, expected {}x{} as the picture has", name.string(),
+                                 image.width, image.height, document.scene.width, document.scene.height));
   check_finite(name, reference.image);
   if (picture.bits < 32) reference.about += " (" + std::to_string(picture.bits) + " bit)";
   const auto [file, layer] = picture_name(name);

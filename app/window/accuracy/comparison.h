@@ -98,19 +98,14 @@ ComparisonResult compare(const ComparisonOrder& order);
 
 /// Limits work that comes again and again to a fraction of the processors' time: the more it took, the later it is due
 /// again. Times are seconds of one clock.
-class ProcessorBudget {
- public:
-  ProcessorBudget(double fraction) : fraction_(fraction) {}
-  bool due(double now) const { return now >= next_; }
-  /// Work that began at the time `start` took `cpu_seconds` of one of `processors`.
-  void spent(double start, double cpu_seconds, int processors) {
-    next_ = start + cpu_seconds / (fraction_ * processors);
-  }
-  /// Makes the work due at once, because the user waits for it.
-  void renew() { next_ = 0; }
+struct ProcessorBudget {
+  double fraction, next = 0;
 
- private:
-  double fraction_, next_ = 0;
+  bool due(double now) const { return now >= next; }
+  /// Work that began at the time `start` took `cpu_seconds` of one of `processors`.
+  void spent(double start, double cpu_seconds, int processors) { next = start + cpu_seconds / (fraction * processors); }
+  /// Makes the work due at once, because the user waits for it.
+  void renew() { next = 0; }
 };
 
 }  // namespace tyndall

@@ -65,18 +65,19 @@ std::optional<ScreenPicture> make(const std::string& scene, const fs::path& fold
   }
 }
 
-/// $XDG_CACHE_HOME/tyndall/thumbnails, else ~/.cache/tyndall/thumbnails; empty where neither variable is an absolute
-/// path.
-fs::path thumbnails_folder() {
-  const fs::path cache = user_folder("XDG_CACHE_HOME", ".cache");
-  return cache.empty() ? cache : cache / "tyndall" / "thumbnails";
-}
+/// The place in one of the user's folders; empty where there is no such folder.
+fs::path within(const fs::path& folder, const char* place) { return folder.empty() ? folder : folder / place; }
 
-/// $XDG_STATE_HOME/tyndall/recent.txt, else ~/.local/state/tyndall/recent.txt; empty where neither variable is an
-/// absolute path.
-fs::path recent_files_list() {
-  const fs::path folder = state_folder();
-  return folder.empty() ? folder : folder / "recent.txt";
+/// Makes the folder of a file and writes it, where that can be done.
+template <class Write>
+void try_to_write(const fs::path& file, const Write& write) {
+  std::error_code ignored;
+  fs::create_directories(file.parent_path(), ignored);
+  try {
+    write();
+  } catch (const std::exception&) {
+    return;  // what was there before stays, and all goes on without
+  }
 }
 
 }  // namespace
@@ -102,13 +103,7 @@ std::optional<ScreenPicture> read_thumbnail(const fs::path& file) {
 }
 
 void write_thumbnail(const fs::path& file, const ScreenPicture& picture) {
-  std::error_code ignored;
-  fs::create_directories(file.parent_path(), ignored);
-  try {
-    write_png(file, light_of(picture), 0, ToneMap::srgb, {});
-  } catch (const std::exception&) {
-    return;  // it will be made again
-  }
+  try_to_write(file, [&] { write_png(file, light_of(picture), 0, ToneMap::srgb, {}); });
 }
 
 void Thumbnails::want(std::vector<std::string> scenes) {
@@ -123,17 +118,15 @@ void Thumbnails::begin_next() {
       lower_priority(15);
       auto picture = make(scene, folder_, [this] { return !closing_; });
       if (!picture) return {};
-      return [this, scene, made = std::move(*picture)] { came_[scene] = made; };
+      return [this, scene, made = std::move(*picture)] { take_(scene, made); };
     });
   }
 }
 
-bool Thumbnails::collect(const std::function<void(const std::string& scene, const ScreenPicture& picture)>& take) {
+bool Thumbnails::collect() {
   if (!jobs_.collect()) return false;
-  const auto came = std::exchange(came_, {});
-  for (const auto& [scene, picture] : came) take(scene, picture);
   begin_next();
-  return !came.empty();
+  return true;
 }
 
 std::vector<fs::path> read_recent_files(const fs::path& list) {
@@ -150,31 +143,26 @@ std::vector<fs::path> read_recent_files(const fs::path& list) {
 
 void add_recent_file(const fs::path& list, const fs::path& file) {
   if (list.empty() || !file.is_absolute() || file.string().find('\n') != std::string::npos) return;
-  std::error_code ignored;
   std::vector<fs::path> files = read_recent_files(list);
   std::erase(files, file);
   files.insert(files.begin(), file);
   files.resize(std::min(files.size(), max_recent_files));
   std::string text;
   for (const fs::path& one : files) text += one.string() + "\n";
-  fs::create_directories(list.parent_path(), ignored);
-  try {
-    write_text_file(list, text);
-  } catch (const std::exception&) {
-    return;  // the list then stays as it is
-  }
+  try_to_write(list, [&] { write_text_file(list, text); });
 }
 
 Gallery::Gallery(const std::function<void()>& wake)
-    : thumbnails(thumbnails_folder(), wake), list_(recent_files_list()), recent_(read_recent_files(list_)) {}
-
-bool Gallery::collect() {
-  return thumbnails.collect([this](const std::string& scene, const ScreenPicture& picture) {
-    const bool any = !picture.rgb.empty();
-    pictures_[scene] =
-        any ? std::make_unique<const PictureTexture>(picture.width, picture.height, picture.rgb) : nullptr;
-  });
-}
+    : thumbnails(
+          within(user_folder("XDG_CACHE_HOME", ".cache"), "tyndall/thumbnails"),
+          [this](const std::string& scene, const ScreenPicture& picture) {
+            const bool any = !picture.rgb.empty();
+            pictures_[scene] =
+                any ? std::make_unique<const PictureTexture>(picture.width, picture.height, picture.rgb) : nullptr;
+          },
+          wake),
+      list_(within(state_folder(), "recent.txt")),
+      recent_(read_recent_files(list_)) {}
 
 void Gallery::note_file(const std::filesystem::path& file) {
   add_recent_file(list_, file);

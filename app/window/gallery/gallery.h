@@ -31,17 +31,20 @@ void write_thumbnail(const std::filesystem::path& file, const ScreenPicture& pic
 /// the main thread.
 class Thumbnails {
  public:
-  /// folder: of the cache; empty: nothing is kept. wake: collect() has something to do; called from any thread.
-  Thumbnails(std::filesystem::path folder, const std::function<void()>& wake)
-      : folder_(std::move(folder)), jobs_(wake) {}
+  /// Gets a picture that has come; an empty one where the scene has none, because it cannot be read.
+  using Take = std::function<void(const std::string& scene, const ScreenPicture& picture)>;
+
+  /// folder: of the cache; empty: nothing is kept. take: called by collect(). wake: collect() has something to do;
+  /// called from any thread.
+  Thumbnails(std::filesystem::path folder, Take take, const std::function<void()>& wake)
+      : folder_(std::move(folder)), take_(std::move(take)), jobs_(wake) {}
   ~Thumbnails() { closing_ = true; }
 
   /// The scenes whose pictures are to be seen now, by what load_scene takes: the first that has none is made next.
   /// Takes the place of what was wanted before.
   void want(std::vector<std::string> scenes);
-  /// Calls `take` for each picture that has come; an empty one where a scene has none, because it cannot be read.
-  /// Whether there were any.
-  bool collect(const std::function<void(const std::string& scene, const ScreenPicture& picture)>& take);
+  /// Takes what has come. Whether there was anything.
+  bool collect();
   /// The scene's file has changed: its picture is made again when it is wanted.
   void forget(const std::string& scene) { known_.erase(scene); }
   /// Whether nothing is being made.
@@ -51,9 +54,9 @@ class Thumbnails {
   void begin_next();
 
   std::filesystem::path folder_;
+  Take take_;
   std::vector<std::string> wanted_;
   std::set<std::string> known_;  ///< made, or being made
-  std::map<std::string, ScreenPicture> came_;
   std::atomic<bool> closing_ = false;
   JobQueue jobs_;  // last: its jobs use the others
 };
@@ -81,7 +84,7 @@ class Gallery {
   const std::vector<std::filesystem::path>& recent() const { return recent_; }
 
   /// Takes what the background has made. Whether anything is new.
-  bool collect();
+  bool collect() { return thumbnails.collect(); }
   /// A scene was opened or saved: its file goes to the head of the recent ones, and its picture is made anew.
   void note_file(const std::filesystem::path& file);
 

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace tyndall {
 namespace {
@@ -39,6 +38,11 @@ Legend legend_of_stops() {
   for (int stop = darkest_stop; stop <= brightest_stop; ++stop) legend.numbers.push_back(fmt::format("{:+}", stop));
   legend.numbers[static_cast<std::size_t>(-darkest_stop)] = "0";
   return legend;
+}
+
+/// The upper left and the lower right corner of a rectangle that was drawn from one point to another.
+ImageLine corners(ImagePoint from, ImagePoint to) {
+  return {{std::min(from.x, to.x), std::min(from.y, to.y)}, {std::max(from.x, to.x), std::max(from.y, to.y)}};
 }
 
 }  // namespace
@@ -105,44 +109,36 @@ bool RectangleTool::cancel() {
 
 std::optional<Region> RectangleTool::update(const Mouse& mouse, const Rect& image, bool free, int width, int height) {
   if (image.width() <= 0 || image.height() <= 0) return {};
-  const auto relative = [&](float x, float y) {
-    return RelativePoint{std::clamp((x - image.x0) / image.width(), 0.0f, 1.0f),
-                         std::clamp((y - image.y0) / image.height(), 0.0f, 1.0f)};
+  const auto inside = [&](float x, float y) {
+    return ImagePoint{std::clamp((x - image.x0) / image.width(), 0.0f, 1.0f),
+                      std::clamp((y - image.y0) / image.height(), 0.0f, 1.0f)};
   };
   if (waits_ && free && mouse.clicked[0]) {
-    from_ = relative(mouse.pressed_x[0], mouse.pressed_y[0]);
+    from_ = inside(mouse.pressed_x[0], mouse.pressed_y[0]);
     waits_ = false;
   }
   if (!from_) return {};
-  to_ = relative(mouse.x, mouse.y);
+  to_ = inside(mouse.x, mouse.y);
   if (mouse.down[0]) return {};
-  constexpr float rounding = 0.01f;  // of a pixel
-  const auto low = [](float a, float b, int size) {
-    return static_cast<int>(std::floor(std::min(a, b) * static_cast<float>(size) + rounding));
-  };
-  const auto high = [](float a, float b, int size) {
-    return static_cast<int>(std::ceil(std::max(a, b) * static_cast<float>(size) - rounding));
-  };
-  const RelativePoint from = *std::exchange(from_, std::nullopt);
-  if (std::abs(from.x - to_.x) * image.width() < 3 || std::abs(from.y - to_.y) * image.height() < 3) return Region{};
-  return Region{low(from.x, to_.x, width), low(from.y, to_.y, height), high(from.x, to_.x, width),
-                high(from.y, to_.y, height)};
+  const auto [low, high] = corners(*from_, to_);
+  from_.reset();
+  const ImVec2 a = in_window(image, low), b = in_window(image, high);
+  if (b.x - a.x < 3 || b.y - a.y < 3) return Region{};
+  constexpr double rounding = 0.01;  // of a pixel
+  const auto first = [](double at, int size) { return static_cast<int>(std::floor(at * size + rounding)); };
+  const auto last = [](double at, int size) { return static_cast<int>(std::ceil(at * size - rounding)); };
+  return Region{first(low.x, width), first(low.y, height), last(high.x, width), last(high.y, height)};
 }
 
 void RectangleTool::draw(Ui& ui, const Rect& image, const Rect& visible, const Region& region, int width, int height,
                          const std::string& text) const {
-  RelativePoint low{static_cast<float>(region.x0) / static_cast<float>(width),
-                    static_cast<float>(region.y0) / static_cast<float>(height)};
-  RelativePoint high{static_cast<float>(region.x1) / static_cast<float>(width),
-                     static_cast<float>(region.y1) / static_cast<float>(height)};
-  if (from_) {
-    low = {std::min(from_->x, to_.x), std::min(from_->y, to_.y)};
-    high = {std::max(from_->x, to_.x), std::max(from_->y, to_.y)};
-  }
+  const ImageLine of_region{{1.0 * region.x0 / width, 1.0 * region.y0 / height},
+                            {1.0 * region.x1 / width, 1.0 * region.y1 / height}};
+  const auto [low, high] = from_ ? corners(*from_, to_) : of_region;
   if (high.x <= low.x || image.width() <= 0) return;
   const float s = ui.scale;
-  const Rect rect{image.x0 + low.x * image.width(), image.y0 + low.y * image.height(),
-                  image.x0 + high.x * image.width(), image.y0 + high.y * image.height()};
+  const ImVec2 a = in_window(image, low), b = in_window(image, high);
+  const Rect rect{a.x, a.y, b.x, b.y};
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   draw.PushClipRect({visible.x0, visible.y0}, {visible.x1, visible.y1}, true);
   draw.AddRect({rect.x0 - s, rect.y0 - s}, {rect.x1 + s, rect.y1 + s}, shade(palette::ink, 0.7f), 0, 0, 3 * s);

@@ -49,13 +49,9 @@ class RectangleTool {
             const std::string& text) const;
 
  private:
-  /// A point of the picture, as fractions of it.
-  struct RelativePoint {
-    float x = 0, y = 0;
-  };
   bool waits_ = false;
-  std::optional<RelativePoint> from_;
-  RelativePoint to_;
+  std::optional<ImagePoint> from_;
+  ImagePoint to_;
 };
 
 }  // namespace tyndall

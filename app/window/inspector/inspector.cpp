@@ -42,6 +42,13 @@ std::string value_of_view(const Frame& frame, std::size_t pixel) {
   return frame.view == View::cost ? fmt::format("cost     {:.3g} rays a path", value) : "";
 }
 
+SeenThing seen_thing(const Scene& scene, const Renderer::Pick& pick) {
+  const Object* object = find_object(scene, pick.object);
+  if (!object) return {};
+  const Material* material = material_of(scene, *object);
+  return {title_of(scene, pick.object), material ? material->name : "", pick.depth};
+}
+
 constexpr std::uint32_t max_followed = 4096;  // samples of a pixel
 constexpr double longest_search = 0.5;        // seconds
 
@@ -214,21 +221,6 @@ bool Inspector::collect(const RendererPair& renderers) {
   return std::exchange(report_, report) != report || found;
 }
 
-/// Finds out what is seen at the pixel, once for each pixel and edit.
-void Inspector::look(const Scene& scene, const RendererPair& renderers) {
-  const std::pair<int, int> pixel{at_->x, at_->y};
-  const std::uint64_t edit = renderers.edit(Half::current);
-  if (pixel == seen_at_ && edit == seen_edit_) return;
-  seen_at_ = pixel, seen_edit_ = edit;
-  seen_ = {};
-  const Renderer::Pick pick = renderers.pick(pixel.first, pixel.second);
-  const Object* object = find_object(scene, pick.object);
-  if (pick.object.empty() || !object) return;
-  seen_.object = title_of(scene, pick.object);
-  if (const Material* material = material_of(scene, *object)) seen_.material = material->name;
-  seen_.depth = pick.depth;
-}
-
 void Inspector::draw(Ui& ui, const Context& context, const Scene& scene, const RendererPair& renderers) {
   const Scene* sent = context.wanted.scene.get();
   if (path_ && sent && path_->checked != renderers.edit(Half::current)) {
@@ -239,10 +231,9 @@ void Inspector::draw(Ui& ui, const Context& context, const Scene& scene, const R
   PixelReadout model;
   const bool pixel = on_ && at_ && context.frame;
   if (pixel) {
-    look(scene, renderers);
     const bool known = report_ && report_->x == at_->x && report_->y == at_->y;
-    model =
-        pixel_readout(*context.frame, known ? *report_ : PixelReport{.x = at_->x, .y = at_->y}, seen_, scene.display);
+    model = pixel_readout(*context.frame, known ? *report_ : PixelReport{.x = at_->x, .y = at_->y},
+                          seen_thing(scene, renderers.pick(at_->x, at_->y)), scene.display);
   }
   std::vector<std::string> lines = model.lines;
   if (path_) {

@@ -75,14 +75,10 @@ class Inspector {
     Vec3d eye;
     std::vector<PathStop> stops;
   };
-  void look(const Scene& scene, const RendererPair& renderers);
 
   bool on_ = false;
   std::optional<PictureClick> at_;
   std::shared_ptr<const PixelReport> report_;
-  SeenThing seen_;
-  std::pair<int, int> seen_at_{-1, -1};  ///< the pixel of seen_, and the edit
-  std::uint64_t seen_edit_ = 0;
   std::shared_ptr<Shown> path_;
   std::uint64_t wanted_ = 0;  ///< number of the newest search
   JobQueue jobs_;             // last: its results use the others

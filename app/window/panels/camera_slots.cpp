@@ -59,8 +59,8 @@ std::optional<std::size_t> next_slot(const CameraSlots& slots, const Camera& cam
   return 0;
 }
 
-SlotWish camera_slots_row(Ui& ui, CameraSlots& slots, const Camera& now) {
-  SlotWish wish;
+std::optional<Camera> camera_slots_row(Ui& ui, CameraSlots& slots, const Camera& now) {
+  std::optional<Camera> recalled;
   std::optional<std::size_t> forgotten;
   const char* help = "cameras that you put aside; they last as long as the window";
   const Row row{"slots", "Cameras", {}, {}, "", help, "", "stored cameras, camera slots"};
@@ -70,14 +70,14 @@ SlotWish camera_slots_row(Ui& ui, CameraSlots& slots, const Camera& now) {
     if (k % 4 != 0) ImGui::SameLine(0, 4 * ui.scale);
     if (k % 4 == 0 && k > 0) ImGui::SetCursorPosX(left);
     bool right = false;
-    if (slot_button(ui, slots[k], k, slots[k].camera == now, right)) wish.recall = k;
+    if (slot_button(ui, slots[k], k, slots[k].camera == now, right)) recalled = slots[k].camera;
     if (right) forgotten = k;
   }
   if (!slots.empty()) ImGui::SetCursorPosX(left);
-  wish.store = small_button(ui, "store", "Store this camera");
+  if (small_button(ui, "store", "Store this camera")) ui.requests.push_back({"store the camera"});
   end_row(ui, row);
   if (forgotten) slots.erase(slots.begin() + static_cast<std::ptrdiff_t>(*forgotten));
-  return wish;
+  return recalled;
 }
 
 }  // namespace tyndall

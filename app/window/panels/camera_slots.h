@@ -28,13 +28,8 @@ void store_camera(CameraSlots& slots, const Camera& camera, const Frame* frame, 
 /// The slot that follows the one with this camera, the first one for a camera that is in none; nothing without slots.
 std::optional<std::size_t> next_slot(const CameraSlots& slots, const Camera& camera);
 
-/// What the row wants.
-struct SlotWish {
-  std::optional<std::size_t> recall;  ///< look through this one
-  bool store = false;                 ///< put the present camera aside
-};
-/// Small pictures side by side: a click looks through that camera, a right click forgets it; and a button that stores
-/// the present one.
-SlotWish camera_slots_row(Ui& ui, CameraSlots& slots, const Camera& now);
+/// Small pictures side by side: a click looks through that camera, which is returned then, a right click forgets it;
+/// and a button that asks for the present one to be stored.
+std::optional<Camera> camera_slots_row(Ui& ui, CameraSlots& slots, const Camera& now);
 
 }  // namespace tyndall

@@ -89,8 +89,8 @@ void texture_rows(Ui& ui, PanelState& state, const char* name, const auto& colou
   const TextureIndex* texture = std::get_if<TextureIndex>(&colour_in(*state.scene));
   if (!texture) return;
   int index = texture->index;
-  std::vector<std::string> names;
-  for (const Texture& one : state.scene->textures) names.push_back(printable(one.name));
+  std::vector<Choice> names;
+  for (const Texture& one : state.scene->textures) names.push_back({printable(one.name)});
   const Slot colour = colour_slot("", name, {});
   if (combo_row(ui, {name, colour.label, {}, {}, "", colour.help, "", colour.synonyms}, names, index))
     colour_in(state.scene.change()) = TextureIndex{index};
@@ -123,8 +123,8 @@ void material_rows(Ui& ui, PanelState& state, int index, bool brief) {
 void surface_rows(Ui& ui, PanelState& state, ObjectPath& path) {
   type_row(ui, state, path);
   int material = std::get<Solid3d>(find_object(*state.scene, path)->kind).material;
-  std::vector<std::string> names;
-  for (const Material& one : state.scene->materials) names.push_back(printable(one.name));
+  std::vector<Choice> names;
+  for (const Material& one : state.scene->materials) names.push_back({printable(one.name)});
   const int users = users_of(*state.scene, material);
   Row row = material_of_object;
   if (users > 1) row.meaning = "shared by " + std::to_string(users) + " objects: all of them change";

@@ -115,7 +115,7 @@ void request_row(Ui& ui, const Row& row, std::span<const Choice> choices, int ch
 }
 
 void size_row(Ui& ui, PanelState& state) {
-  static constexpr Choice choices[] = {{"file"}, {"window"}};
+  static const Choice choices[] = {{"file"}, {"window"}};
   const Frame* frame = state.now.frame.get();
   const std::string meaning = frame ? fmt::format("{} x {} pixels", frame->width, frame->height) : "";
   const char* help = "the picture has the size that the scene's file says, or as many pixels as the window shows";
@@ -124,7 +124,7 @@ void size_row(Ui& ui, PanelState& state) {
 }
 
 void split_row(Ui& ui, PanelState& state) {
-  static constexpr Choice choices[] = {{"off"}, {"on"}};
+  static const Choice choices[] = {{"off"}, {"on"}};
   const char* help = "A keeps these settings, B takes what you change; both get the same processor time";
   const std::string meaning = state.now.split ? "A keeps " + state.now.kept_method + "; above: B" : "";
   int chosen = state.now.split ? 1 : 0;
@@ -141,7 +141,7 @@ std::string clean_meaning(const PanelState& state) {
 }
 
 void clean_row(Ui& ui, PanelState& state) {
-  static constexpr Choice choices[] = {{"off"}, {"on"}, {"beside raw"}};
+  static const Choice choices[] = {{"off"}, {"on"}, {"beside raw"}};
   const char* help = "filters noise away where the samples show that it is noise: key N";
   const Row row{"clean", "Clean", {}, {}, "", help, clean_meaning(state), "clean view, filtered"};
   request_row(ui, row, choices, state.now.clean, "clean");
@@ -185,10 +185,8 @@ void camera_panel(Ui& ui, PanelState& state) {
     const bool hidden = plain_up && slot.name == std::string_view("vup") && !ui.rows && !is_sought(ui, slot.label);
     return slot.form == ValueForm::place && !hidden;
   });
-  CameraSlots& slots = state.cameras[state.now.origin->title];
-  const SlotWish wish = camera_slots_row(ui, slots, camera);
-  if (wish.recall) state.scene.change().camera = slots[*wish.recall].camera;
-  if (wish.store) store_camera(slots, camera, state.now.frame.get(), state.scene->display);
+  const auto recalled = camera_slots_row(ui, state.cameras[state.now.origin->title], camera);
+  if (recalled) state.scene.change().camera = *recalled;
 }
 
 void background_panel(Ui& ui, PanelState& state) {
@@ -246,15 +244,13 @@ void render_panel(Ui& ui, PanelState& state) {
 void window_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Window", "remembered")) return;
   const Scope scope(ui, "window");
-  static constexpr Choice themes[] = {{"dark"}, {"light"}};
+  static const Choice themes[] = {{"dark"}, {"light"}};
   int theme = static_cast<int>(state.look->theme);
   const char* help = "of panels and lines; the picture stays as it is";
   if (choice_row(ui, {"theme", "Theme", {}, {}, "", help, "", "colour scheme, color scheme"}, themes, theme))
     state.look->theme = static_cast<Theme>(theme);
-  std::vector<std::string> names;
   std::vector<Choice> sizes;
-  for (const double size : text_sizes) names.push_back(format_short(100 * size));
-  for (const std::string& name : names) sizes.push_back({name.c_str()});
+  for (const double size : text_sizes) sizes.push_back({format_short(100 * size)});
   int chosen =
       static_cast<int>(std::find(text_sizes.begin(), text_sizes.end(), state.look->text_size) - text_sizes.begin());
   const char* keys = "of all controls: Ctrl + and Ctrl -";

@@ -33,6 +33,20 @@ void draw_keyboard_frame(Ui& ui) {
                                       1.5f * s);
 }
 
+/// The text as one line, cut and with ".." at its end where it does not fit.
+std::string clipped(const std::string& whole, float width) {
+  std::string text = printable(whole);
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
+  const char *begin = text.c_str(), *rest = begin;
+  const float room = std::max(1.0f, width - ImGui::CalcTextSize("..").x);
+  ImGui::GetFont()->CalcTextSizeA(ImGui::GetFontSize(), room, 0, begin, begin + text.size(), &rest);
+  return text.substr(0, static_cast<std::size_t>(rest - begin)) + "..";
+}
+
+void clipped_text(const std::string& text, float width, Tone colour) {
+  ImGui::TextColored(colour, "%s", clipped(text, width).c_str());
+}
+
 }  // namespace
 
 void seek_row(Ui& ui, const RowPlace& place) { ui.sought = {place, 0}; }
@@ -51,18 +65,6 @@ bool is_sought(const Ui& ui, const std::string& label) {
   const RowPlace& place = ui.sought.place;
   return !place.part.empty() && place.part == ui.drawn.part && place.label == label;
 }
-
-/// The text as one line, cut and with ".." at its end where it does not fit.
-std::string clipped(const std::string& whole, float width) {
-  std::string text = printable(whole);
-  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
-  const char *begin = text.c_str(), *rest = begin;
-  const float room = std::max(1.0f, width - ImGui::CalcTextSize("..").x);
-  ImGui::GetFont()->CalcTextSizeA(ImGui::GetFontSize(), room, 0, begin, begin + text.size(), &rest);
-  return text.substr(0, static_cast<std::size_t>(rest - begin)) + "..";
-}
-
-void clipped_text(const std::string& text, float width) { ImGui::TextUnformatted(clipped(text, width).c_str()); }
 
 void clipped_text_at(const std::string& text, ImVec2 at, float width, Tone colour) {
   ImGui::GetWindowDrawList()->AddText(at, shade(colour), clipped(text, width).c_str());
@@ -83,10 +85,9 @@ void tooltip(Ui& ui, const std::string& text) {
   constexpr double delay = 0.5;
   if (text.empty() || !ImGui::IsItemHovered()) return;
   const ImGuiID id = ImGui::GetID(text.c_str());
-  if (ui.hovered.id != id) ui.hovered.since = ImGui::GetTime();
-  ui.hovered.id = id;
-  const double waited = ImGui::GetTime() - ui.hovered.since;
-  if (ImGui::IsMouseDown(0)) ui.hovered.since = ImGui::GetTime();
+  if (std::exchange(ui.hovered, id) != id) ui.hovered_since = ImGui::GetTime();
+  const double waited = ImGui::GetTime() - ui.hovered_since;
+  if (ImGui::IsMouseDown(0)) ui.hovered_since = ImGui::GetTime();
   if (waited < delay) {
     ui.wake_in = std::min(ui.wake_in, delay - waited);
     return;
@@ -108,20 +109,16 @@ void note(Ui& ui, const std::string& text, bool indent, Tone colour) {
   if (text.empty()) return;
   if (indent) ImGui::SetCursorPosX(label_column * ui.scale);
   compat::push_font(ui.fonts.small);
-  ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::PushTextWrapPos(right_edge());
-  ImGui::TextUnformatted(text.c_str());
+  ImGui::TextColored(colour, "%s", text.c_str());
   ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
   ImGui::PopFont();
 }
 
 void line_of_note(Ui& ui, const std::string& text, Tone colour) {
   const float top = ImGui::GetCursorPosY();
   compat::push_font(ui.fonts.small);
-  ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  clipped_text(text, right_edge() - ImGui::GetCursorPosX());
-  ImGui::PopStyleColor();
+  clipped_text(text, right_edge() - ImGui::GetCursorPosX(), colour);
   ImGui::PopFont();
   tooltip(ui, text);
   ImGui::SetCursorPosY(top + line_of_note_height(ui));
@@ -150,9 +147,7 @@ bool section(Ui& ui, const std::string& name, const std::string& note_text) {
   const ImVec2 after = ImGui::GetCursorPos();
   ImGui::SetCursorPos({at.x, at.y + 3 * ui.scale});
   compat::push_font(ui.fonts.strong);
-  ImGui::PushStyleColor(ImGuiCol_Text, open ? palette::text : palette::dim);
-  clipped_text(name, 0.6f * (right_edge() - at.x));
-  ImGui::PopStyleColor();
+  clipped_text(name, 0.6f * (right_edge() - at.x), open ? palette::text : palette::dim);
   ImGui::PopFont();
   compat::push_font(ui.fonts.small);
   const std::string shown = hovered ? (open ? "fold" : "unfold") : open ? note_text : "…";
@@ -170,7 +165,7 @@ void begin_row(Ui& ui, const Row& row) {
   if (ui.rows) ui.rows->push_back({ui.drawn.part, row.label, row.words, ui.drawn.label});
   ImGui::PushID(row.name.c_str());
   ImGui::AlignTextToFramePadding();
-  clipped_text(row.label, label_column * ui.scale - ImGui::GetCursorPosX() - 4 * ui.scale);
+  clipped_text(row.label, label_column * ui.scale - ImGui::GetCursorPosX() - 4 * ui.scale, palette::text);
   tooltip(ui, row.help);
   ImGui::SameLine(label_column * ui.scale);
 }
@@ -214,9 +209,7 @@ bool slider_row(Ui& ui, const Row& row, double& value) {
 void file_row(Ui& ui, Row row, const std::string& file) {
   row.help = file;
   begin_row(ui, row);
-  ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
-  clipped_text(file, value_width(ui));
-  ImGui::PopStyleColor();
+  clipped_text(file, value_width(ui), palette::dim);
   end_row(ui, row);
 }
 

@@ -65,12 +65,6 @@ struct SoughtRow {
   float top = 0;          ///< of the row while it is drawn
 };
 
-/// The control under the mouse, whose tooltip comes after a moment.
-struct HoveredItem {
-  ImGuiID id = 0;  ///< 0: none
-  double since = 0;
-};
-
 /// Which window the wheel scrolls.
 struct WheelOwner {
   ImGuiID owner = 0;  ///< that scrolled last; 0: none
@@ -111,7 +105,8 @@ struct Ui {
   double size = 10;      ///< of the scene: dragging a coordinate by 200 units of the design changes it by this much
   TextEdit edit;
   NumberDrag drag;
-  HoveredItem hovered;
+  ImGuiID hovered = 0;  ///< the control under the mouse, whose tooltip comes after a moment; 0: none
+  double hovered_since = 0;
   WheelOwner wheel;
   SoughtRow sought;
   RowPlace drawn;                         ///< the part of the column that is being drawn, and its section
@@ -161,16 +156,14 @@ bool vector_row(Ui& ui, const Row& row, Vec3d& value);
 bool colour_row(Ui& ui, const Row& row, Vec3d& value);
 /// One of the buttons of a choice.
 struct Choice {
-  const char* name;
+  std::string name;
   const char* missing = nullptr;  ///< not null: it cannot be chosen, and why
   const char* help = "";          ///< tooltip
 };
 /// Label and buttons side by side, one of them chosen; names are also the log's. In several lines if `columns` > 0 is
 /// less than their number. What is missing is grey and says why.
 bool choice_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& chosen, int columns = 0);
-/// Label and a list that drops down.
-bool combo_row(Ui& ui, const Row& row, std::span<const std::string> names, int& chosen);
-/// The same; what is missing is grey, says why, and cannot be chosen.
+/// Label and a list that drops down; what is missing is grey, says why, and cannot be chosen.
 bool combo_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& chosen);
 /// Label and a text to type. hint: shown grey where it is empty. begin: typing begins now.
 bool name_row(Ui& ui, const Row& row, const std::string& hint, bool begin, std::string& value);
@@ -184,9 +177,7 @@ void note(Ui& ui, const std::string& text, bool indent = true, Tone colour = pal
 void line_of_note(Ui& ui, const std::string& text, Tone colour);
 float line_of_note_height(const Ui& ui);
 
-/// The text, cut and with ".." at its end where it is wider than `width`; and the same drawn at a place of the window.
-std::string clipped(const std::string& text, float width);
-void clipped_text(const std::string& text, float width);
+/// The text at a place of the window, cut and with ".." at its end where it is wider than `width`.
 void clipped_text_at(const std::string& text, ImVec2 at, float width, Tone colour);
 
 /// A picture in the middle of a place of the window, as large as that allows.

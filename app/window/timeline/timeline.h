@@ -43,7 +43,6 @@ class Timeline {
 
  private:
   void draw_keys(Ui& ui, const Rect& track, const Animation& animation) const;
-  std::optional<int> drag_track(Ui& ui, const Rect& track, const Animation& animation);
 
   int frame_ = 0;
   bool playing_ = false;
