@@ -1,7 +1,7 @@
 #include "app/window/object_tools.h"
 
 #include "app/window/edit/material_edits.h"
-#include "app/window/inspector/drawings.h"
+#include "app/window/inspector/inspector.h"
 #include "app/window/tools/camera_control.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 #include "app/window/picture_tools.h"
 
 #include "app/window/accuracy/views.h"
-#include "app/window/inspector/drawings.h"
 #include "app/window/system/imgui_compat.h"
 
 #include <fmt/core.h>

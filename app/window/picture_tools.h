@@ -1,5 +1,4 @@
 #pragma once
-#include "app/window/inspector/drawings.h"
 #include "app/window/inspector/inspector.h"
 #include "app/window/panels/panels.h"
 #include "app/window/picture/display.h"

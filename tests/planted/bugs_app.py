@@ -98,8 +98,8 @@ APP = [
      "return «std::remainder(*to - *from, 360.0) → *to - *from»;", "app/window/handles/handle_drag"),
     ("objects in turned groups move elsewhere", "app/window/handles/handle_tool.cpp", "«rotate({-around.degrees, {}}, shift) → shift»", "app/window/handles/handle_drag"),
     ("an arrow hides the grip on it", "app/window/handles/handles.cpp", "«if (handle.kind == HandleKind::size) away -= 2 * scale; → »", "app/window/handles/handle_drag"),
-    ("a movement that is given up stays", "app/window/handles/handle_tool.cpp", "«if (gone) edited.change().objects = start_; → »", "app/window/handles/handle_tool"),
-    ("Backspace takes all that was typed", "app/window/handles/handle_tool.cpp", "«typed_.pop_back(); → typed_.clear();»", "app/window/handles/handle_tool"),
+    ("a movement that is given up stays", "app/window/handles/handle_tool.cpp", "«if (gone) edited.change().objects = running_->start; → »", "app/window/handles/handle_tool"),
+    ("Backspace takes all that was typed", "app/window/handles/handle_tool.cpp", "«running_->typing.pop_back(); → running_->typing.clear();»", "app/window/handles/handle_tool"),
 
     ("a recent file stands there twice", "app/window/gallery/gallery.cpp", "«std::erase(files, file); → »", "app/window/gallery/gallery"),
     ("recent files that are gone stay listed", "app/window/gallery/gallery.cpp", "&& «fs::is_regular_file(file, ignored) → true») files", "app/window/gallery/gallery"),

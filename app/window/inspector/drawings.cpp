@@ -1,8 +1,6 @@
-#include "app/window/inspector/drawings.h"
-
 #include "app/report/heat_map.h"
+#include "app/window/inspector/inspector.h"
 #include "app/window/picture/display.h"
-#include "app/window/system/imgui_compat.h"
 #include "core/image/tonemap.h"
 
 #include <fmt/core.h>
@@ -67,7 +65,7 @@ Legend legend_of(int view, double white) {
 void draw_legend(Ui& ui, const Rect& visible, const Legend& legend) {
   if (legend.title.empty() || visible.width() < 260 * ui.scale) return;
   const float s = ui.scale, pad = 10 * s, width = (legend.steps ? 390 : 240) * s, bar_height = 12 * s;
-  compat::push_font(ui.fonts.small);
+  const WithFont small(ui.fonts.small);
   const float line = ImGui::GetTextLineHeight(), height = 2 * line + bar_height + 2 * pad + 8 * s;
   const Rect box{visible.x1 - 14 * s - std::min(width, visible.width() - 28 * s), visible.y1 - 14 * s - height,
                  visible.x1 - 14 * s, visible.y1 - 14 * s};
@@ -96,7 +94,6 @@ void draw_legend(Ui& ui, const Rect& visible, const Legend& legend) {
     draw.AddText({at, y + bar_height + 3 * s}, shade(palette::dim), text.c_str());
     numbers += (k == 0 ? ": " : " ") + text;
   }
-  ImGui::PopFont();
   if (ui.log) ui.log->widget("legend", box, legend.title + numbers);
 }
 
@@ -144,12 +141,11 @@ void RectangleTool::draw(Ui& ui, const Rect& image, const Rect& visible, const R
   draw.AddRect({rect.x0 - s, rect.y0 - s}, {rect.x1 + s, rect.y1 + s}, shade(palette::ink, 0.7f), 0, 0, 3 * s);
   draw.AddRect({rect.x0, rect.y0}, {rect.x1, rect.y1}, shade(palette::amber), 0, 0, 1.5f * s);
   if (!from_ && !text.empty()) {
-    compat::push_font(ui.fonts.small);
+    const WithFont small(ui.fonts.small);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     const float x = std::max(rect.x0, visible.x0), y = std::max(rect.y0 - size.y - 6 * s, visible.y0);
     draw.AddRectFilled({x, y}, {x + size.x + 10 * s, y + size.y + 4 * s}, shade(palette::panel, 0.9f), 3 * s);
     draw.AddText({x + 5 * s, y + 2 * s}, shade(palette::text), text.c_str());
-    ImGui::PopFont();
   }
   draw.PopClipRect();
   if (ui.log) ui.log->widget("rectangle", rect, text);

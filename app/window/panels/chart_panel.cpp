@@ -1,5 +1,4 @@
 #include "app/window/panels/panels.h"
-#include "app/window/system/imgui_compat.h"
 
 #include <fmt/core.h>
 
@@ -146,12 +145,11 @@ void read_out(Ui& ui, const Plot& plot) {
   plot.draw->AddCircle(plot.at(p), 4.5f * ui.scale, shade(palette::text), 0, 1.5f * ui.scale);
   const std::string numbers = fmt::format("{:.2g} s, {} spp\nrelMSE {:.2g}, error {:.2g} %", p.seconds,
                                           format_count(p.spp), p.rel_mse, 100 * std::sqrt(p.rel_mse));
-  compat::push_font(ui.fonts.small);
+  const WithFont small(ui.fonts.small);
   ImGui::BeginTooltip();
   ImGui::TextUnformatted(line.name.c_str());
   ImGui::TextColored(palette::dim, "%s", numbers.c_str());
   ImGui::EndTooltip();
-  ImGui::PopFont();
   if (ui.log) ui.log->changed("reading", fmt::format("{}: {:.4g} s {:.4g}", line.name, p.seconds, p.rel_mse));
 }
 
@@ -161,7 +159,7 @@ void draw_chart(Ui& ui, const PanelState& state, ImVec2 size) {
   ImGui::InvisibleButton("chart", {std::max(size.x, 1.0f), std::max(size.y, 1.0f)});  // ImGui ends at nothing
   const LiveAccuracy& accuracy = *state.now.accuracy;
   log_item(ui, "chart", accuracy.curves(Half::current).current().method);
-  compat::push_font(ui.fonts.small);
+  const WithFont small(ui.fonts.small);
   const ImVec2 end{at.x + size.x, at.y + size.y};
   ImGui::GetWindowDrawList()->AddRectFilled(at, end, shade(palette::ink), 6 * s);
   std::vector<ChartLine> lines;
@@ -172,7 +170,6 @@ void draw_chart(Ui& ui, const PanelState& state, ImVec2 size) {
   draw_grid(plot);
   draw_lines(plot);
   ImGui::PopClipRect();
-  ImGui::PopFont();
   read_out(ui, plot);
 }
 

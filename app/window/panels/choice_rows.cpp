@@ -45,7 +45,7 @@ bool choice_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& ch
   const float space = 2 * ui.scale, left = ImGui::GetCursorPosX();
   const float width = (value_width(ui) - space * static_cast<float>(per_line - 1)) / static_cast<float>(per_line);
   bool changed = choose_by_keys(ui, choices, chosen);
-  compat::push_font(ui.fonts.small);
+  const WithFont small(ui.fonts.small);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {space, space});
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2 * ui.scale, 2 * ui.scale});
   for (int k = 0; k < count; ++k) {
@@ -55,7 +55,6 @@ bool choice_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& ch
     if (choice_button(ui, row, choices[static_cast<std::size_t>(k)], k == chosen, size)) chosen = k, changed = true;
   }
   ImGui::PopStyleVar(2);
-  ImGui::PopFont();
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().ItemSpacing.y - space);
   end_row(ui, row);
   return changed;

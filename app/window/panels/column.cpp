@@ -1,5 +1,4 @@
 #include "app/window/panels/panels.h"
-#include "app/window/system/imgui_compat.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +24,7 @@ bool is_shown(const PanelState& state, const Section& one) { return state.now.ha
 /// The row of tabs, and a button for all actions.
 void draw_tabs(Ui& ui, PanelState& state) {
   const float s = ui.scale, space = 2 * s;
-  compat::push_font(ui.fonts.small);
+  const WithFont small(ui.fonts.small);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2 * s, 4 * s});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {space, space});
   const auto has = [&state](const Section& one) { return one.is(has_tab) && is_shown(state, one); };
@@ -51,7 +50,6 @@ void draw_tabs(Ui& ui, PanelState& state) {
   ImGui::PopStyleColor();
   log_item(ui, "tab.actions", "button");
   ImGui::PopStyleVar(2);
-  ImGui::PopFont();
   tooltip(ui, "all actions and their keys: Ctrl + K");
 }
 

@@ -142,15 +142,6 @@ void follow_selection(PanelState& state, const std::vector<ObjectLine>& lines, f
   if (top < ImGui::GetScrollY() || top + line > ImGui::GetScrollY() + height) ImGui::SetScrollY(top - height / 2);
 }
 
-void search_row(Ui& ui, PanelState& state) {
-  char text[64] = {};
-  state.objects.search.copy(text, sizeof text - 1);
-  ImGui::SetNextItemWidth(-1);
-  if (ImGui::InputTextWithHint("##search", "search by name, kind or material", text, sizeof text))
-    state.objects.search = text;
-  log_item(ui, "search", state.objects.search);
-}
-
 constexpr float row_height = 46, picture_width = 64, picture_height = 40;  // units of the design
 
 /// A scene that can be opened.
@@ -186,9 +177,8 @@ bool scene_row(Ui& ui, PanelState& state, const SceneRow& row) {
   state.wanted_pictures.push_back(row.what);
   const float left = at.x + (picture_width + 10) * s;
   clipped_text_at(row.label, {left, at.y + 2 * s}, right - left, palette::text);
-  compat::push_font(ui.fonts.small);
+  const WithFont small(ui.fonts.small);
   clipped_text_at(row.line, {left, at.y + 22 * s}, right - left, palette::dim);
-  ImGui::PopFont();
   return pressed;
 }
 
@@ -233,7 +223,14 @@ void objects_panel(Ui& ui, PanelState& state) {
   ObjectPath path;
   add_lines(state, state.scene->objects, path, lines);
   const bool searches = leaves(*state.scene).size() >= searched || !state.objects.search.empty();
-  if (searches) search_row(ui, state);
+  if (searches) {
+    char text[64] = {};
+    state.objects.search.copy(text, sizeof text - 1);
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::InputTextWithHint("##search", "search by name, kind or material", text, sizeof text))
+      state.objects.search = text;
+    log_item(ui, "search", state.objects.search);
+  }
   const float line = ImGui::GetTextLineHeight() + 4 * ui.scale;
   list(
       ui, "objects", line, lines.size(), searches ? 8 : std::min<std::size_t>(lines.size(), 8),

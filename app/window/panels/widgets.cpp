@@ -96,30 +96,27 @@ void tooltip(Ui& ui, const std::string& text) {
   const float left = ImGui::GetWindowPos().x - 8 * ui.scale, width = std::min(300 * ui.scale, left - 30 * ui.scale);
   const bool beside = width > 100 * ui.scale;
   if (beside) ImGui::SetNextWindowPos({left, ImGui::GetItemRectMin().y}, ImGuiCond_Always, {1, 0});
-  compat::push_font(ui.fonts.small);
+  const WithFont small(ui.fonts.small);
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(beside ? width : 300 * ui.scale);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
-  ImGui::PopFont();
 }
 
 void note(Ui& ui, const std::string& text, bool indent, Tone colour) {
   if (text.empty()) return;
   if (indent) ImGui::SetCursorPosX(label_column * ui.scale);
-  compat::push_font(ui.fonts.small);
+  const WithFont small(ui.fonts.small);
   ImGui::PushTextWrapPos(right_edge());
   ImGui::TextColored(colour, "%s", text.c_str());
   ImGui::PopTextWrapPos();
-  ImGui::PopFont();
 }
 
 void line_of_note(Ui& ui, const std::string& text, Tone colour) {
   const float top = ImGui::GetCursorPosY();
-  compat::push_font(ui.fonts.small);
+  const WithFont small(ui.fonts.small);
   clipped_text(text, right_edge() - ImGui::GetCursorPosX(), colour);
-  ImGui::PopFont();
   tooltip(ui, text);
   ImGui::SetCursorPosY(top + line_of_note_height(ui));
 }
@@ -257,9 +254,8 @@ bool type_text(Ui& ui, const char* hint, float width) {
 bool popup_is_open() { return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup); }
 
 bool small_button(Ui& ui, const std::string& name, const std::string& label, float width) {
-  compat::push_font(ui.fonts.small);
+  const WithFont small(ui.fonts.small);
   const bool pressed = ImGui::Button((label + "##" + name).c_str(), {width, ImGui::GetFontSize() + 10 * ui.scale});
-  ImGui::PopFont();
   log_item(ui, name, "button");
   return pressed;
 }

@@ -1,11 +1,10 @@
 #pragma once
 #include "app/text/numbers.h"
 #include "app/window/picture/display.h"
+#include "app/window/system/imgui_compat.h"
 #include "app/window/system/style.h"
 #include "app/window/system/ui_log.h"
 #include "core/base/vec.h"
-
-#include <imgui.h>
 
 #include <functional>
 #include <optional>
@@ -136,6 +135,15 @@ class Scope {
  private:
   Ui& ui_;
   std::string before_;
+};
+
+/// Text has a font as long as it lives.
+class WithFont {
+ public:
+  explicit WithFont(ImFont* font) { compat::push_font(font); }
+  ~WithFont() { ImGui::PopFont(); }
+  WithFont(const WithFont&) = delete;
+  WithFont& operator=(const WithFont&) = delete;
 };
 
 /// Sends the column to a row, in this drawing and the next two.

@@ -67,6 +67,7 @@ class SmallRenders {
 struct VariedValue {
   Slot slot;
   std::vector<double> values{};
+  int marked = -1;  ///< the step that the scene has now; -1: none
 };
 
 inline constexpr int strip_columns = 9, strip_rows = 3;
@@ -114,7 +115,6 @@ class VariationStrip {
   bool draw_cell(Ui& ui, const Rect& cell, std::size_t index) const;
 
   std::vector<VariedValue> axes_;  ///< one or two; none: the strip is closed
-  std::vector<int> marked_;        ///< the step of each axis that the scene has now; -1: none
   std::vector<Cell> cells_;
   std::optional<Scene> base_;          ///< of the pictures, with the first step of each value
   std::uint64_t seen_changes_ = 0;     ///< Context::changes of the scene that was looked at last

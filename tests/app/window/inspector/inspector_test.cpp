@@ -1,6 +1,5 @@
 #include "app/window/inspector/inspector.h"
 #include "app/report/replay.h"
-#include "app/window/inspector/drawings.h"
 #include "core/compile/compile.h"
 #include "core/render/render.h"
 #include "core/scene/load.h"
@@ -62,7 +61,10 @@ TEST_CASE("the facts of a pixel: value, error, what is shown and seen") {
   const auto has = [](const PixelReadout& model, const std::string& line) {
     return std::find(model.lines.begin(), model.lines.end(), line) != model.lines.end();
   };
-  PixelReadout model = pixel_readout(frame, report, {"Ball", "gold", 3.25}, {});
+  Scene scene;
+  scene.materials = {{"gold", Vec3d{1, 1, 1}, Metal<>{}}};
+  scene.objects = {{"ball", Solid3d{Sphere<>{}, 0}, {}}};
+  const PixelReadout model = pixel_readout(frame, report, scene, {{0}, 3.25, {}});
   CHECK(has(model, "pixel    1, 1"));
   CHECK(has(model, "red      0.5      ± 0.05"));
   CHECK(has(model, "error    13 %"));
