@@ -18,7 +18,7 @@ constexpr double degrees_per_unit = 0.5;  // of the mouse, where the ring is see
 
 /// The grain that numbers get: of a point of the window, or of snapping.
 DragRounding drag_rounding_of(const PictureFrame& frame, const HandleDrag& drag) {
-  const double unit = frame.unit_at(drag.origin), height = static_cast<double>(frame.image.height());
+  const double unit = frame.unit_at(drag.origin), height = frame.image.height();
   DragRounding drag_rounding = drag.snap ? nice_below(unit * height / snaps_in_picture) : decimal_below(unit);
   if (drag.fine) --drag_rounding.exponent;
   return drag_rounding;
@@ -154,7 +154,7 @@ void HandleTool::clicked(const Scene& scene, const ObjectPath& object, Vec3d poi
 
 void HandleTool::grab(const Mouse& mouse, const ObjectPaths& selected, const Scene& scene) {
   if (selected.empty() || running_) return;
-  const WindowPoint at{static_cast<double>(mouse.x), static_cast<double>(mouse.y)};
+  const WindowPoint at{mouse.x, mouse.y};
   running_ = {
       {{}, selected, middle_of(scene, selected.front()), at, at, false, false, {}}, scene.objects, scene.materials};
   running_->grabbed = running_->moved = true;
@@ -195,8 +195,8 @@ void HandleTool::read_typed() {
 void HandleTool::follow_mouse(const Mouse& mouse, const PictureFrame& frame, EditedScene& edited) {
   const double fraction = mouse.shift ? fine_fraction : 1.0;
   HandleDrag& drag = running_->drag;
-  drag.to.x += fraction * static_cast<double>(mouse.dx);
-  drag.to.y += fraction * static_cast<double>(mouse.dy);
+  drag.to.x += fraction * mouse.dx;
+  drag.to.y += fraction * mouse.dy;
   drag.snap = mouse.control, drag.fine = mouse.shift;
   const double moved = std::hypot(drag.to.x - drag.from.x, drag.to.y - drag.from.y);
   running_->moved = running_->moved || drag.typed || moved > click_distance * frame.scale;
@@ -208,11 +208,11 @@ void HandleTool::follow_mouse(const Mouse& mouse, const PictureFrame& frame, Edi
 }
 
 bool HandleTool::begin(const Mouse& mouse, const PictureFrame& frame, const ObjectPaths& selected, const Scene& scene) {
-  const WindowPoint at{static_cast<double>(mouse.x), static_cast<double>(mouse.y)};
+  const WindowPoint at{mouse.x, mouse.y};
   const Vec3d from = origin(scene, frame, selected);
   hovered_ = handle_at(handles_of(scene, frame, selected, from), at, frame.scale);
   if (!hovered_ || !mouse.clicked[0]) return false;
-  const WindowPoint pressed{static_cast<double>(mouse.pressed_x[0]), static_cast<double>(mouse.pressed_y[0])};
+  const WindowPoint pressed{mouse.pressed_x[0], mouse.pressed_y[0]};
   running_ = {{*hovered_, selected, from, pressed, at, false, false, {}}, scene.objects, scene.materials};
   return true;
 }
@@ -220,7 +220,7 @@ bool HandleTool::begin(const Mouse& mouse, const PictureFrame& frame, const Obje
 bool HandleTool::update(const Mouse& mouse, const Layout& layout, float scale, bool free, const ObjectPaths& selected,
                         EditedScene& edited) {
   const Scene& scene = *edited;
-  const PictureFrame frame = frame_of(scene, layout.image, static_cast<double>(scale));
+  const PictureFrame frame = frame_of(scene, layout.image, scale);
   clicked_through_ = false;
   if (waits_for_release_) return waits_for_release_ = mouse.any_down();
   if (running_ && (scene.materials != running_->materials || scene.objects.size() != running_->start.size()))

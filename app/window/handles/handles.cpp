@@ -124,23 +124,20 @@ PictureFrame frame_of(const Scene& scene, const Rect& image, double scale) { ret
 std::optional<WindowPoint> PictureFrame::point(Vec3d p) const {
   const auto at = projection.point(p);
   if (!at) return {};
-  return WindowPoint{static_cast<double>(image.x0) + at->x * static_cast<double>(image.width()),
-                     static_cast<double>(image.y0) + at->y * static_cast<double>(image.height())};
+  return WindowPoint{image.x0 + at->x * image.width(), image.y0 + at->y * image.height()};
 }
 
 ViewRay PictureFrame::view_ray(WindowPoint at) const {
-  return projection.view_ray({(at.x - static_cast<double>(image.x0)) / static_cast<double>(image.width()),
-                              (at.y - static_cast<double>(image.y0)) / static_cast<double>(image.height())});
+  return projection.view_ray({(at.x - image.x0) / image.width(), (at.y - image.y0) / image.height()});
 }
 
 double PictureFrame::unit_at(Vec3d p) const {
   const double minimum = 1e-3 * target_distance(projection.camera());
-  return projection.height_at(std::max(projection.depth_of(p), minimum)) /
-         std::max(1.0, static_cast<double>(image.height()));
+  return projection.height_at(std::max(projection.depth_of(p), minimum)) / std::max(1.0f, image.height());
 }
 
 WindowPoint PictureFrame::seen_direction(Vec3d p, Vec3d direction) const {
-  const double step = 1e-3 * static_cast<double>(image.height());
+  const double step = 1e-3 * image.height();
   const auto from = point(p), to = point(p + (step * unit_at(p)) * direction);
   if (!from || !to) return {};
   return {(to->x - from->x) / step, (to->y - from->y) / step};

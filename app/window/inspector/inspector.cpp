@@ -152,8 +152,7 @@ PixelReadout pixel_readout(const Frame& frame, const PixelReport& report, const 
     if (clean_known && frame.view == View::beauty) {
       const float* clean = frame.clean->rgba.data() + 4 * pixel;
       light = {clean[0], clean[1], clean[2]};
-      lines.push_back(fmt::format("clean    {:.4g} {:.4g} {:.4g}", static_cast<double>(clean[0]),
-                                  static_cast<double>(clean[1]), static_cast<double>(clean[2])));
+      lines.push_back(fmt::format("clean    {:.4g} {:.4g} {:.4g}", light.x, light.y, light.z));
     }
     const std::vector<std::uint8_t> bytes =
         tone_map({light.x, light.y, light.z}, scene.display.exposure, scene.display.tone_map);
@@ -213,11 +212,9 @@ bool Inspector::collect(const RendererPair& renderers) {
 }
 
 void Inspector::draw(Ui& ui, const Context& context, const Scene& scene, const RendererPair& renderers) {
-  const Scene* sent = context.wanted.scene.get();
-  if (path_ && sent && path_->checked != renderers.edit(Half::current)) {
-    path_->checked = renderers.edit(Half::current);
-    if (change_between(*path_->scene, *sent).others) drop_path();  // the camera may look from elsewhere
-  }
+  const std::shared_ptr<const Scene>& sent = context.wanted.scene;
+  const bool other = path_ && sent && sent != path_->scene && change_between(*path_->scene, *sent).others;
+  if (other) drop_path();  // while only the camera looks from elsewhere it stays
   if (path_) draw_path(ui, scene, context.layout.image, context.visible, path_->eye, path_->stops);
   PixelReadout model;
   const bool pixel = on_ && at_ && context.frame;

@@ -106,7 +106,6 @@ class Inspector {
   /// A path that was found, as it is drawn.
   struct Shown {
     std::shared_ptr<const Scene> scene;  ///< in which it was followed
-    std::uint64_t checked = 0;           ///< newest edit for which it was found to hold
     NoisyPath found;
     Vec3d eye;
     std::vector<PathStop> stops;

@@ -209,10 +209,8 @@ float ChartAxes::x(double seconds) const {
 float ChartAxes::y(double rel_mse) const {
   return frame.y1 - static_cast<float>(errors.part_of(rel_mse)) * frame.height();
 }
-double ChartAxes::seconds(float x) const { return times.value_at(static_cast<double>((x - frame.x0) / frame.width())); }
-double ChartAxes::rel_mse(float y) const {
-  return errors.value_at(static_cast<double>((frame.y1 - y) / frame.height()));
-}
+double ChartAxes::seconds(float x) const { return times.value_at((x - frame.x0) / frame.width()); }
+double ChartAxes::rel_mse(float y) const { return errors.value_at((frame.y1 - y) / frame.height()); }
 
 std::optional<CurveReading> nearest_curve(std::span<const ErrorCurve* const> curves, const ChartAxes& axes, float x,
                                           float y, float reach) {

@@ -100,9 +100,8 @@ void draw_edge(Ui& ui, PanelState& state, const Rect& column) {
     log_item(ui, "column.edge", "edge");
     if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0, 1)) {
-      const double wanted = static_cast<double>((column.x1 - ImGui::GetIO().MousePos.x) / ui.scale);
-      state.look->column =
-          std::clamp(std::round(wanted), static_cast<double>(narrowest_column), static_cast<double>(widest_column));
+      const float wanted = std::round((column.x1 - ImGui::GetIO().MousePos.x) / ui.scale);
+      state.look->column = std::clamp(wanted, narrowest_column, widest_column);
     }
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) state.look->column = column_width;
   };
