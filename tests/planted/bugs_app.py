@@ -120,7 +120,7 @@ APP = [
     ("red alone tells what is white", "app/window/panels/histogram.cpp",
      "const std::uint8_t brightest = «std::max({shown[i], shown[i + 1], shown[i + 2]}) → shown[i]»;", "app/window/panels/histogram"),
     ("the first curve is the nearest", "app/window/panels/chart_panel.cpp", "if (!nearest || «distance < minimum → false») nearest", "app/window/panels/chart_plot"),
-    ("the next camera is the same one", "app/window/panels/camera_slots.cpp", "return («k + 1 → k») % slots.size();", "app/window/panels/camera_slots"),
+    ("the next camera is the same one", "app/window/gallery/gallery.cpp", "return («k + 1 → k») % slots.size();", "app/window/gallery/camera_slots"),
     ("what fog sends back is what it lets on", "app/window/panels/rows.cpp", "percent(«1 - forward → forward») + \" goes back\"", "app/window/panels/meaning"),
 
     ("the divider can hide a half", "app/window/rendering/picture_view.cpp", "image.width(), «0.02f → 0.0f», 0.98f);", "app/window/rendering/split_view"),

@@ -4,6 +4,7 @@
 #include "app/comparison/pair.h"
 #include "app/report/heat_map.h"
 #include "app/text/numbers.h"
+#include "app/window/picture/display.h"
 #include "core/accuracy/error.h"
 #include "core/accuracy/estimate.h"
 #include "core/accuracy/flip.h"
@@ -167,13 +168,6 @@ ReferenceFit fit_of(const Reference& reference, const Scene& scene) {
 
 std::vector<float> picture_of(const Frame& frame) {
   return rgb_of(frame.view == View::beauty ? frame.rgba : frame.beauty);
-}
-
-std::vector<float> rgb_of(const std::vector<float>& rgba) {
-  std::vector<float> rgb(rgba.size() / 4 * 3);
-  for (std::size_t from = 0, to = 0; from < rgba.size(); from += 4, to += 3)
-    for (std::size_t k = 0; k < 3; ++k) rgb[to + k] = rgba[from + k];
-  return rgb;
 }
 
 }  // namespace tyndall

@@ -60,8 +60,6 @@ ReferenceFit fit_of(const Reference& reference, const Scene& scene);
 
 /// Linear RGB, 3 floats a pixel, of a frame's picture; empty where the frame has none (a view's coarse pass).
 std::vector<float> picture_of(const Frame& frame);
-/// 3 of 4 floats a pixel.
-std::vector<float> rgb_of(const std::vector<float>& rgba);
 
 /// The halves of a split view: on the right `current`, the scene as it is edited; on the left `kept`, the same scene
 /// with the render settings that it had when the view was split. Without a split view all is `current`.

@@ -140,8 +140,7 @@ bool LiveAccuracy::collect() {
 bool LiveAccuracy::due(Measurement what, double now) const {
   if (!wanted(what)) return false;
   const ComparisonOrder order = order_of(what);
-  if (!can_compare(order)) return false;
-  if (id_of(order) == measured(what).newest) return false;
+  if (!can_compare(order) || id_of(order) == measured(what).newest) return false;
   if (resting_) return true;
   // FLIP takes a second and says little about the noise of the first samples: it waits for 16.
   if (what == Measurement::flip && (order.frame->spp < 16 || !has_grown(what, order, 2))) return false;

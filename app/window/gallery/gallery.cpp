@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 
 /// Small pictures are at most so large, in pixels, and have the proportions of the scene's image.
 constexpr int thumbnail_width = 128, thumbnail_height = 80;
+constexpr int slot_width = 96, slot_height = 60;  // those of cameras
 
 constexpr std::uint32_t samples = 64;
 constexpr double longest = 2;  // seconds
@@ -37,11 +38,8 @@ std::optional<ScreenPicture> render_thumbnail(const Scene& scene, const std::fun
   const double scale = std::min(thumbnail_width / width, thumbnail_height / height);
   const auto pixels = [scale](double size) { return std::max(1, static_cast<int>(std::lround(scale * size))); };
   small.width = pixels(width), small.height = pixels(height);
-  RenderOptions options;
-  options.threads = 1;
-  options.spp = samples;
-  options.time_limit = longest;
-  options.clean = true;
+  const RenderOptions options{
+      .threads = 1, .isa = "", .region = {}, .spp = samples, .time_limit = longest, .clean = true};
   const std::shared_ptr<const PreparedScene> prepared = prepare(small);
   const RenderResult result = render(*prepared, options, [&](const RenderProgress&) { return go_on(); });
   if (result.interrupted) return {};
@@ -78,6 +76,12 @@ void try_to_write(const fs::path& file, const Write& write) {
   } catch (const std::exception&) {
     return;  // what was there before stays, and all goes on without
   }
+}
+
+/// The picture as OpenGL holds it; null for an empty one.
+std::shared_ptr<const PictureTexture> texture_of(const ScreenPicture& picture) {
+  if (picture.rgb.empty()) return nullptr;
+  return std::make_shared<const PictureTexture>(picture.width, picture.height, picture.rgb);
 }
 
 }  // namespace
@@ -155,11 +159,7 @@ void add_recent_file(const fs::path& list, const fs::path& file) {
 Gallery::Gallery(const std::function<void()>& wake)
     : thumbnails(
           within(user_folder("XDG_CACHE_HOME", ".cache"), "tyndall/thumbnails"),
-          [this](const std::string& scene, const ScreenPicture& picture) {
-            const bool any = !picture.rgb.empty();
-            pictures_[scene] =
-                any ? std::make_unique<const PictureTexture>(picture.width, picture.height, picture.rgb) : nullptr;
-          },
+          [this](const std::string& scene, const ScreenPicture& picture) { pictures_[scene] = texture_of(picture); },
           wake),
       list_(within(state_folder(), "recent.txt")),
       recent_(read_recent_files(list_)) {}
@@ -168,6 +168,32 @@ void Gallery::note_file(const std::filesystem::path& file) {
   add_recent_file(list_, file);
   recent_ = read_recent_files(list_);
   if (!recent_.empty()) thumbnails.forget(recent_.front().string());
+}
+
+ScreenPicture small_picture(const Frame& frame, const Display& display) {
+  const bool beauty = frame.view == View::beauty, clean = beauty && frame.clean;
+  const std::vector<float>& from = clean ? frame.clean->rgba : beauty ? frame.rgba : frame.beauty;
+  const PictureGrid every_pixel{frame.width, frame.height};
+  const auto [columns, rows, spacing] = clean ? frame.clean->grid : beauty ? frame.grid : every_pixel;
+  if (from.empty() || columns <= 0 || rows <= 0) return {};
+  const double fit =
+      std::min({1.0, static_cast<double>(slot_width) / columns, static_cast<double>(slot_height) / rows});
+  const auto pixels = [fit](int count) { return std::max(1, static_cast<int>(std::lround(fit * count))); };
+  return on_sheet({columns, rows, rgb_of(from)}, display, {pixels(columns), pixels(rows)});
+}
+
+void store_camera(CameraSlots& slots, const Camera& camera, const Frame* frame, const Display& display) {
+  CameraSlot slot{camera, frame ? texture_of(small_picture(*frame, display)) : nullptr};
+  std::erase_if(slots, [&](const CameraSlot& other) { return other.camera == camera; });
+  if (slots.size() >= max_camera_slots) slots.erase(slots.begin());
+  slots.push_back(std::move(slot));
+}
+
+std::optional<std::size_t> next_slot(const CameraSlots& slots, const Camera& camera) {
+  if (slots.empty()) return {};
+  for (std::size_t k = 0; k < slots.size(); ++k)
+    if (slots[k].camera == camera) return (k + 1) % slots.size();
+  return 0;
 }
 
 }  // namespace tyndall

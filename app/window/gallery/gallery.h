@@ -2,6 +2,7 @@
 #include "app/report/contact_sheet.h"
 #include "app/window/document/job_queue.h"
 #include "app/window/picture/display.h"
+#include "core/render/frame.h"
 #include "core/scene/load.h"
 
 #include <atomic>
@@ -14,8 +15,8 @@
 #include <string>
 #include <vector>
 
-/// This room makes what the list of scenes shows beside names: small pictures, and the files that were opened last. It
-/// keeps them from one start to the next.
+/// This room makes what the list of scenes shows beside names: small pictures, and the files that were opened last,
+/// which it keeps from one start to the next; and the small pictures of cameras that were put aside.
 namespace tyndall {
 
 /// 16 hex digits that say which picture a scene has: they change with the text of the scene and the bytes of its
@@ -70,7 +71,24 @@ std::vector<std::filesystem::path> read_recent_files(const std::filesystem::path
 void add_recent_file(const std::filesystem::path& list, const std::filesystem::path& file);
 
 /// By what load_scene takes; null: the scene has no picture.
-using SmallPictures = std::map<std::string, std::unique_ptr<const PictureTexture>>;
+using SmallPictures = std::map<std::string, std::shared_ptr<const PictureTexture>>;
+
+/// A camera that the user has put aside, with a small picture. They last as long as the window.
+struct CameraSlot {
+  Camera camera;
+  std::shared_ptr<const PictureTexture> picture;  ///< null: there was none yet
+};
+using CameraSlots = std::vector<CameraSlot>;
+
+inline constexpr std::size_t max_camera_slots = 8;
+
+/// A frame as a small picture of at most 96 x 60 pixels; empty where the frame has no picture yet.
+ScreenPicture small_picture(const Frame& frame, const Display& display);
+
+/// Puts a camera into a new slot; where all are taken, the oldest goes. frame: on the screen, may be null.
+void store_camera(CameraSlots& slots, const Camera& camera, const Frame* frame, const Display& display);
+/// The slot that follows the one with this camera, the first one for a camera that is in none; nothing without slots.
+std::optional<std::size_t> next_slot(const CameraSlots& slots, const Camera& camera);
 
 /// Keeps the pictures as textures, and the list of recent files. Lives within the window's OpenGL context; for the main
 /// thread.

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 namespace tyndall {
 namespace {
@@ -155,8 +154,7 @@ void HandleTool::clicked(const Scene& scene, const ObjectPath& object, Vec3d poi
 void HandleTool::grab(const Mouse& mouse, const ObjectPaths& selected, const Scene& scene) {
   if (selected.empty() || running_) return;
   const WindowPoint at{mouse.x, mouse.y};
-  running_ = {
-      {{}, selected, middle_of(scene, selected.front()), at, at, false, false, {}}, scene.objects, scene.materials};
+  running_ = {{{}, selected, middle_of(scene, selected.front()), at, at}, scene.objects, scene.materials};
   running_->grabbed = running_->moved = true;
 }
 
@@ -178,10 +176,8 @@ bool HandleTool::take_key(int key) {
 
 bool HandleTool::take_character(char character) {
   if (!running_ || running_->drag.handle.kind == HandleKind::plane) return false;
-  const bool in_number = std::string_view("0123456789.,+-*/^()").find(character) != std::string_view::npos;
-  const bool in_name =
-      !running_->typing.empty() && std::string_view("pisqrt").find(character) != std::string_view::npos;
-  if (!in_number && !in_name) return false;
+  const std::string names = running_->typing.empty() ? "" : "pisqrt";
+  if (("0123456789.,+-*/^()" + names).find(character) == std::string::npos) return false;
   running_->typing += character;
   read_typed();
   return true;
@@ -207,16 +203,6 @@ void HandleTool::follow_mouse(const Mouse& mouse, const PictureFrame& frame, Edi
   if (!running_->typing.empty()) running_->said += "  (typed: " + running_->typing + ")";
 }
 
-bool HandleTool::begin(const Mouse& mouse, const PictureFrame& frame, const ObjectPaths& selected, const Scene& scene) {
-  const WindowPoint at{mouse.x, mouse.y};
-  const Vec3d from = origin(scene, frame, selected);
-  hovered_ = handle_at(handles_of(scene, frame, selected, from), at, frame.scale);
-  if (!hovered_ || !mouse.clicked[0]) return false;
-  const WindowPoint pressed{mouse.pressed_x[0], mouse.pressed_y[0]};
-  running_ = {{*hovered_, selected, from, pressed, at, false, false, {}}, scene.objects, scene.materials};
-  return true;
-}
-
 bool HandleTool::update(const Mouse& mouse, const Layout& layout, float scale, bool free, const ObjectPaths& selected,
                         EditedScene& edited) {
   const Scene& scene = *edited;
@@ -227,8 +213,12 @@ bool HandleTool::update(const Mouse& mouse, const Layout& layout, float scale, b
     running_.reset();  // another scene came meanwhile
   if (!running_) {
     hovered_.reset();
-    const bool over = free && layout.area.contains(mouse.x, mouse.y);
-    if (selected.empty() || !over || !begin(mouse, frame, selected, scene)) return false;
+    if (selected.empty() || !free || !layout.area.contains(mouse.x, mouse.y)) return false;
+    const Vec3d from = origin(scene, frame, selected);
+    const WindowPoint at{mouse.x, mouse.y}, pressed{mouse.pressed_x[0], mouse.pressed_y[0]};
+    hovered_ = handle_at(handles_of(scene, frame, selected, from), at, frame.scale);
+    if (!hovered_ || !mouse.clicked[0]) return false;
+    running_ = {{*hovered_, selected, from, pressed, at}, scene.objects, scene.materials};
   } else {
     follow_mouse(mouse, frame, edited);
   }

@@ -31,13 +31,12 @@ void add_arrow(const PictureFrame& frame, Vec3d origin, WindowPoint middle, Hand
   const WindowPoint direction = frame.seen_direction(origin, axis);
   const double seen = std::hypot(direction.x, direction.y);
   if (seen < min_seen) return;
-  const double from = arrow_start,
-               to = seen < PictureFrame::min_followed ? short_arrow_end : arrow_start + arrow * seen;
+  const double to = seen < PictureFrame::min_followed ? short_arrow_end : arrow_start + arrow * seen;
   const auto at = [&](double distance) {
     return WindowPoint{middle.x + distance * frame.scale / seen * direction.x,
                        middle.y + distance * frame.scale / seen * direction.y};
   };
-  out.push_back({kind, 0, {at(from), at(to)}});
+  out.push_back({kind, 0, {at(arrow_start), at(to)}});
 }
 
 void add_ring(const PictureFrame& frame, Vec3d origin, std::vector<Handle>& out) {

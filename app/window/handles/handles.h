@@ -71,12 +71,12 @@ void log_handles(UiLog& log, const Scene& scene, const ObjectPath& first, const 
 /// A drag of a handle.
 struct HandleDrag {
   Handle handle;
-  ObjectPaths selected;         ///< at least one; the first is the one whose numbers snapping rounds
-  Vec3d origin;                 ///< where the handles were, in the world
-  WindowPoint from, to;         ///< of the mouse
-  bool snap = false;            ///< to round numbers: about a fiftieth of the picture's height, or 5 degrees
-  bool fine = false;            ///< a tenth of these
-  std::optional<double> typed;  ///< in place of the mouse: scene units along the axis, the angle, or the size
+  ObjectPaths selected;           ///< at least one; the first is the one whose numbers snapping rounds
+  Vec3d origin;                   ///< where the handles were, in the world
+  WindowPoint from, to;           ///< of the mouse
+  bool snap = false;              ///< to round numbers: about a fiftieth of the picture's height, or 5 degrees
+  bool fine = false;              ///< a tenth of these
+  std::optional<double> typed{};  ///< in place of the mouse: scene units along the axis, the angle, or the size
 
   bool moved() const { return typed || to.x != from.x || to.y != from.y; }
 };
@@ -120,7 +120,6 @@ class HandleTool {
   void clicked(const Scene& scene, const ObjectPath& object, Vec3d point);
 
  private:
-  bool begin(const Mouse& mouse, const PictureFrame& frame, const ObjectPaths& selected, const Scene& scene);
   void follow_mouse(const Mouse& mouse, const PictureFrame& frame, EditedScene& scene);
   void read_typed();
 

@@ -75,13 +75,10 @@ void draw_legend(Ui& ui, const Rect& visible, const Legend& legend) {
   const float x0 = box.x0 + pad, x1 = box.x1 - pad, y = box.y0 + pad + line + 4 * s;
   const std::size_t count = legend.colours.size() - (legend.steps ? 0 : 1);
   const float step = (x1 - x0) / static_cast<float>(count);
-  const auto tone = [&](std::size_t k) {
-    const auto& c = legend.colours[k];
-    return shade({c[0], c[1], c[2], 1});
-  };
+  const auto tone = [](const std::array<float, 3>& c) { return shade({c[0], c[1], c[2], 1}); };
   for (std::size_t k = 0; k < count; ++k) {
     const float x = x0 + step * static_cast<float>(k);
-    const ImU32 from = tone(k), to = tone(legend.steps ? k : k + 1);
+    const ImU32 from = tone(legend.colours[k]), to = tone(legend.colours[legend.steps ? k : k + 1]);
     draw.AddRectFilledMultiColor({x, y}, {x + step, y + bar_height}, from, to, to, from);
   }
   draw.AddRect({x0, y}, {x1, y + bar_height}, shade(palette::dim, 0.6f));

@@ -30,11 +30,9 @@ bool choice_button(Ui& ui, const Row& row, const Choice& choice, bool on, ImVec2
   const bool pressed = ImGui::Button(choice.name.c_str(), size);
   ImGui::PopStyleColor(2);
   log_item(ui, row.name + "." + choice.name, on ? "on" : choice.missing ? "missing" : "off");
-  if (!choice.missing) tooltip(ui, choice.help);
-  if (!choice.missing) return pressed && !on;
-  tooltip(ui, choice.missing);
-  if (pressed) ui.problem = choice.name + ": " + choice.missing;
-  return false;
+  tooltip(ui, choice.missing ? choice.missing : choice.help);
+  if (pressed && choice.missing) ui.problem = choice.name + ": " + choice.missing;
+  return pressed && !on && !choice.missing;
 }
 
 }  // namespace

@@ -62,10 +62,7 @@ void begin_jump(Ui& ui, PanelState& state) {
   to.jump = -1;
   to.sent = -1;
   const std::string heading = sections[to.lit].heading;
-  if (!heading.empty())
-    ui.folded.erase(heading);
-  else if (!state.selected.empty())
-    ui.folded.erase(title_of(*state.scene, state.selected));
+  ui.folded.erase(heading.empty() ? title_of(*state.scene, state.selected) : heading);
   ui.wake_in = 0;
 }
 

@@ -98,15 +98,9 @@ void add_lines(const PanelState& state, const std::vector<Object>& objects, Obje
   }
 }
 
-/// Opens the groups around an object, so that its line can be seen.
-void unfold_around(PanelState& state, const ObjectPath& path) {
-  ObjectPath group;
-  for (std::size_t k = 0; k + 1 < path.size(); ++k) {
-    group.push_back(path[k]);
-    const auto size = std::get<Group>(find_object(*state.scene, group)->kind).objects.size();
-    if (is_open(state.objects, group, size)) continue;
-    if (!state.objects.toggled.erase(group)) state.objects.toggled.insert(group);
-  }
+/// Folds a group that is open, and opens one that is folded.
+void toggle(ObjectsView& view, const ObjectPath& group) {
+  if (!view.toggled.erase(group)) view.toggled.insert(group);
 }
 
 void draw_line(Ui& ui, PanelState& state, const ObjectLine& line, std::size_t number) {
@@ -116,10 +110,7 @@ void draw_line(Ui& ui, PanelState& state, const ObjectLine& line, std::size_t nu
   const float left = ImGui::GetCursorScreenPos().x;
   if (!list_line(ui, std::to_string(number), before + line.label, line.note, on)) return;
   const bool on_sign = ImGui::GetIO().MousePos.x < left + ImGui::CalcTextSize(before.c_str()).x;
-  if (!line.sign.empty() && on_sign) {
-    if (!state.objects.toggled.erase(line.path)) state.objects.toggled.insert(line.path);
-    return;
-  }
+  if (!line.sign.empty() && on_sign) return toggle(state.objects, line.path);
   // Selects, with Ctrl as well, or deselects.
   if (ImGui::GetIO().KeyCtrl && !state.selected.empty() && line.path != state.selected) {
     if (std::erase(state.also, line.path) == 0)
@@ -218,7 +209,12 @@ void scroll_column(Ui& ui) {
 void objects_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Objects", "click in the picture, or here")) return;
   const Scope scope(ui, "objects");
-  if (state.objects.shown != state.selected) unfold_around(state, state.selected);
+  const bool elsewhere = state.objects.shown != state.selected;  // then the groups around it open
+  for (ObjectPath group = state.selected; elsewhere && group.size() > 1;) {
+    group.pop_back();
+    const auto size = std::get<Group>(find_object(*state.scene, group)->kind).objects.size();
+    if (!is_open(state.objects, group, size)) toggle(state.objects, group);
+  }
   std::vector<ObjectLine> lines;
   ObjectPath path;
   add_lines(state, state.scene->objects, path, lines);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tyndall {
 
@@ -39,17 +40,15 @@ std::string stops_text(double power) {
 
 /// Buttons that make a light brighter or darker by stops.
 void stops_row(Ui& ui, double& power) {
-  static constexpr struct {
-    const char* name;
-    double stops;
-  } buttons[] = {{"- 1", -1}, {"- 1/3", -1 / 3.0}, {"+ 1/3", 1 / 3.0}, {"+ 1", 1}};
+  static constexpr std::pair<const char*, double> buttons[] = {
+      {"- 1", -1}, {"- 1/3", -1 / 3.0}, {"+ 1/3", 1 / 3.0}, {"+ 1", 1}};
   begin_row(ui, light_stops_row);
   const float space = 2 * ui.scale, width = (value_width(ui) - 3 * space) / 4;
   for (const auto& button : buttons) {
     if (&button != buttons) ImGui::SameLine(0, space);
-    if (small_button(ui, std::string("stops.") + button.name, button.name, width))
+    if (small_button(ui, std::string("stops.") + button.first, button.first, width))
       power = without_noise(
-          rounded(power * std::exp2(button.stops), {1, decimal_below(std::max(power, 1e-30)).exponent - 3}));
+          rounded(power * std::exp2(button.second), {1, decimal_below(std::max(power, 1e-30)).exponent - 3}));
   }
   end_row(ui, {});
 }

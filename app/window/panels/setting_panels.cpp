@@ -1,6 +1,5 @@
 #include "app/files/memory.h"
 #include "app/report/contents.h"
-#include "app/text/values.h"
 #include "app/window/accuracy/views.h"
 #include "app/window/panels/rows.h"
 #include "app/window/tools/camera_control.h"
@@ -74,9 +73,8 @@ std::string setting_meaning(const PanelState& state, std::string_view name) {
 void threads_row(Ui& ui, PanelState& state) {
   double threads = state.now.wanted.threads;
   static const double cores = std::max(2, thread_count().count);  // asking takes longer than drawing the row
-  const char* synonyms = "cpu, cores, processors";
-  Row row{"threads", "Threads", between(1, max_threads), {1, cores}, "", "never changes the picture", "", synonyms};
-  row.whole = true;
+  const char *help = "never changes the picture", *synonyms = "cpu, cores, processors";
+  const Row row{"threads", "Threads", between(1, max_threads), {1, cores}, "", help, "", synonyms, true};
   if (slider_row(ui, row, threads)) ui.requests.push_back({"threads", std::to_string(static_cast<int>(threads))});
 }
 
@@ -85,8 +83,7 @@ void pixels_row(Ui& ui, PanelState& state) {
   const Scene& scene = *state.scene;
   const char* help = "width and height in pixels, also of snapshots";
   const char* synonyms = "resolution, width, height, dimensions, film size";
-  Row row{"size", "Image size", between(1, 65536), {0, 4000}, "", help, "", synonyms};
-  row.whole = true;
+  Row row{"size", "Image size", between(1, 65536), {0, 4000}, "", help, "", synonyms, true};
   double width = scene.width, height = scene.height;
   begin_row(ui, row);
   const float space = 4 * ui.scale, box = (value_width(ui) - space) / 2;
@@ -162,6 +159,38 @@ std::string contents_text(const Scene& scene) {
   return text;
 }
 
+/// Small pictures of stored cameras: a click looks through one, a right click forgets it; and a button that stores the
+/// present one.
+void cameras_row(Ui& ui, PanelState& state) {
+  CameraSlots& slots = state.cameras[state.now.origin->title];
+  const Camera now = state.scene->camera;
+  std::optional<std::size_t> forgotten;
+  const char* help = "cameras that you put aside; they last as long as the window";
+  const Row row{"slots", "Cameras", {}, {}, "", help, "", "stored cameras, camera slots"};
+  begin_row(ui, row);
+  const float s = ui.scale, left = ImGui::GetCursorPosX();
+  for (std::size_t k = 0; k < slots.size(); ++k) {
+    if (k % 4 != 0) ImGui::SameLine(0, 4 * s);
+    if (k % 4 == 0 && k > 0) ImGui::SetCursorPosX(left);
+    const ImVec2 at = ImGui::GetCursorScreenPos(), end{at.x + 58 * s, at.y + 37 * s};
+    ImGui::PushID(static_cast<int>(k));
+    if (ImGui::InvisibleButton("slot", {58 * s, 37 * s})) state.scene.change().camera = slots[k].camera;
+    ImGui::PopID();
+    if (ImGui::IsItemClicked(1)) forgotten = k;
+    const bool on = slots[k].camera == now, hovered = ImGui::IsItemHovered();
+    log_item(ui, "slot." + std::to_string(k + 1), on ? "on" : "off");
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    draw->AddRectFilled(at, end, shade(palette::field), 3 * s);
+    if (slots[k].picture) draw_fitted(*slots[k].picture, {at.x, at.y, end.x, end.y}, 0);
+    if (on || hovered) draw->AddRect(at, end, shade(on ? palette::blue : palette::dim), 3 * s, 0, 2 * s);
+    tooltip(ui, "look through this camera; a right click forgets it");
+  }
+  if (!slots.empty()) ImGui::SetCursorPosX(left);
+  if (small_button(ui, "store", "Store this camera")) ui.requests.push_back({"store the camera"});
+  end_row(ui, row);
+  if (forgotten) slots.erase(slots.begin() + static_cast<std::ptrdiff_t>(*forgotten));
+}
+
 /// Why a view cannot be shown; null: it can.
 const char* missing_for_view(const Context& now, int number) {
   const bool missing = !now.renders && view_entry(number).view != View::beauty;
@@ -185,8 +214,7 @@ void camera_panel(Ui& ui, PanelState& state) {
     const bool hidden = plain_up && slot.name == std::string_view("vup") && !ui.rows && !is_sought(ui, slot.label);
     return slot.form == ValueForm::place && !hidden;
   });
-  const auto recalled = camera_slots_row(ui, state.cameras[state.now.origin->title], camera);
-  if (recalled) state.scene.change().camera = *recalled;
+  cameras_row(ui, state);
 }
 
 void background_panel(Ui& ui, PanelState& state) {
@@ -230,11 +258,10 @@ void render_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Render", frame ? frame->isa + " × " + std::to_string(frame->lanes) : "")) return;
   const Scope scope(ui, "render");
   const auto said = [&](const Slot& slot, const std::string&) { return setting_meaning(state, slot.name); };
-  part_rows(
-      ui, state, "/render", [](const Slot& slot) { return !slot.choices.empty(); }, said);
+  const auto is_choice = [](const Slot& slot) { return !slot.choices.empty(); };
+  part_rows(ui, state, "/render", is_choice, said);
   split_row(ui, state);
-  part_rows(
-      ui, state, "/render", [](const Slot& slot) { return slot.choices.empty(); }, said);
+  part_rows(ui, state, "/render", std::not_fn(is_choice), said);
   pixels_row(ui, state);
   size_row(ui, state);
   threads_row(ui, state);

@@ -1,6 +1,5 @@
 #include "app/window/panels/widgets.h"
 
-#include "app/window/system/imgui_compat.h"
 #include "core/base/text.h"
 
 #include <algorithm>
@@ -23,14 +22,6 @@ void meet_sought(Ui& ui, float height_ratio) {
   if (sought.drawing == 1) ImGui::SetScrollHereY(height_ratio);
   if (sought.drawing == 2) sought.types = true;
   sought.top = ImGui::GetCursorScreenPos().y;
-}
-
-/// The frame around a choice that has the keyboard.
-void draw_keyboard_frame(Ui& ui) {
-  const float s = ui.scale, left = ImGui::GetWindowPos().x, bottom = ImGui::GetCursorScreenPos().y;
-  ImGui::GetWindowDrawList()->AddRect({left + 8 * s, ui.sought.top - 3 * s},
-                                      {left + right_edge() + 4 * s, bottom - 3 * s}, shade(palette::blue), 4 * s, 0,
-                                      1.5f * s);
 }
 
 /// The text as one line, cut and with ".." at its end where it does not fit.
@@ -174,7 +165,12 @@ void end_row(Ui& ui, const Row& row) {
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 6 * ui.scale);
     note(ui, row.meaning, true, row.warning ? palette::amber : palette::dim);
   }
-  if (std::exchange(ui.sought.here, false) && ui.sought.has_keys) draw_keyboard_frame(ui);
+  if (!std::exchange(ui.sought.here, false) || !ui.sought.has_keys) return;
+  // A frame shows that this choice has the keyboard.
+  const float s = ui.scale, left = ImGui::GetWindowPos().x;
+  const ImVec2 low{left + 8 * s, ui.sought.top - 3 * s};
+  const ImVec2 high{left + right_edge() + 4 * s, ImGui::GetCursorScreenPos().y - 3 * s};
+  ImGui::GetWindowDrawList()->AddRect(low, high, shade(palette::blue), 4 * s, 0, 1.5f * s);
 }
 
 void row_menu(Ui& ui, const Row& row, bool can_vary) {
@@ -232,9 +228,7 @@ void draw_part(Ui& ui, const char* name, const Rect& where, ImGuiWindowFlags mor
 }
 
 void begin_typing(Ui& ui, ImGuiID id, const std::string& text) {
-  ui.edit = {};
-  ui.edit.id = id;
-  ui.edit.start = text.substr(0, size_of_letters(text, sizeof ui.edit.text - 1));
+  ui.edit = {.id = id, .start = text.substr(0, size_of_letters(text, sizeof ui.edit.text - 1))};
   std::strncpy(ui.edit.text, ui.edit.start.c_str(), sizeof ui.edit.text - 1);
 }
 

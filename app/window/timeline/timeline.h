@@ -1,5 +1,5 @@
 #pragma once
-#include "app/window/panels/camera_slots.h"
+#include "app/window/gallery/gallery.h"
 #include "app/window/panels/widgets.h"
 #include "core/scene/slots.h"
 

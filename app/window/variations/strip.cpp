@@ -101,13 +101,12 @@ void VariationStrip::ask(const Context& context, const Rect& rect, float scale) 
   stale_ = false;
   cells_.clear();
   cells_.resize(count());
-  SmallRequest request{count(), {}, clean_, context.wanted.threads};
-  request.scene = [base = *base_, axes = axes_, width = width_, height = height_](std::size_t index) {
+  const auto scene_of = [base = *base_, axes = axes_, width = width_, height = height_](std::size_t index) {
     std::optional<Scene> scene = varied_scene(base, axes, index);
     if (scene) scene->width = width, scene->height = height;
     return scene;
   };
-  renders_.request(std::move(request));
+  renders_.request({count(), scene_of, clean_, context.wanted.threads});
 }
 
 /// Asks for other pictures where that is due. Returns in how many seconds it is to be called again.
