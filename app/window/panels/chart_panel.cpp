@@ -92,9 +92,9 @@ void draw_guides(const Plot& plot, const ErrorCurve& curve) {
   const double end = 10 * plot.axes.times.maximum();
   const ImVec2 a = plot.at(last), b = plot.at({end, last.rel_mse * last.seconds / end});
   const float length = std::hypot(b.x - a.x, b.y - a.y), dash = 4 * plot.ui.scale;
-  const auto along = [&](float s) { return ImLerp(a, b, std::min(s / length, 1.0f)); };
+  const auto point = [&](float s) { return ImLerp(a, b, std::min(s / length, 1.0f)); };
   for (float s = 0; s < length; s += 2 * dash)
-    plot.draw->AddLine(along(s), along(s + dash), shade(palette::blue, 0.45f));
+    plot.draw->AddLine(point(s), point(s + dash), shade(palette::blue, 0.45f));
 }
 
 void draw_lines(const Plot& plot) {
