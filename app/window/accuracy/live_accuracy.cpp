@@ -15,7 +15,7 @@ std::optional<ReferenceFit> fit_to(const std::shared_ptr<const Reference>& refer
 
 LiveAccuracy::LiveAccuracy(const std::function<void()>& on_result, std::function<double()> clock)
     : clock_(std::move(clock)),
-      measured_{{{0.003}, {0.003}, {0.002}, {0.01}, {0.1}, {0.008}}},
+      measured_{{{{0.003}}, {{0.003}}, {{0.002}}, {{0.01}}, {{0.1}}, {{0.008}}}},
       quick_(on_result),
       slow_(on_result) {}
 
