@@ -132,7 +132,8 @@ ViewRay PictureFrame::view_ray(WindowPoint at) const {
 
 double PictureFrame::unit_at(Vec3d p) const {
   const double minimum = 1e-3 * target_distance(projection.camera());
-  return projection.height_at(std::max(projection.depth_of(p), minimum)) / std::max(1.0f, image.height());
+  return projection.height_at(std::max(projection.depth_of(p), minimum)) /
+         std::max(1.0, static_cast<double>(image.height()));
 }
 
 WindowPoint PictureFrame::seen_direction(Vec3d p, Vec3d direction) const {
