@@ -2,7 +2,6 @@
 
 #include "app/window/accuracy/views.h"
 #include "app/window/edit/material_edits.h"
-#include "app/window/inspector/drawings.h"
 #include "app/window/system/imgui_compat.h"
 #include "app/window/tools/camera_control.h"
 

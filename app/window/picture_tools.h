@@ -2,7 +2,6 @@
 #include "app/window/edit/arrange.h"
 #include "app/window/edit/object_list.h"
 #include "app/window/handles/handles.h"
-#include "app/window/inspector/drawings.h"
 #include "app/window/inspector/inspector.h"
 #include "app/window/panels/panels.h"
 #include "app/window/picture/display.h"

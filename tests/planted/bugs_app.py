@@ -98,8 +98,8 @@ APP = [
      "return «std::remainder(*to - *from, 360.0) → *to - *from»;", "app/window/handles/handle_drag"),
     ("objects in turned groups move elsewhere", "app/window/handles/handle_tool.cpp", "«rotate({-around.degrees, {}}, shift) → shift»", "app/window/handles/handle_drag"),
     ("an arrow hides the grip on it", "app/window/handles/handles.cpp", "«if (handle.kind == HandleKind::size) away -= 2 * scale; → »", "app/window/handles/handle_drag"),
-    ("a movement that is given up stays", "app/window/handles/handle_tool.cpp", "«if (gone) edited.change().objects = start_; → »", "app/window/handles/handle_tool"),
-    ("Backspace takes all that was typed", "app/window/handles/handle_tool.cpp", "«typed_.pop_back(); → typed_.clear();»", "app/window/handles/handle_tool"),
+    ("a movement that is given up stays", "app/window/handles/handle_tool.cpp", "«if (gone) edited.change().objects = running_->start; → »", "app/window/handles/handle_tool"),
+    ("Backspace takes all that was typed", "app/window/handles/handle_tool.cpp", "«running_->typing.pop_back(); → running_->typing.clear();»", "app/window/handles/handle_tool"),
 
     ("a recent file stands there twice", "app/window/gallery/gallery.cpp", "«std::erase(files, file); → »", "app/window/gallery/gallery"),
     ("recent files that are gone stay listed", "app/window/gallery/gallery.cpp", "&& «fs::is_regular_file(file, ignored) → true») files", "app/window/gallery/gallery"),
@@ -120,7 +120,7 @@ APP = [
     ("red alone tells what is white", "app/window/panels/histogram.cpp",
      "const std::uint8_t brightest = «std::max({shown[i], shown[i + 1], shown[i + 2]}) → shown[i]»;", "app/window/panels/histogram"),
     ("the first curve is the nearest", "app/window/panels/chart_panel.cpp", "if (!nearest || «distance < minimum → false») nearest", "app/window/panels/chart_plot"),
-    ("the next camera is the same one", "app/window/panels/camera_slots.cpp", "return («k + 1 → k») % slots.size();", "app/window/panels/camera_slots"),
+    ("the next camera is the same one", "app/window/gallery/gallery.cpp", "return («k + 1 → k») % slots.size();", "app/window/gallery/camera_slots"),
     ("what fog sends back is what it lets on", "app/window/panels/rows.cpp", "percent(«1 - forward → forward») + \" goes back\"", "app/window/panels/meaning"),
 
     ("the divider can hide a half", "app/window/rendering/picture_view.cpp", "image.width(), «0.02f → 0.0f», 0.98f);", "app/window/rendering/split_view"),
@@ -158,13 +158,13 @@ APP = [
     ("the down key goes up in the palette", "app/window/menus/menu.cpp", "mark_ += «key == key_down → key != key_down» ? 1 : -1;", "app/window/menus/palette"),
 
     ("a rectangle without its last column and row", "app/window/inspector/drawings.cpp",
-     "«std::ceil(std::max(a, b) * static_cast<float>(size) - rounding) → std::floor(std::max(a, b) * static_cast<float>(size) - rounding)»", "app/window/inspector/inspector"),
+     "«std::ceil(at * size - rounding) → std::floor(at * size - rounding)»", "app/window/inspector/inspector"),
     ("rejected samples are not told of", "app/window/inspector/inspector.cpp", "(«report.rejected > 0 → false» ? fmt::format", "app/window/inspector/inspector"),
     ("the last stop of a long path is left out", "app/window/inspector/inspector.cpp", "k >= max_told - 1 && «k + 1 < stops.size() → true»;", "app/window/inspector/inspector"),
     ("a legend in hundredths of a percent", "app/window/inspector/drawings.cpp",
      "grey_bar(\"estimated relative error\", «100 * white → white», \" %\")", "app/window/inspector/inspector"),
     ("a click is a rectangle", "app/window/inspector/drawings.cpp",
-     "«if (std::abs(from.x - to_.x) * image.width() < 3 || std::abs(from.y - to_.y) * image.height() < 3) return Region{}; → »", "app/window/inspector/inspector"),
+     "«if (b.x - a.x < 3 || b.y - a.y < 3) return Region{}; → »", "app/window/inspector/inspector"),
 
     ("a split view shows the picture of before", "app/window/session.cpp", "«if (split) ++wanted.restarts; → »", "app/window/session_accuracy app/window/session_picture"),
     ("a picture pauses again after Space", "app/window/session.cpp", "«frame.edit == limited_edit_ → false» || wanted.paused) return;", "app/window/window_files"),

@@ -4,6 +4,7 @@
 #include "app/comparison/pair.h"
 #include "app/report/heat_map.h"
 #include "app/text/numbers.h"
+#include "app/window/picture/display.h"
 #include "core/accuracy/error.h"
 #include "core/accuracy/estimate.h"
 #include "core/accuracy/flip.h"
@@ -12,6 +13,8 @@
 #include "core/scene/load.h"
 #include "core/scene/scene.h"
 #include "core/system/process.h"
+
+#include <fmt/core.h>
 
 #include <cmath>
 #include <exception>
@@ -42,8 +45,6 @@ bool has_picture(const Frame& frame) { return frame.spp > 0 && (frame.view == Vi
 
 namespace fs = std::filesystem;
 
-std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
-
 /// The scene inside an image that Tyndall made, with the paths of its textures as the document would write them;
 /// nothing where there is none.
 std::optional<Scene> scene_in(const fs::path& file, const Document& document) {
@@ -66,13 +67,6 @@ Scene without_method(Scene scene) {
   scene.display = {};
   scene.name.clear();
   return scene;
-}
-
-/// Throws UsageError unless the sizes are equal.
-void check_size(const std::string& name, const LinearImage& image, const Scene& scene) {
-  if (image.width == scene.width && image.height == scene.height) return;
-  throw UsageError(name + ": found " + size_text(image.width, image.height) + " pixels, expected " +
-                   size_text(scene.width, scene.height) + " as the picture has");
 }
 
 }  // namespace
@@ -112,7 +106,10 @@ Reference read_reference(const fs::path& name, const Document& document) {
   PictureFile picture = read_whole_picture(name);
   Reference reference{std::move(picture.image), 0, name.filename().string(), document.scene};
   reference.remarks = std::move(picture.remarks);
-  check_size(name.string(), reference.image, document.scene);
+  const LinearImage& image = reference.image;
+  if (image.width != document.scene.width || image.height != document.scene.height)
+    throw UsageError(fmt::format("{}: found {}x{} pixels, expected {}x{} as the picture has", name.string(),
+                                 image.width, image.height, document.scene.width, document.scene.height));
   check_finite(name, reference.image);
   if (picture.bits < 32) reference.about += " (" + std::to_string(picture.bits) + " bit)";
   const auto [file, layer] = picture_name(name);
@@ -158,7 +155,7 @@ std::optional<Reference> rendered_reference(const ReferenceOrder& order,
   const std::string seed = same_scene ? ", seed " + std::to_string(scene.render.seed) : "";
   return Reference{std::move(picture.image), std::isfinite(error) ? error * error : 0,
                    (same_scene ? "this scene" : order.name) + " at " + format_count(order.spp) + " spp" + seed,
-                   same_scene ? std::move(scene) : order.shown, same_scene};
+                   same_scene ? scene : order.shown, same_scene};
 }
 
 ReferenceFit fit_of(const Reference& reference, const Scene& scene) {
@@ -171,13 +168,6 @@ ReferenceFit fit_of(const Reference& reference, const Scene& scene) {
 
 std::vector<float> picture_of(const Frame& frame) {
   return rgb_of(frame.view == View::beauty ? frame.rgba : frame.beauty);
-}
-
-std::vector<float> rgb_of(const std::vector<float>& rgba) {
-  std::vector<float> rgb(rgba.size() / 4 * 3);
-  for (std::size_t from = 0, to = 0; from < rgba.size(); from += 4, to += 3)
-    for (std::size_t k = 0; k < 3; ++k) rgb[to + k] = rgba[from + k];
-  return rgb;
 }
 
 }  // namespace tyndall

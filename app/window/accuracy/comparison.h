@@ -60,8 +60,6 @@ ReferenceFit fit_of(const Reference& reference, const Scene& scene);
 
 /// Linear RGB, 3 floats a pixel, of a frame's picture; empty where the frame has none (a view's coarse pass).
 std::vector<float> picture_of(const Frame& frame);
-/// 3 of 4 floats a pixel.
-std::vector<float> rgb_of(const std::vector<float>& rgba);
 
 /// The halves of a split view: on the right `current`, the scene as it is edited; on the left `kept`, the same scene
 /// with the render settings that it had when the view was split. Without a split view all is `current`.
@@ -98,19 +96,14 @@ ComparisonResult compare(const ComparisonOrder& order);
 
 /// Limits work that comes again and again to a fraction of the processors' time: the more it took, the later it is due
 /// again. Times are seconds of one clock.
-class ProcessorBudget {
- public:
-  ProcessorBudget(double fraction) : fraction_(fraction) {}
-  bool due(double now) const { return now >= next_; }
-  /// Work that began at the time `start` took `cpu_seconds` of one of `processors`.
-  void spent(double start, double cpu_seconds, int processors) {
-    next_ = start + cpu_seconds / (fraction_ * processors);
-  }
-  /// Makes the work due at once, because the user waits for it.
-  void renew() { next_ = 0; }
+struct ProcessorBudget {
+  double fraction, next = 0;
 
- private:
-  double fraction_, next_ = 0;
+  bool due(double now) const { return now >= next; }
+  /// Work that began at the time `start` took `cpu_seconds` of one of `processors`.
+  void spent(double start, double cpu_seconds, int processors) { next = start + cpu_seconds / (fraction * processors); }
+  /// Makes the work due at once, because the user waits for it.
+  void renew() { next = 0; }
 };
 
 }  // namespace tyndall

@@ -15,9 +15,9 @@ std::optional<ReferenceFit> fit_to(const std::shared_ptr<const Reference>& refer
 
 LiveAccuracy::LiveAccuracy(const std::function<void()>& on_result, std::function<double()> clock)
     : clock_(std::move(clock)),
-      measured_{{{0.003}, {0.003}, {0.002}, {0.01}, {0.1}, {0.008}}},
-      quick_{JobQueue(on_result)},
-      slow_{JobQueue(on_result)} {}
+      measured_{{{{0.003}}, {{0.003}}, {{0.002}}, {{0.01}}, {{0.1}}, {{0.008}}}},
+      quick_(on_result),
+      slow_(on_result) {}
 
 void LiveAccuracy::set_reference(std::shared_ptr<const Reference> reference) {
   reference_ = std::move(reference);
@@ -132,16 +132,15 @@ ComparisonOrder LiveAccuracy::order_of(Measurement what) const {
 }
 
 bool LiveAccuracy::collect() {
-  quick_.jobs.collect();
-  slow_.jobs.collect();
+  quick_.collect();
+  slow_.collect();
   return std::exchange(news_, false);
 }
 
 bool LiveAccuracy::due(Measurement what, double now) const {
   if (!wanted(what)) return false;
   const ComparisonOrder order = order_of(what);
-  if (!can_compare(order)) return false;
-  if (id_of(order) == measured(what).newest) return false;
+  if (!can_compare(order) || id_of(order) == measured(what).newest) return false;
   if (resting_) return true;
   // FLIP takes a second and says little about the noise of the first samples: it waits for 16.
   if (what == Measurement::flip && (order.frame->spp < 16 || !has_grown(what, order, 2))) return false;
@@ -168,26 +167,23 @@ void LiveAccuracy::consider() {
   const double now = clock_();
   for (std::size_t k = 0; k < measurement_count; ++k) {
     const auto what = static_cast<Measurement>(k);
-    if (!worker(what).busy && due(what, now)) start(what, now);
+    if (worker(what).idle() && due(what, now)) start(what, now);
   }
 }
 
 void LiveAccuracy::start(Measurement what, double now) {
   const ComparisonOrder order = order_of(what);
-  Worker& by = worker(what);
-  by.busy = true;
   measured(what).newest = id_of(order);
   measured(what).seconds = order.frame->seconds;
   const std::string& method = half(half_of(what)).method;
-  by.jobs.run([this, what, order, now, &by, method, generation = generation_] {
+  worker(what).run([this, what, order, now, method, generation = generation_] {
     std::optional<ComparisonResult> found;
     try {
       found = compare(order);
     } catch (const std::bad_alloc&) {
       // No memory is left for it. The next picture is tried again.
     }
-    return [this, what, order, now, &by, method, generation, result = std::move(found)]() mutable {
-      by.busy = false;
+    return [this, what, order, now, method, generation, result = std::move(found)]() mutable {
       if (result) measured(what).budget.spent(now, result->cpu_seconds, threads_);
       if (result && generation == generation_) take(what, order, method, std::move(*result));
       consider();

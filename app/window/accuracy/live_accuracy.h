@@ -83,7 +83,7 @@ class LiveAccuracy {
   /// the next picture: there is a new map, or no next picture.
   bool collect();
   /// Whether something is being measured, or was measured and not collected yet.
-  bool busy() const { return quick_.busy || slow_.busy; }
+  bool busy() const { return !quick_.idle() || !slow_.idle(); }
 
   /// Whether the curves are errors against a reference of this scene; else they are estimates.
   bool is_true() const;
@@ -105,11 +105,6 @@ class LiveAccuracy {
     PairId newest{};     ///< the pictures that were measured last
     double seconds = 0;  ///< for which the first of them had been rendered by then
   };
-  /// Measurements wait for each other only on the same worker.
-  struct Worker {
-    JobQueue jobs;
-    bool busy = false;
-  };
 
   bool wanted(Measurement what) const;
   ComparisonOrder order_of(Measurement what) const;
@@ -125,7 +120,7 @@ class LiveAccuracy {
   const ComparedHalf& half(Half which) const { return halves_[static_cast<std::size_t>(which)]; }
   Measured& measured(Measurement what) { return measured_[static_cast<std::size_t>(what)]; }
   const Measured& measured(Measurement what) const { return measured_[static_cast<std::size_t>(what)]; }
-  Worker& worker(Measurement what) { return is_slow(what) ? slow_ : quick_; }
+  JobQueue& worker(Measurement what) { return is_slow(what) ? slow_ : quick_; }
 
   std::function<double()> clock_;
   std::shared_ptr<const Reference> reference_;
@@ -137,8 +132,9 @@ class LiveAccuracy {
   std::uint64_t generation_ = 0;  ///< results of earlier ones are dropped
   PairErrors pair_;
   std::shared_ptr<const ErrorMap> map_;
-  bool news_ = false;    ///< what collect() returns next
-  Worker quick_, slow_;  // declared last, because their results use the others
+  bool news_ = false;  ///< what collect() returns next
+  /// Measurements wait for each other only on the same worker.
+  JobQueue quick_, slow_;  // declared last, because their results use the others
 };
 
 }  // namespace tyndall

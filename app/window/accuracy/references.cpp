@@ -31,9 +31,8 @@ void References::drop() {
 
 void References::render(const ReferenceOrder& order) {
   const std::uint64_t number = ++order_;
-  scene_ = order.shown;
+  newest_ = order;
   doing_ = order.name.empty() ? "rendering a reference with another seed" : "rendering the reference " + order.name;
-  wanted_ = order.spp;
   rendered_ = std::make_shared<std::atomic<std::uint32_t>>(0);
   told_ = 0;
   messages_.say_until_done(doing_ + " …");
@@ -59,17 +58,18 @@ void References::render(const ReferenceOrder& order) {
 
 bool References::collect() {
   if (!busy()) return false;
-  const ReferenceFit fit = fit_of({{scene_.width, scene_.height, {}}, 0, "", scene_, true}, shown_().scene);
+  const Scene& began = newest_.shown;
+  const ReferenceFit fit = fit_of({{began.width, began.height, {}}, 0, "", began, true}, shown_().scene);
   const bool other = fit == ReferenceFit::other_scene || fit == ReferenceFit::other_size;
-  if (other && told_ < wanted_) {
+  if (other && told_ < newest_.spp) {
     stop();
     messages_.say("no reference: the scene was changed");
-    told_ = wanted_;  // it is told once
+    told_ = newest_.spp;  // it is told once
   }
   const std::uint32_t now = *rendered_;
   if (now > told_) {
     told_ = now;
-    messages_.say_until_done(doing_ + ": " + format_count(now) + " of " + format_count(wanted_) + " spp");
+    messages_.say_until_done(doing_ + ": " + format_count(now) + " of " + format_count(newest_.spp) + " spp");
   }
   return rendering_.collect();
 }

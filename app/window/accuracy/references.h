@@ -58,10 +58,9 @@ class References {
   std::shared_ptr<std::atomic<std::uint32_t>> rendered_;
   std::uint32_t told_ = 0;  ///< of these, in the newest message
   std::filesystem::path doubtful_;
-  Scene scene_;               ///< what the picture on the screen was when this began
-  std::string doing_;         ///< "rendering a reference with another seed"
-  std::uint32_t wanted_ = 0;  ///< samples a pixel of it
-  JobQueue rendering_;        // declared last, because it uses the others
+  ReferenceOrder newest_;
+  std::string doing_;   ///< "rendering a reference with another seed"
+  JobQueue rendering_;  // declared last, because it uses the others
 };
 
 }  // namespace tyndall

@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 
 /// Small pictures are at most so large, in pixels, and have the proportions of the scene's image.
 constexpr int thumbnail_width = 128, thumbnail_height = 80;
+constexpr int slot_width = 96, slot_height = 60;  // those of cameras
 
 constexpr std::uint32_t samples = 64;
 constexpr double longest = 2;  // seconds
@@ -37,11 +38,8 @@ std::optional<ScreenPicture> render_thumbnail(const Scene& scene, const std::fun
   const double scale = std::min(thumbnail_width / width, thumbnail_height / height);
   const auto pixels = [scale](double size) { return std::max(1, static_cast<int>(std::lround(scale * size))); };
   small.width = pixels(width), small.height = pixels(height);
-  RenderOptions options;
-  options.threads = 1;
-  options.spp = samples;
-  options.time_limit = longest;
-  options.clean = true;
+  const RenderOptions options{
+      .threads = 1, .isa = "", .region = {}, .spp = samples, .time_limit = longest, .clean = true};
   const std::shared_ptr<const PreparedScene> prepared = prepare(small);
   const RenderResult result = render(*prepared, options, [&](const RenderProgress&) { return go_on(); });
   if (result.interrupted) return {};
@@ -65,18 +63,25 @@ std::optional<ScreenPicture> make(const std::string& scene, const fs::path& fold
   }
 }
 
-/// $XDG_CACHE_HOME/tyndall/thumbnails, else ~/.cache/tyndall/thumbnails; empty where neither variable is an absolute
-/// path.
-fs::path thumbnails_folder() {
-  const fs::path cache = user_folder("XDG_CACHE_HOME", ".cache");
-  return cache.empty() ? cache : cache / "tyndall" / "thumbnails";
+/// The place in one of the user's folders; empty where there is no such folder.
+fs::path within(const fs::path& folder, const char* place) { return folder.empty() ? folder : folder / place; }
+
+/// Makes the folder of a file and writes it, where that can be done.
+template <class Write>
+void try_to_write(const fs::path& file, const Write& write) {
+  std::error_code ignored;
+  fs::create_directories(file.parent_path(), ignored);
+  try {
+    write();
+  } catch (const std::exception&) {
+    return;  // what was there before stays, and all goes on without
+  }
 }
 
-/// $XDG_STATE_HOME/tyndall/recent.txt, else ~/.local/state/tyndall/recent.txt; empty where neither variable is an
-/// absolute path.
-fs::path recent_files_list() {
-  const fs::path folder = state_folder();
-  return folder.empty() ? folder : folder / "recent.txt";
+/// The picture as OpenGL holds it; null for an empty one.
+std::shared_ptr<const PictureTexture> texture_of(const ScreenPicture& picture) {
+  if (picture.rgb.empty()) return nullptr;
+  return std::make_shared<const PictureTexture>(picture.width, picture.height, picture.rgb);
 }
 
 }  // namespace
@@ -102,13 +107,7 @@ std::optional<ScreenPicture> read_thumbnail(const fs::path& file) {
 }
 
 void write_thumbnail(const fs::path& file, const ScreenPicture& picture) {
-  std::error_code ignored;
-  fs::create_directories(file.parent_path(), ignored);
-  try {
-    write_png(file, light_of(picture), 0, ToneMap::srgb, {});
-  } catch (const std::exception&) {
-    return;  // it will be made again
-  }
+  try_to_write(file, [&] { write_png(file, light_of(picture), 0, ToneMap::srgb, {}); });
 }
 
 void Thumbnails::want(std::vector<std::string> scenes) {
@@ -123,17 +122,15 @@ void Thumbnails::begin_next() {
       lower_priority(15);
       auto picture = make(scene, folder_, [this] { return !closing_; });
       if (!picture) return {};
-      return [this, scene, made = std::move(*picture)] { came_[scene] = made; };
+      return [this, scene, made = std::move(*picture)] { take_(scene, made); };
     });
   }
 }
 
-bool Thumbnails::collect(const std::function<void(const std::string& scene, const ScreenPicture& picture)>& take) {
+bool Thumbnails::collect() {
   if (!jobs_.collect()) return false;
-  const auto came = std::exchange(came_, {});
-  for (const auto& [scene, picture] : came) take(scene, picture);
   begin_next();
-  return !came.empty();
+  return true;
 }
 
 std::vector<fs::path> read_recent_files(const fs::path& list) {
@@ -150,36 +147,53 @@ std::vector<fs::path> read_recent_files(const fs::path& list) {
 
 void add_recent_file(const fs::path& list, const fs::path& file) {
   if (list.empty() || !file.is_absolute() || file.string().find('\n') != std::string::npos) return;
-  std::error_code ignored;
   std::vector<fs::path> files = read_recent_files(list);
   std::erase(files, file);
   files.insert(files.begin(), file);
   files.resize(std::min(files.size(), max_recent_files));
   std::string text;
   for (const fs::path& one : files) text += one.string() + "\n";
-  fs::create_directories(list.parent_path(), ignored);
-  try {
-    write_text_file(list, text);
-  } catch (const std::exception&) {
-    return;  // the list then stays as it is
-  }
+  try_to_write(list, [&] { write_text_file(list, text); });
 }
 
 Gallery::Gallery(const std::function<void()>& wake)
-    : thumbnails(thumbnails_folder(), wake), list_(recent_files_list()), recent_(read_recent_files(list_)) {}
-
-bool Gallery::collect() {
-  return thumbnails.collect([this](const std::string& scene, const ScreenPicture& picture) {
-    const bool any = !picture.rgb.empty();
-    pictures_[scene] =
-        any ? std::make_unique<const PictureTexture>(picture.width, picture.height, picture.rgb) : nullptr;
-  });
-}
+    : thumbnails(
+          within(user_folder("XDG_CACHE_HOME", ".cache"), "tyndall/thumbnails"),
+          [this](const std::string& scene, const ScreenPicture& picture) { pictures_[scene] = texture_of(picture); },
+          wake),
+      list_(within(state_folder(), "recent.txt")),
+      recent_(read_recent_files(list_)) {}
 
 void Gallery::note_file(const std::filesystem::path& file) {
   add_recent_file(list_, file);
   recent_ = read_recent_files(list_);
   if (!recent_.empty()) thumbnails.forget(recent_.front().string());
+}
+
+ScreenPicture small_picture(const Frame& frame, const Display& display) {
+  const bool beauty = frame.view == View::beauty, clean = beauty && frame.clean;
+  const std::vector<float>& from = clean ? frame.clean->rgba : beauty ? frame.rgba : frame.beauty;
+  const PictureGrid every_pixel{frame.width, frame.height};
+  const auto [columns, rows, spacing] = clean ? frame.clean->grid : beauty ? frame.grid : every_pixel;
+  if (from.empty() || columns <= 0 || rows <= 0) return {};
+  const double fit =
+      std::min({1.0, static_cast<double>(slot_width) / columns, static_cast<double>(slot_height) / rows});
+  const auto pixels = [fit](int count) { return std::max(1, static_cast<int>(std::lround(fit * count))); };
+  return on_sheet({columns, rows, rgb_of(from)}, display, {pixels(columns), pixels(rows)});
+}
+
+void store_camera(CameraSlots& slots, const Camera& camera, const Frame* frame, const Display& display) {
+  CameraSlot slot{camera, frame ? texture_of(small_picture(*frame, display)) : nullptr};
+  std::erase_if(slots, [&](const CameraSlot& other) { return other.camera == camera; });
+  if (slots.size() >= max_camera_slots) slots.erase(slots.begin());
+  slots.push_back(std::move(slot));
+}
+
+std::optional<std::size_t> next_slot(const CameraSlots& slots, const Camera& camera) {
+  if (slots.empty()) return {};
+  for (std::size_t k = 0; k < slots.size(); ++k)
+    if (slots[k].camera == camera) return (k + 1) % slots.size();
+  return 0;
 }
 
 }  // namespace tyndall

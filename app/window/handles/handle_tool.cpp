@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 namespace tyndall {
 namespace {
@@ -18,7 +17,7 @@ constexpr double degrees_per_unit = 0.5;  // of the mouse, where the ring is see
 
 /// The grain that numbers get: of a point of the window, or of snapping.
 DragRounding drag_rounding_of(const PictureFrame& frame, const HandleDrag& drag) {
-  const double unit = frame.unit_at(drag.origin), height = static_cast<double>(frame.image.height());
+  const double unit = frame.unit_at(drag.origin), height = frame.image.height();
   DragRounding drag_rounding = drag.snap ? nice_below(unit * height / snaps_in_picture) : decimal_below(unit);
   if (drag.fine) --drag_rounding.exponent;
   return drag_rounding;
@@ -80,7 +79,7 @@ Vec3d rounded_shift(Vec3d anchor, Vec3d shift, DragRounding drag_rounding) {
   return {one(anchor.x, shift.x), one(anchor.y, shift.y), one(anchor.z, shift.z)};
 }
 
-DragResult move(Scene& scene, const PictureFrame& frame, const HandleDrag& drag) {
+std::string move(Scene& scene, const PictureFrame& frame, const HandleDrag& drag) {
   const Vec3d axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const bool plane = drag.handle.kind == HandleKind::plane;
   const int number = static_cast<int>(drag.handle.kind) - static_cast<int>(HandleKind::along_x);
@@ -98,33 +97,33 @@ DragResult move(Scene& scene, const PictureFrame& frame, const HandleDrag& drag)
       const Placement around = outer_placement(scene, path);
       set_anchor(scene, path, without_noise(anchor_of(scene, path) + rotate({-around.degrees, {}}, shift)));
     }
-  if (!plane) return {shift, std::string(1, "xyz"[number]) + " " + with_sign(without_noise(dot(shift, axis)))};
-  return {shift, fmt::format("x {}  y {}  z {}", with_sign(without_noise(shift.x)), with_sign(without_noise(shift.y)),
-                             with_sign(without_noise(shift.z)))};
+  if (!plane) return std::string(1, "xyz"[number]) + " " + with_sign(without_noise(dot(shift, axis)));
+  const Vec3d by = without_noise(shift);
+  return fmt::format("x {}  y {}  z {}", with_sign(by.x), with_sign(by.y), with_sign(by.z));
 }
 
-DragResult rotate_all(Scene& scene, const PictureFrame& frame, const HandleDrag& drag) {
+std::string rotate_all(Scene& scene, const PictureFrame& frame, const HandleDrag& drag) {
   double by = drag.typed ? *drag.typed : rotated(frame, drag);
   const double step = (drag.snap ? 5 : 0.5) * (drag.fine ? 0.2 : 1);
   const double before = angle_of(scene, drag.selected.front());
   if (!drag.typed) by = without_noise(std::round((before + by) / step) * step - before);
   if (drag.moved() && by != 0)
     for (const ObjectPath& path : drag.selected) rotate_object(scene, path, by);
-  return {{}, fmt::format("turned by {}°", with_sign(drag.moved() ? by : 0))};
+  return fmt::format("turned by {}°", with_sign(drag.moved() ? by : 0));
 }
 
-DragResult size_up(Scene& scene, const PictureFrame& frame, const HandleDrag& drag) {
+std::string size_up(Scene& scene, const PictureFrame& frame, const HandleDrag& drag) {
   const CameraAxes axes = axes_of(scene.camera);
   const SizeGrip grip = size_grips(scene, drag.selected.front(), normalize(axes.right - axes.up))[drag.handle.grip];
   const DragRounding drag_rounding = drag_rounding_of(frame, drag);
-  if (!drag.moved()) return {{}, std::string(grip.name) + " " + format_short(grip.value)};
+  if (!drag.moved()) return std::string(grip.name) + " " + format_short(grip.value);
   HandleDrag from_grip = drag;
   from_grip.origin = grip.at;
   const double value =
       drag.typed ? *drag.typed : rounded(grip.value + pulled(frame, from_grip, grip.pull), drag_rounding);
   set_size(scene, drag.selected.front(), drag.handle.grip, value, drag_rounding.size());
   const double now = size_grips(scene, drag.selected.front(), grip.pull)[drag.handle.grip].value;
-  return {{}, std::string(grip.name) + " " + format_short(now)};
+  return std::string(grip.name) + " " + format_short(now);
 }
 
 // GLFW's numbers of keys.
@@ -134,7 +133,7 @@ constexpr double fine_fraction = 0.1;  // of the mouse's way that counts while S
 
 }  // namespace
 
-DragResult apply_drag(Scene& scene, const PictureFrame& frame, const HandleDrag& drag) {
+std::string apply_drag(Scene& scene, const PictureFrame& frame, const HandleDrag& drag) {
   if (drag.handle.kind == HandleKind::rotate) return rotate_all(scene, frame, drag);
   if (drag.handle.kind == HandleKind::size) return size_up(scene, frame, drag);
   return move(scene, frame, drag);
@@ -153,24 +152,22 @@ void HandleTool::clicked(const Scene& scene, const ObjectPath& object, Vec3d poi
 }
 
 void HandleTool::grab(const Mouse& mouse, const ObjectPaths& selected, const Scene& scene) {
-  if (selected.empty() || drag_) return;
-  const WindowPoint at{static_cast<double>(mouse.x), static_cast<double>(mouse.y)};
-  drag_ = HandleDrag{{}, selected, {}, at, at, false, false, {}};
-  drag_->origin = middle_of(scene, selected.front());
-  start_ = scene.objects, materials_ = scene.materials;
-  grabbed_ = moved_ = true;
+  if (selected.empty() || running_) return;
+  const WindowPoint at{mouse.x, mouse.y};
+  running_ = {{{}, selected, middle_of(scene, selected.front()), at, at}, scene.objects, scene.materials};
+  running_->grabbed = running_->moved = true;
 }
 
 bool HandleTool::take_key(int key) {
-  if (!drag_) return false;
+  if (!running_) return false;
   const auto axis = static_cast<HandleKind>(static_cast<int>(HandleKind::along_x) + key - 'X');
-  HandleKind& kind = drag_->handle.kind;
-  if (grabbed_ && key >= 'X' && key <= 'Z')
+  HandleKind& kind = running_->drag.handle.kind;
+  if (running_->grabbed && key >= 'X' && key <= 'Z')
     kind = kind == axis ? HandleKind::plane : axis;  // the same key again: free once more
   else if (key == key_enter || key == key_keypad_enter)
-    confirmed_ = true;
-  else if (key == key_backspace && !typed_.empty())
-    typed_.pop_back();
+    running_->confirmed = true;
+  else if (key == key_backspace && !running_->typing.empty())
+    running_->typing.pop_back();
   else
     return false;
   read_typed();
@@ -178,76 +175,61 @@ bool HandleTool::take_key(int key) {
 }
 
 bool HandleTool::take_character(char character) {
-  const bool in_number = std::string_view("0123456789.,+-*/^()").find(character) != std::string_view::npos;
-  const bool in_name = !typed_.empty() && std::string_view("pisqrt").find(character) != std::string_view::npos;
-  if (!drag_ || drag_->handle.kind == HandleKind::plane || !(in_number || in_name)) return false;
-  typed_ += character;
+  if (!running_ || running_->drag.handle.kind == HandleKind::plane) return false;
+  const std::string names = running_->typing.empty() ? "" : "pisqrt";
+  if (("0123456789.,+-*/^()" + names).find(character) == std::string::npos) return false;
+  running_->typing += character;
   read_typed();
   return true;
 }
 
 void HandleTool::read_typed() {
   double number = 0;
-  drag_->typed = parse_number(typed_, "", number) ? std::optional(number) : std::nullopt;
-}
-
-void HandleTool::end() {
-  drag_.reset();
-  start_.clear();
-  materials_.clear();
-  said_.clear();
-  typed_.clear();
-  grabbed_ = moved_ = confirmed_ = cancelled_ = false;
+  running_->drag.typed = parse_number(running_->typing, "", number) ? std::optional(number) : std::nullopt;
 }
 
 void HandleTool::follow_mouse(const Mouse& mouse, const PictureFrame& frame, EditedScene& edited) {
   const double fraction = mouse.shift ? fine_fraction : 1.0;
-  drag_->to.x += fraction * static_cast<double>(mouse.dx);
-  drag_->to.y += fraction * static_cast<double>(mouse.dy);
-  drag_->snap = mouse.control, drag_->fine = mouse.shift;
-  const double moved = std::hypot(drag_->to.x - drag_->from.x, drag_->to.y - drag_->from.y);
-  moved_ = moved_ || drag_->typed || moved > click_distance * frame.scale;
-  if (!moved_) return;
+  HandleDrag& drag = running_->drag;
+  drag.to.x += fraction * mouse.dx;
+  drag.to.y += fraction * mouse.dy;
+  drag.snap = mouse.control, drag.fine = mouse.shift;
+  const double moved = std::hypot(drag.to.x - drag.from.x, drag.to.y - drag.from.y);
+  running_->moved = running_->moved || drag.typed || moved > click_distance * frame.scale;
+  if (!running_->moved) return;
   Scene& scene = edited.change();
-  scene.objects = start_;
-  said_ = apply_drag(scene, frame, *drag_).said;
-  if (!typed_.empty()) said_ += "  (typed: " + typed_ + ")";
-}
-
-bool HandleTool::begin(const Mouse& mouse, const PictureFrame& frame, const ObjectPaths& selected, const Scene& scene) {
-  const WindowPoint at{static_cast<double>(mouse.x), static_cast<double>(mouse.y)};
-  const Vec3d from = origin(scene, frame, selected);
-  hovered_ = handle_at(handles_of(scene, frame, selected, from), at, frame.scale);
-  if (!hovered_ || !mouse.clicked[0]) return false;
-  const WindowPoint pressed{static_cast<double>(mouse.pressed_x[0]), static_cast<double>(mouse.pressed_y[0])};
-  drag_ = HandleDrag{*hovered_, selected, from, pressed, at, false, false, {}};
-  start_ = scene.objects, materials_ = scene.materials;
-  return true;
+  scene.objects = running_->start;
+  running_->said = apply_drag(scene, frame, drag);
+  if (!running_->typing.empty()) running_->said += "  (typed: " + running_->typing + ")";
 }
 
 bool HandleTool::update(const Mouse& mouse, const Layout& layout, float scale, bool free, const ObjectPaths& selected,
                         EditedScene& edited) {
   const Scene& scene = *edited;
-  const PictureFrame frame = frame_of(scene, layout.image, static_cast<double>(scale));
+  const PictureFrame frame = frame_of(scene, layout.image, scale);
   clicked_through_ = false;
   if (waits_for_release_) return waits_for_release_ = mouse.any_down();
-  const bool other = drag_ && (scene.materials != materials_ || scene.objects.size() != start_.size());
-  if (other) end();  // another scene came meanwhile
-  if (!drag_) {
+  if (running_ && (scene.materials != running_->materials || scene.objects.size() != running_->start.size()))
+    running_.reset();  // another scene came meanwhile
+  if (!running_) {
     hovered_.reset();
-    const bool over = free && layout.area.contains(mouse.x, mouse.y);
-    if (selected.empty() || !over || !begin(mouse, frame, selected, scene)) return false;
+    if (selected.empty() || !free || !layout.area.contains(mouse.x, mouse.y)) return false;
+    const Vec3d from = origin(scene, frame, selected);
+    const WindowPoint at{mouse.x, mouse.y}, pressed{mouse.pressed_x[0], mouse.pressed_y[0]};
+    hovered_ = handle_at(handles_of(scene, frame, selected, from), at, frame.scale);
+    if (!hovered_ || !mouse.clicked[0]) return false;
+    running_ = {{*hovered_, selected, from, pressed, at}, scene.objects, scene.materials};
   } else {
     follow_mouse(mouse, frame, edited);
   }
-  hovered_ = drag_->handle;
-  const bool gone = (grabbed_ && mouse.clicked[1]) || cancelled_;
-  if (gone) edited.change().objects = start_;
-  const bool done = grabbed_ ? confirmed_ || mouse.clicked[0] : confirmed_ || !mouse.down[0];
-  clicked_through_ = done && !gone && !moved_;
+  hovered_ = running_->drag.handle;
+  const bool gone = (running_->grabbed && mouse.clicked[1]) || running_->cancelled;
+  if (gone) edited.change().objects = running_->start;
+  const bool done = running_->confirmed || (running_->grabbed ? mouse.clicked[0] : !mouse.down[0]);
+  clicked_through_ = done && !gone && !running_->moved;
   if (gone || done) {
     waits_for_release_ = mouse.any_down();
-    end();
+    running_.reset();
   }
   return true;
 }

@@ -31,13 +31,12 @@ void add_arrow(const PictureFrame& frame, Vec3d origin, WindowPoint middle, Hand
   const WindowPoint direction = frame.seen_direction(origin, axis);
   const double seen = std::hypot(direction.x, direction.y);
   if (seen < min_seen) return;
-  const double from = arrow_start,
-               to = seen < PictureFrame::min_followed ? short_arrow_end : arrow_start + arrow * seen;
+  const double to = seen < PictureFrame::min_followed ? short_arrow_end : arrow_start + arrow * seen;
   const auto at = [&](double distance) {
     return WindowPoint{middle.x + distance * frame.scale / seen * direction.x,
                        middle.y + distance * frame.scale / seen * direction.y};
   };
-  out.push_back({kind, 0, {at(from), at(to)}});
+  out.push_back({kind, 0, {at(arrow_start), at(to)}});
 }
 
 void add_ring(const PictureFrame& frame, Vec3d origin, std::vector<Handle>& out) {
@@ -124,13 +123,11 @@ PictureFrame frame_of(const Scene& scene, const Rect& image, double scale) { ret
 std::optional<WindowPoint> PictureFrame::point(Vec3d p) const {
   const auto at = projection.point(p);
   if (!at) return {};
-  return WindowPoint{static_cast<double>(image.x0) + at->x * static_cast<double>(image.width()),
-                     static_cast<double>(image.y0) + at->y * static_cast<double>(image.height())};
+  return WindowPoint{image.x0 + at->x * image.width(), image.y0 + at->y * image.height()};
 }
 
 ViewRay PictureFrame::view_ray(WindowPoint at) const {
-  return projection.view_ray({(at.x - static_cast<double>(image.x0)) / static_cast<double>(image.width()),
-                              (at.y - static_cast<double>(image.y0)) / static_cast<double>(image.height())});
+  return projection.view_ray({(at.x - image.x0) / image.width(), (at.y - image.y0) / image.height()});
 }
 
 double PictureFrame::unit_at(Vec3d p) const {
@@ -140,7 +137,7 @@ double PictureFrame::unit_at(Vec3d p) const {
 }
 
 WindowPoint PictureFrame::seen_direction(Vec3d p, Vec3d direction) const {
-  const double step = 1e-3 * static_cast<double>(image.height());
+  const double step = 1e-3 * image.height();
   const auto from = point(p), to = point(p + (step * unit_at(p)) * direction);
   if (!from || !to) return {};
   return {(to->x - from->x) / step, (to->y - from->y) / step};

@@ -71,24 +71,18 @@ void log_handles(UiLog& log, const Scene& scene, const ObjectPath& first, const 
 /// A drag of a handle.
 struct HandleDrag {
   Handle handle;
-  ObjectPaths selected;         ///< at least one; the first is the one whose numbers snapping rounds
-  Vec3d origin;                 ///< where the handles were, in the world
-  WindowPoint from, to;         ///< of the mouse
-  bool snap = false;            ///< to round numbers: about a fiftieth of the picture's height, or 5 degrees
-  bool fine = false;            ///< a tenth of these
-  std::optional<double> typed;  ///< in place of the mouse: scene units along the axis, the angle, or the size
+  ObjectPaths selected;           ///< at least one; the first is the one whose numbers snapping rounds
+  Vec3d origin;                   ///< where the handles were, in the world
+  WindowPoint from, to;           ///< of the mouse
+  bool snap = false;              ///< to round numbers: about a fiftieth of the picture's height, or 5 degrees
+  bool fine = false;              ///< a tenth of these
+  std::optional<double> typed{};  ///< in place of the mouse: scene units along the axis, the angle, or the size
 
   bool moved() const { return typed || to.x != from.x || to.y != from.y; }
 };
 
-/// What was done, for the line that tells the user of it.
-struct DragResult {
-  Vec3d moved;       ///< how far the objects went, world
-  std::string said;  ///< "x +0.35"
-};
-
-/// Does it to `scene`, which is the scene at the beginning of the drag.
-DragResult apply_drag(Scene& scene, const PictureFrame& frame, const HandleDrag& drag);
+/// Does it to `scene`, which is the scene at the beginning of the drag. Returns what the user is told of it: "x +0.35".
+std::string apply_drag(Scene& scene, const PictureFrame& frame, const HandleDrag& drag);
 
 /// Moves, turns and sizes the selected objects.
 class HandleTool {
@@ -106,17 +100,18 @@ class HandleTool {
   /// A character of a number or a sum that is typed meanwhile ("1/4", "2*pi"). Returns whether it was meant for this.
   bool take_character(char character);
   /// Gives up what is being done, and takes it back with the next drawing.
-  void cancel() { cancelled_ = drag_.has_value(); }
+  void cancel() {
+    if (running_) running_->cancelled = true;
+  }
 
   /// Whether something is being moved, turned or sized.
-  bool active() const { return drag_.has_value(); }
-  bool grabbing() const { return drag_ && grabbed_; }
+  bool active() const { return running_.has_value(); }
   /// The handle under the mouse, or the one that is dragged.
   const std::optional<Handle>& hovered() const { return hovered_; }
   /// Whether a handle was pressed and let go without moving it, in this drawing: a click on what lies behind it.
   bool clicked_through() const { return clicked_through_; }
   /// What is being done: "x +0.35"; "": nothing.
-  const std::string& said() const { return said_; }
+  std::string said() const { return running_ ? running_->said : ""; }
 
   /// Where the handles are: in the middle of the first object, or where it was clicked if its middle is not in the
   /// picture.
@@ -125,17 +120,19 @@ class HandleTool {
   void clicked(const Scene& scene, const ObjectPath& object, Vec3d point);
 
  private:
-  bool begin(const Mouse& mouse, const PictureFrame& frame, const ObjectPaths& selected, const Scene& scene);
   void follow_mouse(const Mouse& mouse, const PictureFrame& frame, EditedScene& scene);
   void read_typed();
-  void end();
 
-  std::optional<HandleDrag> drag_;
-  std::vector<Object> start_;  ///< the objects when it began
-  std::vector<Material> materials_;
+  /// What is being moved, turned or sized, until it ends.
+  struct Running {
+    HandleDrag drag;
+    std::vector<Object> start;  ///< the objects when it began
+    std::vector<Material> materials;
+    std::string said{}, typing{};
+    bool grabbed = false, moved = false, confirmed = false, cancelled = false;
+  };
+  std::optional<Running> running_;
   std::optional<Handle> hovered_;
-  std::string said_, typed_;
-  bool grabbed_ = false, moved_ = false, confirmed_ = false, cancelled_ = false;
   bool waits_for_release_ = false, clicked_through_ = false;
   ObjectPath clicked_;
   Vec3d click_;  ///< from the middle of that object

@@ -1,15 +1,12 @@
-#include "app/window/inspector/drawings.h"
-
 #include "app/report/heat_map.h"
+#include "app/window/inspector/inspector.h"
 #include "app/window/picture/display.h"
-#include "app/window/system/imgui_compat.h"
 #include "core/image/tonemap.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace tyndall {
 namespace {
@@ -41,6 +38,11 @@ Legend legend_of_stops() {
   return legend;
 }
 
+/// The upper left and the lower right corner of a rectangle that was drawn from one point to another.
+ImageLine corners(ImagePoint from, ImagePoint to) {
+  return {{std::min(from.x, to.x), std::min(from.y, to.y)}, {std::max(from.x, to.x), std::max(from.y, to.y)}};
+}
+
 }  // namespace
 
 ImVec2 in_window(const Rect& image, ImagePoint p) {
@@ -63,7 +65,7 @@ Legend legend_of(int view, double white) {
 void draw_legend(Ui& ui, const Rect& visible, const Legend& legend) {
   if (legend.title.empty() || visible.width() < 260 * ui.scale) return;
   const float s = ui.scale, pad = 10 * s, width = (legend.steps ? 390 : 240) * s, bar_height = 12 * s;
-  compat::push_font(ui.fonts.small);
+  const WithFont small(ui.fonts.small);
   const float line = ImGui::GetTextLineHeight(), height = 2 * line + bar_height + 2 * pad + 8 * s;
   const Rect box{visible.x1 - 14 * s - std::min(width, visible.width() - 28 * s), visible.y1 - 14 * s - height,
                  visible.x1 - 14 * s, visible.y1 - 14 * s};
@@ -73,13 +75,10 @@ void draw_legend(Ui& ui, const Rect& visible, const Legend& legend) {
   const float x0 = box.x0 + pad, x1 = box.x1 - pad, y = box.y0 + pad + line + 4 * s;
   const std::size_t count = legend.colours.size() - (legend.steps ? 0 : 1);
   const float step = (x1 - x0) / static_cast<float>(count);
-  const auto tone = [&](std::size_t k) {
-    const auto& c = legend.colours[k];
-    return shade({c[0], c[1], c[2], 1});
-  };
+  const auto tone = [](const std::array<float, 3>& c) { return shade({c[0], c[1], c[2], 1}); };
   for (std::size_t k = 0; k < count; ++k) {
     const float x = x0 + step * static_cast<float>(k);
-    const ImU32 from = tone(k), to = tone(legend.steps ? k : k + 1);
+    const ImU32 from = tone(legend.colours[k]), to = tone(legend.colours[legend.steps ? k : k + 1]);
     draw.AddRectFilledMultiColor({x, y}, {x + step, y + bar_height}, from, to, to, from);
   }
   draw.AddRect({x0, y}, {x1, y + bar_height}, shade(palette::dim, 0.6f));
@@ -92,7 +91,6 @@ void draw_legend(Ui& ui, const Rect& visible, const Legend& legend) {
     draw.AddText({at, y + bar_height + 3 * s}, shade(palette::dim), text.c_str());
     numbers += (k == 0 ? ": " : " ") + text;
   }
-  ImGui::PopFont();
   if (ui.log) ui.log->widget("legend", box, legend.title + numbers);
 }
 
@@ -105,55 +103,46 @@ bool RectangleTool::cancel() {
 
 std::optional<Region> RectangleTool::update(const Mouse& mouse, const Rect& image, bool free, int width, int height) {
   if (image.width() <= 0 || image.height() <= 0) return {};
-  const auto relative = [&](float x, float y) {
-    return RelativePoint{std::clamp((x - image.x0) / image.width(), 0.0f, 1.0f),
-                         std::clamp((y - image.y0) / image.height(), 0.0f, 1.0f)};
+  const auto inside = [&](float x, float y) {
+    return ImagePoint{std::clamp((x - image.x0) / image.width(), 0.0f, 1.0f),
+                      std::clamp((y - image.y0) / image.height(), 0.0f, 1.0f)};
   };
   if (waits_ && free && mouse.clicked[0]) {
-    from_ = relative(mouse.pressed_x[0], mouse.pressed_y[0]);
+    from_ = inside(mouse.pressed_x[0], mouse.pressed_y[0]);
     waits_ = false;
   }
   if (!from_) return {};
-  to_ = relative(mouse.x, mouse.y);
+  to_ = inside(mouse.x, mouse.y);
   if (mouse.down[0]) return {};
-  constexpr float rounding = 0.01f;  // of a pixel
-  const auto low = [](float a, float b, int size) {
-    return static_cast<int>(std::floor(std::min(a, b) * static_cast<float>(size) + rounding));
-  };
-  const auto high = [](float a, float b, int size) {
-    return static_cast<int>(std::ceil(std::max(a, b) * static_cast<float>(size) - rounding));
-  };
-  const RelativePoint from = *std::exchange(from_, std::nullopt);
-  if (std::abs(from.x - to_.x) * image.width() < 3 || std::abs(from.y - to_.y) * image.height() < 3) return Region{};
-  return Region{low(from.x, to_.x, width), low(from.y, to_.y, height), high(from.x, to_.x, width),
-                high(from.y, to_.y, height)};
+  const auto [low, high] = corners(*from_, to_);
+  from_.reset();
+  const ImVec2 a = in_window(image, low), b = in_window(image, high);
+  if (b.x - a.x < 3 || b.y - a.y < 3) return Region{};
+  constexpr double rounding = 0.01;  // of a pixel
+  const auto first = [](double at, int size) { return static_cast<int>(std::floor(at * size + rounding)); };
+  const auto last = [](double at, int size) { return static_cast<int>(std::ceil(at * size - rounding)); };
+  return Region{first(low.x, width), first(low.y, height), last(high.x, width), last(high.y, height)};
 }
 
 void RectangleTool::draw(Ui& ui, const Rect& image, const Rect& visible, const Region& region, int width, int height,
                          const std::string& text) const {
-  RelativePoint low{static_cast<float>(region.x0) / static_cast<float>(width),
-                    static_cast<float>(region.y0) / static_cast<float>(height)};
-  RelativePoint high{static_cast<float>(region.x1) / static_cast<float>(width),
-                     static_cast<float>(region.y1) / static_cast<float>(height)};
-  if (from_) {
-    low = {std::min(from_->x, to_.x), std::min(from_->y, to_.y)};
-    high = {std::max(from_->x, to_.x), std::max(from_->y, to_.y)};
-  }
+  const ImageLine of_region{{1.0 * region.x0 / width, 1.0 * region.y0 / height},
+                            {1.0 * region.x1 / width, 1.0 * region.y1 / height}};
+  const auto [low, high] = from_ ? corners(*from_, to_) : of_region;
   if (high.x <= low.x || image.width() <= 0) return;
   const float s = ui.scale;
-  const Rect rect{image.x0 + low.x * image.width(), image.y0 + low.y * image.height(),
-                  image.x0 + high.x * image.width(), image.y0 + high.y * image.height()};
+  const ImVec2 a = in_window(image, low), b = in_window(image, high);
+  const Rect rect{a.x, a.y, b.x, b.y};
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   draw.PushClipRect({visible.x0, visible.y0}, {visible.x1, visible.y1}, true);
   draw.AddRect({rect.x0 - s, rect.y0 - s}, {rect.x1 + s, rect.y1 + s}, shade(palette::ink, 0.7f), 0, 0, 3 * s);
   draw.AddRect({rect.x0, rect.y0}, {rect.x1, rect.y1}, shade(palette::amber), 0, 0, 1.5f * s);
   if (!from_ && !text.empty()) {
-    compat::push_font(ui.fonts.small);
+    const WithFont small(ui.fonts.small);
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     const float x = std::max(rect.x0, visible.x0), y = std::max(rect.y0 - size.y - 6 * s, visible.y0);
     draw.AddRectFilled({x, y}, {x + size.x + 10 * s, y + size.y + 4 * s}, shade(palette::panel, 0.9f), 3 * s);
     draw.AddText({x + 5 * s, y + 2 * s}, shade(palette::text), text.c_str());
-    ImGui::PopFont();
   }
   draw.PopClipRect();
   if (ui.log) ui.log->widget("rectangle", rect, text);

@@ -1,10 +1,7 @@
 #include "app/window/inspector/inspector.h"
 
-#include "app/window/inspector/drawings.h"
-#include "app/window/system/imgui_compat.h"
 #include "app/window/system/pacing.h"
 #include "app/window/tools/camera_control.h"
-#include "app/window/tools/projection.h"
 #include "app/window/tools/selection.h"
 #include "core/base/text.h"
 #include "core/compile/compile.h"
@@ -65,7 +62,7 @@ void draw_path(Ui& ui, const Scene& scene, const Rect& image, const Rect& visibl
   const Projection projection(scene);
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   draw.PushClipRect({visible.x0, visible.y0}, {visible.x1, visible.y1}, true);
-  compat::push_font(ui.fonts.small);
+  const WithFont small(ui.fonts.small);
   std::vector<Vec3d> points;
   for (const PathStop& stop : stops) {
     const Vec3d from = stop.before < 0 ? eye : points[static_cast<std::size_t>(stop.before)];
@@ -87,7 +84,6 @@ void draw_path(Ui& ui, const Scene& scene, const Rect& image, const Rect& visibl
       ui.log->widget("path." + std::to_string(k + 1), {place.x - half, place.y - half, place.x + half, place.y + half},
                      stops[k].text);
   }
-  ImGui::PopFont();
   draw.PopClipRect();
 }
 
@@ -96,7 +92,7 @@ void draw_path(Ui& ui, const Scene& scene, const Rect& image, const Rect& visibl
 void draw_lines(Ui& ui, const Rect& visible, const std::vector<std::string>& lines,
                 const std::array<float, 3>* swatch) {
   const float s = ui.scale, pad = 10 * s;
-  compat::push_font(ui.fonts.mono);
+  const WithFont mono(ui.fonts.mono);
   float width = 0;
   for (const std::string& line : lines) width = std::max(width, ImGui::CalcTextSize(line.c_str()).x);
   const float step = ImGui::GetTextLineHeight() + 2 * s, height = step * static_cast<float>(lines.size()) + 2 * pad;
@@ -119,7 +115,6 @@ void draw_lines(Ui& ui, const Rect& visible, const std::vector<std::string>& lin
     draw.AddRect({x, y}, {x + edge, y + edge}, shade(palette::dim));
   }
   draw.PopClipRect();
-  ImGui::PopFont();
   if (ui.log) ui.log->widget("inspector", box, joined(lines, " | "));
 }
 
@@ -136,8 +131,8 @@ std::vector<std::string> path_lines(const NoisyPath& found, const std::vector<Pa
   return lines;
 }
 
-PixelReadout pixel_readout(const Frame& frame, const PixelReport& report, const SeenThing& seen,
-                           const Display& display) {
+PixelReadout pixel_readout(const Frame& frame, const PixelReport& report, const Scene& scene,
+                           const Renderer::Pick& seen) {
   PixelReadout model;
   std::vector<std::string>& lines = model.lines;
   const auto pixel =
@@ -157,18 +152,20 @@ PixelReadout pixel_readout(const Frame& frame, const PixelReport& report, const 
     if (clean_known && frame.view == View::beauty) {
       const float* clean = frame.clean->rgba.data() + 4 * pixel;
       light = {clean[0], clean[1], clean[2]};
-      lines.push_back(fmt::format("clean    {:.4g} {:.4g} {:.4g}", static_cast<double>(clean[0]),
-                                  static_cast<double>(clean[1]), static_cast<double>(clean[2])));
+      lines.push_back(fmt::format("clean    {:.4g} {:.4g} {:.4g}", light.x, light.y, light.z));
     }
-    const std::vector<std::uint8_t> bytes = tone_map({light.x, light.y, light.z}, display.exposure, display.tone_map);
+    const std::vector<std::uint8_t> bytes =
+        tone_map({light.x, light.y, light.z}, scene.display.exposure, scene.display.tone_map);
     for (std::size_t c = 0; c < 3; ++c) model.shown[c] = static_cast<float>(bytes[c]) / 255;
     lines.push_back(fmt::format("shown    {} {} {}", bytes[0], bytes[1], bytes[2]));
   }
   const std::string view = value_of_view(frame, pixel);
   if (!view.empty()) lines.push_back(view);
-  lines.push_back("object   " + (seen.object.empty() ? std::string("nothing") : seen.object));
-  if (!seen.material.empty()) lines.push_back("material " + seen.material);
-  if (!seen.object.empty()) lines.push_back(fmt::format("depth    {:.4g}", seen.depth));
+  const Object* object = find_object(scene, seen.object);
+  const Material* material = object ? material_of(scene, *object) : nullptr;
+  lines.push_back("object   " + (object ? title_of(scene, seen.object) : "nothing"));
+  if (material) lines.push_back("material " + material->name);
+  if (object) lines.push_back(fmt::format("depth    {:.4g}", seen.depth));
   return model;
 }
 
@@ -214,35 +211,17 @@ bool Inspector::collect(const RendererPair& renderers) {
   return std::exchange(report_, report) != report || found;
 }
 
-/// Finds out what is seen at the pixel, once for each pixel and edit.
-void Inspector::look(const Scene& scene, const RendererPair& renderers) {
-  const std::pair<int, int> pixel{at_->x, at_->y};
-  const std::uint64_t edit = renderers.edit(Half::current);
-  if (pixel == seen_at_ && edit == seen_edit_) return;
-  seen_at_ = pixel, seen_edit_ = edit;
-  seen_ = {};
-  const Renderer::Pick pick = renderers.pick(pixel.first, pixel.second);
-  const Object* object = find_object(scene, pick.object);
-  if (pick.object.empty() || !object) return;
-  seen_.object = title_of(scene, pick.object);
-  if (const Material* material = material_of(scene, *object)) seen_.material = material->name;
-  seen_.depth = pick.depth;
-}
-
 void Inspector::draw(Ui& ui, const Context& context, const Scene& scene, const RendererPair& renderers) {
-  const Scene* sent = context.wanted.scene.get();
-  if (path_ && sent && path_->checked != renderers.edit(Half::current)) {
-    path_->checked = renderers.edit(Half::current);
-    if (change_between(*path_->scene, *sent).others) drop_path();  // the camera may look from elsewhere
-  }
+  const std::shared_ptr<const Scene>& sent = context.wanted.scene;
+  const bool other = path_ && sent && sent != path_->scene && change_between(*path_->scene, *sent).others;
+  if (other) drop_path();  // while only the camera looks from elsewhere it stays
   if (path_) draw_path(ui, scene, context.layout.image, context.visible, path_->eye, path_->stops);
   PixelReadout model;
   const bool pixel = on_ && at_ && context.frame;
   if (pixel) {
-    look(scene, renderers);
     const bool known = report_ && report_->x == at_->x && report_->y == at_->y;
-    model =
-        pixel_readout(*context.frame, known ? *report_ : PixelReport{.x = at_->x, .y = at_->y}, seen_, scene.display);
+    model = pixel_readout(*context.frame, known ? *report_ : PixelReport{.x = at_->x, .y = at_->y}, scene,
+                          renderers.pick(at_->x, at_->y));
   }
   std::vector<std::string> lines = model.lines;
   if (path_) {

@@ -1,5 +1,4 @@
 #include "app/window/panels/panels.h"
-#include "app/window/system/imgui_compat.h"
 
 #include <fmt/core.h>
 
@@ -53,7 +52,6 @@ struct Plot {
     axes = axes_for(curves, frame);
   }
   ImVec2 at(const ErrorPoint& p) const { return {axes.x(p.seconds), axes.y(p.rel_mse)}; }
-  void text(ImVec2 at, ImU32 colour, const std::string& words) const { draw->AddText(at, colour, words.c_str()); }
 };
 
 std::string decade_text(int exponent, const char* unit) {
@@ -71,16 +69,16 @@ void draw_grid(const Plot& plot) {
     plot.draw->AddLine({f.x0, y}, {f.x1, y}, shade(palette::line));
     if ((e - errors.first) % every != 0) continue;
     const std::string text = decade_text(e, "");
-    plot.text({f.x0 - ImGui::CalcTextSize(text.c_str()).x - 6 * plot.ui.scale, y - line / 2}, shade(palette::dim),
-              text);
+    const float width = ImGui::CalcTextSize(text.c_str()).x;
+    plot.draw->AddText({f.x0 - width - 6 * plot.ui.scale, y - line / 2}, shade(palette::dim), text.c_str());
   }
   for (int e = times.first; e <= times.last; ++e) {
     const float x = plot.axes.x(std::pow(10.0, e));
     plot.draw->AddLine({x, f.y0}, {x, f.y1}, shade(palette::line));
     const std::string text = decade_text(e, " s");
     const float width = ImGui::CalcTextSize(text.c_str()).x;
-    plot.text({std::min(x - width / 2, f.x1 + 8 * plot.ui.scale - width), f.y1 + 4 * plot.ui.scale},
-              shade(palette::dim), text);
+    const float left = std::min(x - width / 2, f.x1 + 8 * plot.ui.scale - width);
+    plot.draw->AddText({left, f.y1 + 4 * plot.ui.scale}, shade(palette::dim), text.c_str());
   }
 }
 
@@ -94,11 +92,9 @@ void draw_guides(const Plot& plot, const ErrorCurve& curve) {
   const double end = 10 * plot.axes.times.maximum();
   const ImVec2 a = plot.at(last), b = plot.at({end, last.rel_mse * last.seconds / end});
   const float length = std::hypot(b.x - a.x, b.y - a.y), dash = 4 * plot.ui.scale;
-  for (float s = 0; s < length; s += 2 * dash) {
-    const float t0 = s / length, t1 = std::min(s + dash, length) / length;
-    plot.draw->AddLine({a.x + t0 * (b.x - a.x), a.y + t0 * (b.y - a.y)},
-                       {a.x + t1 * (b.x - a.x), a.y + t1 * (b.y - a.y)}, shade(palette::blue, 0.45f));
-  }
+  const auto point = [&](float s) { return ImLerp(a, b, std::min(s / length, 1.0f)); };
+  for (float s = 0; s < length; s += 2 * dash)
+    plot.draw->AddLine(point(s), point(s + dash), shade(palette::blue, 0.45f));
 }
 
 void draw_lines(const Plot& plot) {
@@ -117,33 +113,25 @@ void draw_lines(const Plot& plot) {
       plot.draw->AddCircleFilled(plot.at(line.curve->points.back()), 1.6f * line.width * plot.ui.scale, line.colour);
 }
 
-/// The lines of the chart by name, beneath it: nothing is written over the curves.
-class Legend {
- public:
-  Legend(const Ui& ui, std::vector<ChartLine> lines, float left, float right)
-      : scale_(ui.scale), lines_(std::move(lines)) {
-    std::erase_if(lines_, [](const ChartLine& line) { return line.curve->points.empty(); });
-    std::reverse(lines_.begin(), lines_.end());  // the current one first
-    lines_.push_back({nullptr, "1 % error", target_colour(), 1.5f});
-    std::vector<float> widths;
-    for (const ChartLine& line : lines_) widths.push_back(ImGui::CalcTextSize(line.name.c_str()).x + 18 * scale_);
-    rows_ = rows_of_names(widths, {left, 0, right, ImGui::GetFontSize() + 2 * scale_}, 12 * scale_);
+/// Names the lines of the chart beneath it, the current one first: nothing is written over the curves. The last names
+/// stand above `bottom`. Returns where the first ones begin.
+float draw_legend(const Ui& ui, std::vector<ChartLine> lines, float left, float right, float bottom) {
+  const float s = ui.scale;
+  std::erase_if(lines, [](const ChartLine& line) { return line.curve->points.empty(); });
+  std::reverse(lines.begin(), lines.end());
+  lines.push_back({nullptr, "1 % error", target_colour(), 1.5f});
+  std::vector<float> widths;
+  for (const ChartLine& line : lines) widths.push_back(ImGui::CalcTextSize(line.name.c_str()).x + 18 * s);
+  const std::vector<Rect> places = rows_of_names(widths, {left, 0, right, ImGui::GetFontSize() + 2 * s}, 12 * s);
+  const float top = bottom - places.back().y1;
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const float x = places[i].x0, y = top + places[i].y0, middle = y + places[i].height() / 2;
+    draw->AddLine({x, middle}, {x + 13 * s, middle}, lines[i].colour, lines[i].width * s);
+    draw->AddText({x + 18 * s, y + s}, shade(palette::dim), lines[i].name.c_str());
   }
-  float height() const { return rows_.back().y1; }
-  void draw(ImDrawList* list, float top) const {
-    for (std::size_t i = 0; i < lines_.size(); ++i) {
-      const Rect& at = rows_[i];
-      const float middle = top + (at.y0 + at.y1) / 2;
-      list->AddLine({at.x0, middle}, {at.x0 + 13 * scale_, middle}, lines_[i].colour, lines_[i].width * scale_);
-      list->AddText({at.x0 + 18 * scale_, top + at.y0 + scale_}, shade(palette::dim), lines_[i].name.c_str());
-    }
-  }
-
- private:
-  float scale_;
-  std::vector<ChartLine> lines_;
-  std::vector<Rect> rows_;
-};
+  return top;
+}
 
 /// Marks the point of the curve nearest to the mouse, and shows its numbers in a tooltip.
 void read_out(Ui& ui, const Plot& plot) {
@@ -157,12 +145,11 @@ void read_out(Ui& ui, const Plot& plot) {
   plot.draw->AddCircle(plot.at(p), 4.5f * ui.scale, shade(palette::text), 0, 1.5f * ui.scale);
   const std::string numbers = fmt::format("{:.2g} s, {} spp\nrelMSE {:.2g}, error {:.2g} %", p.seconds,
                                           format_count(p.spp), p.rel_mse, 100 * std::sqrt(p.rel_mse));
-  compat::push_font(ui.fonts.small);
+  const WithFont small(ui.fonts.small);
   ImGui::BeginTooltip();
   ImGui::TextUnformatted(line.name.c_str());
   ImGui::TextColored(palette::dim, "%s", numbers.c_str());
   ImGui::EndTooltip();
-  ImGui::PopFont();
   if (ui.log) ui.log->changed("reading", fmt::format("{}: {:.4g} s {:.4g}", line.name, p.seconds, p.rel_mse));
 }
 
@@ -172,20 +159,17 @@ void draw_chart(Ui& ui, const PanelState& state, ImVec2 size) {
   ImGui::InvisibleButton("chart", {std::max(size.x, 1.0f), std::max(size.y, 1.0f)});  // ImGui ends at nothing
   const LiveAccuracy& accuracy = *state.now.accuracy;
   log_item(ui, "chart", accuracy.curves(Half::current).current().method);
-  compat::push_font(ui.fonts.small);
+  const WithFont small(ui.fonts.small);
   const ImVec2 end{at.x + size.x, at.y + size.y};
   ImGui::GetWindowDrawList()->AddRectFilled(at, end, shade(palette::ink), 6 * s);
   std::vector<ChartLine> lines;
   for (const NamedCurve& one : accuracy.named_curves()) lines.push_back(line_of(one, lines.size()));
-  const Legend legend(ui, lines, at.x + 10 * s, end.x - 10 * s);
-  const float foot = end.y - legend.height() - 6 * s;
+  ImGui::PushClipRect(at, end, true);
+  const float foot = draw_legend(ui, lines, at.x + 10 * s, end.x - 10 * s, end.y - 6 * s);
   const Plot plot(ui, lines, {at.x + 38 * s, at.y + 10 * s, end.x - 14 * s, std::max(at.y + 40 * s, foot - 22 * s)});
-  plot.draw->PushClipRect(at, end, true);
   draw_grid(plot);
   draw_lines(plot);
-  legend.draw(plot.draw, foot);
-  plot.draw->PopClipRect();
-  ImGui::PopFont();
+  ImGui::PopClipRect();
   read_out(ui, plot);
 }
 
@@ -225,10 +209,8 @@ float ChartAxes::x(double seconds) const {
 float ChartAxes::y(double rel_mse) const {
   return frame.y1 - static_cast<float>(errors.part_of(rel_mse)) * frame.height();
 }
-double ChartAxes::seconds(float x) const { return times.value_at(static_cast<double>((x - frame.x0) / frame.width())); }
-double ChartAxes::rel_mse(float y) const {
-  return errors.value_at(static_cast<double>((frame.y1 - y) / frame.height()));
-}
+double ChartAxes::seconds(float x) const { return times.value_at((x - frame.x0) / frame.width()); }
+double ChartAxes::rel_mse(float y) const { return errors.value_at((frame.y1 - y) / frame.height()); }
 
 std::optional<CurveReading> nearest_curve(std::span<const ErrorCurve* const> curves, const ChartAxes& axes, float x,
                                           float y, float reach) {

@@ -27,14 +27,12 @@ bool choose_by_keys(Ui& ui, std::span<const Choice> choices, int& chosen) {
 bool choice_button(Ui& ui, const Row& row, const Choice& choice, bool on, ImVec2 size) {
   ImGui::PushStyleColor(ImGuiCol_Button, on ? palette::chosen : palette::field);
   ImGui::PushStyleColor(ImGuiCol_Text, choice.missing ? palette::faint : palette::text);
-  const bool pressed = ImGui::Button(choice.name, size);
+  const bool pressed = ImGui::Button(choice.name.c_str(), size);
   ImGui::PopStyleColor(2);
   log_item(ui, row.name + "." + choice.name, on ? "on" : choice.missing ? "missing" : "off");
-  if (!choice.missing) tooltip(ui, choice.help);
-  if (!choice.missing) return pressed && !on;
-  tooltip(ui, choice.missing);
-  if (pressed) ui.problem = std::string(choice.name) + ": " + choice.missing;
-  return false;
+  tooltip(ui, choice.missing ? choice.missing : choice.help);
+  if (pressed && choice.missing) ui.problem = choice.name + ": " + choice.missing;
+  return pressed && !on && !choice.missing;
 }
 
 }  // namespace
@@ -45,7 +43,7 @@ bool choice_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& ch
   const float space = 2 * ui.scale, left = ImGui::GetCursorPosX();
   const float width = (value_width(ui) - space * static_cast<float>(per_line - 1)) / static_cast<float>(per_line);
   bool changed = choose_by_keys(ui, choices, chosen);
-  compat::push_font(ui.fonts.small);
+  const WithFont small(ui.fonts.small);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {space, space});
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2 * ui.scale, 2 * ui.scale});
   for (int k = 0; k < count; ++k) {
@@ -55,31 +53,24 @@ bool choice_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& ch
     if (choice_button(ui, row, choices[static_cast<std::size_t>(k)], k == chosen, size)) chosen = k, changed = true;
   }
   ImGui::PopStyleVar(2);
-  ImGui::PopFont();
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().ItemSpacing.y - space);
   end_row(ui, row);
   return changed;
-}
-
-bool combo_row(Ui& ui, const Row& row, std::span<const std::string> names, int& chosen) {
-  std::vector<Choice> choices;
-  for (const std::string& name : names) choices.push_back({name.c_str()});
-  return combo_row(ui, row, choices, chosen);
 }
 
 bool combo_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& chosen) {
   begin_row(ui, row);
   ImGui::SetNextItemWidth(value_width(ui));
   bool changed = choose_by_keys(ui, choices, chosen);
-  const char* now = chosen >= 0 ? choices[static_cast<std::size_t>(chosen)].name : "";
-  const bool open = ImGui::BeginCombo("##list", now);
+  const std::string now = chosen >= 0 ? choices[static_cast<std::size_t>(chosen)].name : "";
+  const bool open = ImGui::BeginCombo("##list", now.c_str());
   log_item(ui, row.name, now);
   if (open) {
     for (int k = 0; k < static_cast<int>(choices.size()); ++k) {
       const Choice& choice = choices[static_cast<std::size_t>(k)];
       ImGui::PushID(k);
       const ImGuiSelectableFlags flags = choice.missing ? ImGuiSelectableFlags_Disabled : ImGuiSelectableFlags_None;
-      if (ImGui::Selectable(choice.name, k == chosen, flags)) changed = k != chosen, chosen = k;
+      if (ImGui::Selectable(choice.name.c_str(), k == chosen, flags)) changed = k != chosen, chosen = k;
       ImGui::PopID();
       log_item(ui, row.name + "." + choice.name, choice.missing ? "missing" : "item");
       tooltip(ui, choice.missing ? choice.missing : choice.help);

@@ -1,5 +1,4 @@
 #include "app/window/panels/panels.h"
-#include "app/window/system/imgui_compat.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +24,7 @@ bool is_shown(const PanelState& state, const Section& one) { return state.now.ha
 /// The row of tabs, and a button for all actions.
 void draw_tabs(Ui& ui, PanelState& state) {
   const float s = ui.scale, space = 2 * s;
-  compat::push_font(ui.fonts.small);
+  const WithFont small(ui.fonts.small);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2 * s, 4 * s});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {space, space});
   const auto has = [&state](const Section& one) { return one.is(has_tab) && is_shown(state, one); };
@@ -51,7 +50,6 @@ void draw_tabs(Ui& ui, PanelState& state) {
   ImGui::PopStyleColor();
   log_item(ui, "tab.actions", "button");
   ImGui::PopStyleVar(2);
-  ImGui::PopFont();
   tooltip(ui, "all actions and their keys: Ctrl + K");
 }
 
@@ -64,10 +62,7 @@ void begin_jump(Ui& ui, PanelState& state) {
   to.jump = -1;
   to.sent = -1;
   const std::string heading = sections[to.lit].heading;
-  if (!heading.empty())
-    ui.folded.erase(heading);
-  else if (!state.selected.empty())
-    ui.folded.erase(title_of(*state.scene, state.selected));
+  ui.folded.erase(heading.empty() ? title_of(*state.scene, state.selected) : heading);
   ui.wake_in = 0;
 }
 
@@ -102,9 +97,8 @@ void draw_edge(Ui& ui, PanelState& state, const Rect& column) {
     log_item(ui, "column.edge", "edge");
     if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0, 1)) {
-      const double wanted = static_cast<double>((column.x1 - ImGui::GetIO().MousePos.x) / ui.scale);
-      state.look->column =
-          std::clamp(std::round(wanted), static_cast<double>(narrowest_column), static_cast<double>(widest_column));
+      const float wanted = std::round((column.x1 - ImGui::GetIO().MousePos.x) / ui.scale);
+      state.look->column = std::clamp(wanted, narrowest_column, widest_column);
     }
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) state.look->column = column_width;
   };

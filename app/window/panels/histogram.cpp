@@ -30,9 +30,7 @@ void draw_bars(ImDrawList& draw, const Rect& frame, const Histogram& histogram) 
 Histogram histogram_of(const std::vector<float>& rgba, const Display& display) {
   const std::size_t pixels = rgba.size() / 4, stride = std::max<std::size_t>(1, pixels / max_counted) | 1;
   std::vector<float> rgb;
-  for (std::size_t i = 0; i < pixels; i += stride)
-    rgb.insert(rgb.end(), rgba.begin() + static_cast<std::ptrdiff_t>(4 * i),
-               rgba.begin() + static_cast<std::ptrdiff_t>(4 * i + 3));
+  for (std::size_t i = 0; i < pixels; i += stride) rgb.insert(rgb.end(), &rgba[4 * i], &rgba[4 * i + 3]);
   const std::vector<std::uint8_t> shown = tone_map(rgb, display.exposure, display.tone_map);
   Histogram found;
   for (std::size_t i = 0; i + 2 < shown.size(); i += 3) {

@@ -11,7 +11,7 @@ namespace {
 constexpr double pause = 0.5;  // seconds without the wheel after which it is a new movement
 
 void scroll(Ui& ui, ImGuiID id, float notches) {
-  ui.wheel = {id, ImGui::GetTime(), true};
+  ui.wheel = {id, ImGui::GetTime()};
   const float step = std::min(5 * ImGui::GetFontSize(), 0.67f * ImGui::GetWindowHeight());
   ImGui::SetScrollY(std::clamp(ImGui::GetScrollY() - notches * step, 0.0f, ImGui::GetScrollMaxY()));
 }
@@ -23,7 +23,9 @@ void scroll_list(Ui& ui) {
   const bool of_other = ui.wheel.owner != id && ui.wheel.owner != 0 && ImGui::GetTime() < ui.wheel.last + pause;
   if (io.MouseWheel == 0 || io.KeyCtrl || !ImGui::IsWindowHovered() || of_other) return;
   const bool at_end = io.MouseWheel > 0 ? ImGui::GetScrollY() <= 0 : ImGui::GetScrollY() >= ImGui::GetScrollMaxY();
-  if (!at_end) scroll(ui, id, io.MouseWheel);
+  if (at_end) return;
+  scroll(ui, id, io.MouseWheel);
+  ui.wheel.used = true;
 }
 
 /// A line of a list, with a grey word on the right. Returns whether it was clicked.
@@ -69,7 +71,7 @@ constexpr std::size_t max_unfolded = 20;  // larger groups are folded at first
 struct ObjectLine {
   ObjectPath path;
   std::string label, note;
-  bool group = false, open = false;
+  std::string sign;  ///< of a group, which a click on it folds or unfolds
 };
 
 bool is_open(const ObjectsView& view, const ObjectPath& path, std::size_t size) {
@@ -85,55 +87,39 @@ void add_lines(const PanelState& state, const std::vector<Object>& objects, Obje
     path.push_back(static_cast<int>(i));
     const Material* material = material_of(*state.scene, objects[i]);
     const Group* group = std::get_if<Group>(&objects[i].kind);
+    const bool open = group && (!wanted.empty() || is_open(state.objects, path, group->objects.size()));
     ObjectLine line{path, title_of(*state.scene, path), material ? material->name : kind_name(objects[i]),
-                    group != nullptr,
-                    group && (!wanted.empty() || is_open(state.objects, path, group->objects.size()))};
+                    group ? (open ? "- " : "+ ") : ""};
     if (group) line.note = std::to_string(group->objects.size()) + " in " + line.note;
     const bool found = wanted.empty() || lower_case(line.label + " " + line.note).find(wanted) != std::string::npos;
-    const bool open = line.open;
     if (found) out.push_back(std::move(line));
     if (open) add_lines(state, group->objects, path, out);
     path.pop_back();
   }
 }
 
-/// Opens the groups around an object, so that its line can be seen.
-void unfold_around(PanelState& state, const ObjectPath& path) {
-  ObjectPath group;
-  for (std::size_t k = 0; k + 1 < path.size(); ++k) {
-    group.push_back(path[k]);
-    const auto size = std::get<Group>(find_object(*state.scene, group)->kind).objects.size();
-    if (is_open(state.objects, group, size)) continue;
-    if (!state.objects.toggled.erase(group)) state.objects.toggled.insert(group);
-  }
-}
-
-/// A click in the list: selects, with Ctrl as well, or deselects.
-void choose(PanelState& state, const ObjectPath& path, bool on) {
-  const bool more = ImGui::GetIO().KeyCtrl && !state.selected.empty();
-  if (more && path != state.selected) {
-    if (std::erase(state.also, path) == 0) state.also.insert(state.also.begin(), std::exchange(state.selected, path));
-  } else {
-    state.also.clear();
-    state.selected = on ? ObjectPath{} : path;
-  }
-  state.objects.shown = state.selected;  // the list stays where the mouse is
+/// Folds a group that is open, and opens one that is folded.
+void toggle(ObjectsView& view, const ObjectPath& group) {
+  if (!view.toggled.erase(group)) view.toggled.insert(group);
 }
 
 void draw_line(Ui& ui, PanelState& state, const ObjectLine& line, std::size_t number) {
   const bool also = std::find(state.also.begin(), state.also.end(), line.path) != state.also.end();
   const bool on = line.path == state.selected || also;
-  const std::string fold = line.group ? (line.open ? "- " : "+ ") : "";
-  const std::string label = std::string(2 * (line.path.size() - 1), ' ') + fold + line.label;
+  const std::string before = std::string(2 * (line.path.size() - 1), ' ') + line.sign;
   const float left = ImGui::GetCursorScreenPos().x;
-  if (!list_line(ui, std::to_string(number), label, line.note, on)) return;
-  const bool on_sign = ImGui::GetIO().MousePos.x <
-                       left + ImGui::CalcTextSize(label.substr(0, label.size() - line.label.size()).c_str()).x;
-  if (line.group && on_sign) {
-    if (!state.objects.toggled.erase(line.path)) state.objects.toggled.insert(line.path);
+  if (!list_line(ui, std::to_string(number), before + line.label, line.note, on)) return;
+  const bool on_sign = ImGui::GetIO().MousePos.x < left + ImGui::CalcTextSize(before.c_str()).x;
+  if (!line.sign.empty() && on_sign) return toggle(state.objects, line.path);
+  // Selects, with Ctrl as well, or deselects.
+  if (ImGui::GetIO().KeyCtrl && !state.selected.empty() && line.path != state.selected) {
+    if (std::erase(state.also, line.path) == 0)
+      state.also.insert(state.also.begin(), std::exchange(state.selected, line.path));
   } else {
-    choose(state, line.path, on && !also);
+    state.also.clear();
+    state.selected = on && !also ? ObjectPath{} : line.path;
   }
+  state.objects.shown = state.selected;  // the list stays where the mouse is
 }
 
 /// Scrolls to the line of the selected object if it was selected elsewhere. line: the height of one.
@@ -147,15 +133,6 @@ void follow_selection(PanelState& state, const std::vector<ObjectLine>& lines, f
   if (top < ImGui::GetScrollY() || top + line > ImGui::GetScrollY() + height) ImGui::SetScrollY(top - height / 2);
 }
 
-void search_row(Ui& ui, PanelState& state) {
-  char text[64] = {};
-  state.objects.search.copy(text, sizeof text - 1);
-  ImGui::SetNextItemWidth(-1);
-  if (ImGui::InputTextWithHint("##search", "search by name, kind or material", text, sizeof text))
-    state.objects.search = text;
-  log_item(ui, "search", state.objects.search);
-}
-
 constexpr float row_height = 46, picture_width = 64, picture_height = 40;  // units of the design
 
 /// A scene that can be opened.
@@ -167,25 +144,12 @@ struct SceneRow {
   std::string details;  ///< tooltip
 };
 
-/// What a scene's file says between two of its words ("Fails:" and "Right:"); "" if it does not say it.
-std::string said_after(const std::string& about, const std::string& word, const std::string& next) {
-  const std::size_t at = about.find(word);
+/// "Fails: ..." as far as a scene's file says it before "Right: ..."; "" if it does not say it.
+std::string failure_in(const std::string& about) {
+  const std::size_t at = about.find("Fails:");
   if (at == std::string::npos) return "";
-  const std::size_t from = at + word.size();
-  const std::string text = about.substr(from, about.find(next, from) - from);
-  const std::size_t first = text.find_first_not_of(' ');
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
-}
-
-/// The picture in the middle of its place, or an empty place where there is none.
-void draw_picture(const Ui& ui, const PanelState& state, const std::string& what, ImVec2 at) {
-  const ImVec2 place{picture_width * ui.scale, picture_height * ui.scale};
-  ImDrawList* draw = ImGui::GetWindowDrawList();
-  draw->AddRectFilled(at, {at.x + place.x, at.y + place.y}, shade(palette::field), 3 * ui.scale);
-  if (!state.now.pictures) return;
-  const auto found = state.now.pictures->find(what);
-  if (found == state.now.pictures->end() || !found->second) return;
-  draw_fitted(*found->second, {at.x, at.y, at.x + place.x, at.y + place.y}, 3 * ui.scale);
+  const std::string text = about.substr(at, about.find("Right:", at) - at);
+  return text.substr(0, text.find_last_not_of(' ') + 1);
 }
 
 /// Picture, name and a grey line. Returns whether it was clicked.
@@ -197,21 +161,23 @@ bool scene_row(Ui& ui, PanelState& state, const SceneRow& row) {
   const bool pressed = ImGui::Selectable(("##" + row.name).c_str(), on, 0, size);
   log_item(ui, row.name, on ? "on" : "off");
   tooltip(ui, row.details);
-  draw_picture(ui, state, row.what, at);
+  const Rect place{at.x, at.y, at.x + picture_width * s, at.y + picture_height * s};
+  ImGui::GetWindowDrawList()->AddRectFilled(at, {place.x1, place.y1}, shade(palette::field), 3 * s);
+  if (const auto& all = state.now.pictures; all && all->contains(row.what) && all->at(row.what))
+    draw_fitted(*all->at(row.what), place, 3 * s);
   state.wanted_pictures.push_back(row.what);
   const float left = at.x + (picture_width + 10) * s;
   clipped_text_at(row.label, {left, at.y + 2 * s}, right - left, palette::text);
-  compat::push_font(ui.fonts.small);
+  const WithFont small(ui.fonts.small);
   clipped_text_at(row.line, {left, at.y + 22 * s}, right - left, palette::dim);
-  ImGui::PopFont();
   return pressed;
 }
 
 std::vector<SceneRow> rows_of(const std::vector<BuiltIn>& scenes) {
   std::vector<SceneRow> rows;
   for (const BuiltIn& scene : scenes) {
-    const std::string fails = said_after(scene.about, "Fails:", "Right:");
-    rows.push_back({scene.name, scene.name, scene.name, fails.empty() ? scene.title : "Fails: " + fails,
+    const std::string fails = failure_in(scene.about);
+    rows.push_back({scene.name, scene.name, scene.name, fails.empty() ? scene.title : fails,
                     scene.about.empty() ? scene.title : scene.about});
   }
   return rows;
@@ -235,22 +201,32 @@ void scene_list(Ui& ui, PanelState& state, const char* name, const std::vector<S
 
 void scroll_column(Ui& ui) {
   const ImGuiIO& io = ImGui::GetIO();
-  const bool used = ui.wheel.used;
-  ui.wheel.used = false;
+  const bool used = std::exchange(ui.wheel.used, false);
   if (used || io.MouseWheel == 0 || io.KeyCtrl || !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows)) return;
   scroll(ui, ImGui::GetID("wheel"), io.MouseWheel);
-  ui.wheel.used = false;
 }
 
 void objects_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Objects", "click in the picture, or here")) return;
   const Scope scope(ui, "objects");
-  if (state.objects.shown != state.selected) unfold_around(state, state.selected);
+  const bool elsewhere = state.objects.shown != state.selected;  // then the groups around it open
+  for (ObjectPath group = state.selected; elsewhere && group.size() > 1;) {
+    group.pop_back();
+    const auto size = std::get<Group>(find_object(*state.scene, group)->kind).objects.size();
+    if (!is_open(state.objects, group, size)) toggle(state.objects, group);
+  }
   std::vector<ObjectLine> lines;
   ObjectPath path;
   add_lines(state, state.scene->objects, path, lines);
   const bool searches = leaves(*state.scene).size() >= searched || !state.objects.search.empty();
-  if (searches) search_row(ui, state);
+  if (searches) {
+    char text[64] = {};
+    state.objects.search.copy(text, sizeof text - 1);
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::InputTextWithHint("##search", "search by name, kind or material", text, sizeof text))
+      state.objects.search = text;
+    log_item(ui, "search", state.objects.search);
+  }
   const float line = ImGui::GetTextLineHeight() + 4 * ui.scale;
   list(
       ui, "objects", line, lines.size(), searches ? 8 : std::min<std::size_t>(lines.size(), 8),

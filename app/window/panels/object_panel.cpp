@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tyndall {
 
@@ -39,17 +40,15 @@ std::string stops_text(double power) {
 
 /// Buttons that make a light brighter or darker by stops.
 void stops_row(Ui& ui, double& power) {
-  static constexpr struct {
-    const char* name;
-    double stops;
-  } buttons[] = {{"- 1", -1}, {"- 1/3", -1 / 3.0}, {"+ 1/3", 1 / 3.0}, {"+ 1", 1}};
+  static constexpr std::pair<const char*, double> buttons[] = {
+      {"- 1", -1}, {"- 1/3", -1 / 3.0}, {"+ 1/3", 1 / 3.0}, {"+ 1", 1}};
   begin_row(ui, light_stops_row);
   const float space = 2 * ui.scale, width = (value_width(ui) - 3 * space) / 4;
   for (const auto& button : buttons) {
     if (&button != buttons) ImGui::SameLine(0, space);
-    if (small_button(ui, std::string("stops.") + button.name, button.name, width))
+    if (small_button(ui, std::string("stops.") + button.first, button.first, width))
       power = without_noise(
-          rounded(power * std::exp2(button.stops), {1, decimal_below(std::max(power, 1e-30)).exponent - 3}));
+          rounded(power * std::exp2(button.second), {1, decimal_below(std::max(power, 1e-30)).exponent - 3}));
   }
   end_row(ui, {});
 }
@@ -89,8 +88,8 @@ void texture_rows(Ui& ui, PanelState& state, const char* name, const auto& colou
   const TextureIndex* texture = std::get_if<TextureIndex>(&colour_in(*state.scene));
   if (!texture) return;
   int index = texture->index;
-  std::vector<std::string> names;
-  for (const Texture& one : state.scene->textures) names.push_back(printable(one.name));
+  std::vector<Choice> names;
+  for (const Texture& one : state.scene->textures) names.push_back({printable(one.name)});
   const Slot colour = colour_slot("", name, {});
   if (combo_row(ui, {name, colour.label, {}, {}, "", colour.help, "", colour.synonyms}, names, index))
     colour_in(state.scene.change()) = TextureIndex{index};
@@ -123,8 +122,8 @@ void material_rows(Ui& ui, PanelState& state, int index, bool brief) {
 void surface_rows(Ui& ui, PanelState& state, ObjectPath& path) {
   type_row(ui, state, path);
   int material = std::get<Solid3d>(find_object(*state.scene, path)->kind).material;
-  std::vector<std::string> names;
-  for (const Material& one : state.scene->materials) names.push_back(printable(one.name));
+  std::vector<Choice> names;
+  for (const Material& one : state.scene->materials) names.push_back({printable(one.name)});
   const int users = users_of(*state.scene, material);
   Row row = material_of_object;
   if (users > 1) row.meaning = "shared by " + std::to_string(users) + " objects: all of them change";

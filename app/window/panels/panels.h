@@ -2,7 +2,6 @@
 #include "app/curves/curve.h"
 #include "app/window/document/document.h"
 #include "app/window/edit/material_edits.h"
-#include "app/window/panels/camera_slots.h"
 #include "app/window/panels/context.h"
 #include "app/window/panels/widgets.h"
 #include "app/window/system/layout.h"

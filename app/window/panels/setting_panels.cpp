@@ -1,6 +1,5 @@
 #include "app/files/memory.h"
 #include "app/report/contents.h"
-#include "app/text/values.h"
 #include "app/window/accuracy/views.h"
 #include "app/window/panels/rows.h"
 #include "app/window/tools/camera_control.h"
@@ -74,9 +73,8 @@ std::string setting_meaning(const PanelState& state, std::string_view name) {
 void threads_row(Ui& ui, PanelState& state) {
   double threads = state.now.wanted.threads;
   static const double cores = std::max(2, thread_count().count);  // asking takes longer than drawing the row
-  const char* synonyms = "cpu, cores, processors";
-  Row row{"threads", "Threads", between(1, max_threads), {1, cores}, "", "never changes the picture", "", synonyms};
-  row.whole = true;
+  const char *help = "never changes the picture", *synonyms = "cpu, cores, processors";
+  const Row row{"threads", "Threads", between(1, max_threads), {1, cores}, "", help, "", synonyms, true};
   if (slider_row(ui, row, threads)) ui.requests.push_back({"threads", std::to_string(static_cast<int>(threads))});
 }
 
@@ -85,8 +83,7 @@ void pixels_row(Ui& ui, PanelState& state) {
   const Scene& scene = *state.scene;
   const char* help = "width and height in pixels, also of snapshots";
   const char* synonyms = "resolution, width, height, dimensions, film size";
-  Row row{"size", "Image size", between(1, 65536), {0, 4000}, "", help, "", synonyms};
-  row.whole = true;
+  Row row{"size", "Image size", between(1, 65536), {0, 4000}, "", help, "", synonyms, true};
   double width = scene.width, height = scene.height;
   begin_row(ui, row);
   const float space = 4 * ui.scale, box = (value_width(ui) - space) / 2;
@@ -115,7 +112,7 @@ void request_row(Ui& ui, const Row& row, std::span<const Choice> choices, int ch
 }
 
 void size_row(Ui& ui, PanelState& state) {
-  static constexpr Choice choices[] = {{"file"}, {"window"}};
+  static const Choice choices[] = {{"file"}, {"window"}};
   const Frame* frame = state.now.frame.get();
   const std::string meaning = frame ? fmt::format("{} x {} pixels", frame->width, frame->height) : "";
   const char* help = "the picture has the size that the scene's file says, or as many pixels as the window shows";
@@ -124,7 +121,7 @@ void size_row(Ui& ui, PanelState& state) {
 }
 
 void split_row(Ui& ui, PanelState& state) {
-  static constexpr Choice choices[] = {{"off"}, {"on"}};
+  static const Choice choices[] = {{"off"}, {"on"}};
   const char* help = "A keeps these settings, B takes what you change; both get the same processor time";
   const std::string meaning = state.now.split ? "A keeps " + state.now.kept_method + "; above: B" : "";
   int chosen = state.now.split ? 1 : 0;
@@ -141,7 +138,7 @@ std::string clean_meaning(const PanelState& state) {
 }
 
 void clean_row(Ui& ui, PanelState& state) {
-  static constexpr Choice choices[] = {{"off"}, {"on"}, {"beside raw"}};
+  static const Choice choices[] = {{"off"}, {"on"}, {"beside raw"}};
   const char* help = "filters noise away where the samples show that it is noise: key N";
   const Row row{"clean", "Clean", {}, {}, "", help, clean_meaning(state), "clean view, filtered"};
   request_row(ui, row, choices, state.now.clean, "clean");
@@ -160,6 +157,38 @@ std::string contents_text(const Scene& scene) {
   add(contents.lights, "light", "lights");
   for (const auto& [kind, count] : contents.textures) add(count, kind + " texture", kind + " textures");
   return text;
+}
+
+/// Small pictures of stored cameras: a click looks through one, a right click forgets it; and a button that stores the
+/// present one.
+void cameras_row(Ui& ui, PanelState& state) {
+  CameraSlots& slots = state.cameras[state.now.origin->title];
+  const Camera now = state.scene->camera;
+  std::optional<std::size_t> forgotten;
+  const char* help = "cameras that you put aside; they last as long as the window";
+  const Row row{"slots", "Cameras", {}, {}, "", help, "", "stored cameras, camera slots"};
+  begin_row(ui, row);
+  const float s = ui.scale, left = ImGui::GetCursorPosX();
+  for (std::size_t k = 0; k < slots.size(); ++k) {
+    if (k % 4 != 0) ImGui::SameLine(0, 4 * s);
+    if (k % 4 == 0 && k > 0) ImGui::SetCursorPosX(left);
+    const ImVec2 at = ImGui::GetCursorScreenPos(), end{at.x + 58 * s, at.y + 37 * s};
+    ImGui::PushID(static_cast<int>(k));
+    if (ImGui::InvisibleButton("slot", {58 * s, 37 * s})) state.scene.change().camera = slots[k].camera;
+    ImGui::PopID();
+    if (ImGui::IsItemClicked(1)) forgotten = k;
+    const bool on = slots[k].camera == now, hovered = ImGui::IsItemHovered();
+    log_item(ui, "slot." + std::to_string(k + 1), on ? "on" : "off");
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    draw->AddRectFilled(at, end, shade(palette::field), 3 * s);
+    if (slots[k].picture) draw_fitted(*slots[k].picture, {at.x, at.y, end.x, end.y}, 0);
+    if (on || hovered) draw->AddRect(at, end, shade(on ? palette::blue : palette::dim), 3 * s, 0, 2 * s);
+    tooltip(ui, "look through this camera; a right click forgets it");
+  }
+  if (!slots.empty()) ImGui::SetCursorPosX(left);
+  if (small_button(ui, "store", "Store this camera")) ui.requests.push_back({"store the camera"});
+  end_row(ui, row);
+  if (forgotten) slots.erase(slots.begin() + static_cast<std::ptrdiff_t>(*forgotten));
 }
 
 /// Why a view cannot be shown; null: it can.
@@ -185,10 +214,7 @@ void camera_panel(Ui& ui, PanelState& state) {
     const bool hidden = plain_up && slot.name == std::string_view("vup") && !ui.rows && !is_sought(ui, slot.label);
     return slot.form == ValueForm::place && !hidden;
   });
-  CameraSlots& slots = state.cameras[state.now.origin->title];
-  const SlotWish wish = camera_slots_row(ui, slots, camera);
-  if (wish.recall) state.scene.change().camera = slots[*wish.recall].camera;
-  if (wish.store) store_camera(slots, camera, state.now.frame.get(), state.scene->display);
+  cameras_row(ui, state);
 }
 
 void background_panel(Ui& ui, PanelState& state) {
@@ -232,11 +258,10 @@ void render_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Render", frame ? frame->isa + " × " + std::to_string(frame->lanes) : "")) return;
   const Scope scope(ui, "render");
   const auto said = [&](const Slot& slot, const std::string&) { return setting_meaning(state, slot.name); };
-  part_rows(
-      ui, state, "/render", [](const Slot& slot) { return !slot.choices.empty(); }, said);
+  const auto is_choice = [](const Slot& slot) { return !slot.choices.empty(); };
+  part_rows(ui, state, "/render", is_choice, said);
   split_row(ui, state);
-  part_rows(
-      ui, state, "/render", [](const Slot& slot) { return slot.choices.empty(); }, said);
+  part_rows(ui, state, "/render", std::not_fn(is_choice), said);
   pixels_row(ui, state);
   size_row(ui, state);
   threads_row(ui, state);
@@ -246,15 +271,13 @@ void render_panel(Ui& ui, PanelState& state) {
 void window_panel(Ui& ui, PanelState& state) {
   if (!section(ui, "Window", "remembered")) return;
   const Scope scope(ui, "window");
-  static constexpr Choice themes[] = {{"dark"}, {"light"}};
+  static const Choice themes[] = {{"dark"}, {"light"}};
   int theme = static_cast<int>(state.look->theme);
   const char* help = "of panels and lines; the picture stays as it is";
   if (choice_row(ui, {"theme", "Theme", {}, {}, "", help, "", "colour scheme, color scheme"}, themes, theme))
     state.look->theme = static_cast<Theme>(theme);
-  std::vector<std::string> names;
   std::vector<Choice> sizes;
-  for (const double size : text_sizes) names.push_back(format_short(100 * size));
-  for (const std::string& name : names) sizes.push_back({name.c_str()});
+  for (const double size : text_sizes) sizes.push_back({format_short(100 * size)});
   int chosen =
       static_cast<int>(std::find(text_sizes.begin(), text_sizes.end(), state.look->text_size) - text_sizes.begin());
   const char* keys = "of all controls: Ctrl + and Ctrl -";

@@ -1,6 +1,5 @@
 #include "app/window/panels/widgets.h"
 
-#include "app/window/system/imgui_compat.h"
 #include "core/base/text.h"
 
 #include <algorithm>
@@ -25,12 +24,18 @@ void meet_sought(Ui& ui, float height_ratio) {
   sought.top = ImGui::GetCursorScreenPos().y;
 }
 
-/// The frame around a choice that has the keyboard.
-void draw_keyboard_frame(Ui& ui) {
-  const float s = ui.scale, left = ImGui::GetWindowPos().x, bottom = ImGui::GetCursorScreenPos().y;
-  ImGui::GetWindowDrawList()->AddRect({left + 8 * s, ui.sought.top - 3 * s},
-                                      {left + right_edge() + 4 * s, bottom - 3 * s}, shade(palette::blue), 4 * s, 0,
-                                      1.5f * s);
+/// The text as one line, cut and with ".." at its end where it does not fit.
+std::string clipped(const std::string& whole, float width) {
+  std::string text = printable(whole);
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
+  const char *begin = text.c_str(), *rest = begin;
+  const float room = std::max(1.0f, width - ImGui::CalcTextSize("..").x);
+  ImGui::GetFont()->CalcTextSizeA(ImGui::GetFontSize(), room, 0, begin, begin + text.size(), &rest);
+  return text.substr(0, static_cast<std::size_t>(rest - begin)) + "..";
+}
+
+void clipped_text(const std::string& text, float width, Tone colour) {
+  ImGui::TextColored(colour, "%s", clipped(text, width).c_str());
 }
 
 }  // namespace
@@ -52,18 +57,6 @@ bool is_sought(const Ui& ui, const std::string& label) {
   return !place.part.empty() && place.part == ui.drawn.part && place.label == label;
 }
 
-/// The text as one line, cut and with ".." at its end where it does not fit.
-std::string clipped(const std::string& whole, float width) {
-  std::string text = printable(whole);
-  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
-  const char *begin = text.c_str(), *rest = begin;
-  const float room = std::max(1.0f, width - ImGui::CalcTextSize("..").x);
-  ImGui::GetFont()->CalcTextSizeA(ImGui::GetFontSize(), room, 0, begin, begin + text.size(), &rest);
-  return text.substr(0, static_cast<std::size_t>(rest - begin)) + "..";
-}
-
-void clipped_text(const std::string& text, float width) { ImGui::TextUnformatted(clipped(text, width).c_str()); }
-
 void clipped_text_at(const std::string& text, ImVec2 at, float width, Tone colour) {
   ImGui::GetWindowDrawList()->AddText(at, shade(colour), clipped(text, width).c_str());
 }
@@ -83,10 +76,9 @@ void tooltip(Ui& ui, const std::string& text) {
   constexpr double delay = 0.5;
   if (text.empty() || !ImGui::IsItemHovered()) return;
   const ImGuiID id = ImGui::GetID(text.c_str());
-  if (ui.hovered.id != id) ui.hovered.since = ImGui::GetTime();
-  ui.hovered.id = id;
-  const double waited = ImGui::GetTime() - ui.hovered.since;
-  if (ImGui::IsMouseDown(0)) ui.hovered.since = ImGui::GetTime();
+  if (std::exchange(ui.hovered, id) != id) ui.hovered_since = ImGui::GetTime();
+  const double waited = ImGui::GetTime() - ui.hovered_since;
+  if (ImGui::IsMouseDown(0)) ui.hovered_since = ImGui::GetTime();
   if (waited < delay) {
     ui.wake_in = std::min(ui.wake_in, delay - waited);
     return;
@@ -95,34 +87,27 @@ void tooltip(Ui& ui, const std::string& text) {
   const float left = ImGui::GetWindowPos().x - 8 * ui.scale, width = std::min(300 * ui.scale, left - 30 * ui.scale);
   const bool beside = width > 100 * ui.scale;
   if (beside) ImGui::SetNextWindowPos({left, ImGui::GetItemRectMin().y}, ImGuiCond_Always, {1, 0});
-  compat::push_font(ui.fonts.small);
+  const WithFont small(ui.fonts.small);
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(beside ? width : 300 * ui.scale);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
-  ImGui::PopFont();
 }
 
 void note(Ui& ui, const std::string& text, bool indent, Tone colour) {
   if (text.empty()) return;
   if (indent) ImGui::SetCursorPosX(label_column * ui.scale);
-  compat::push_font(ui.fonts.small);
-  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  const WithFont small(ui.fonts.small);
   ImGui::PushTextWrapPos(right_edge());
-  ImGui::TextUnformatted(text.c_str());
+  ImGui::TextColored(colour, "%s", text.c_str());
   ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
-  ImGui::PopFont();
 }
 
 void line_of_note(Ui& ui, const std::string& text, Tone colour) {
   const float top = ImGui::GetCursorPosY();
-  compat::push_font(ui.fonts.small);
-  ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  clipped_text(text, right_edge() - ImGui::GetCursorPosX());
-  ImGui::PopStyleColor();
-  ImGui::PopFont();
+  const WithFont small(ui.fonts.small);
+  clipped_text(text, right_edge() - ImGui::GetCursorPosX(), colour);
   tooltip(ui, text);
   ImGui::SetCursorPosY(top + line_of_note_height(ui));
 }
@@ -150,9 +135,7 @@ bool section(Ui& ui, const std::string& name, const std::string& note_text) {
   const ImVec2 after = ImGui::GetCursorPos();
   ImGui::SetCursorPos({at.x, at.y + 3 * ui.scale});
   compat::push_font(ui.fonts.strong);
-  ImGui::PushStyleColor(ImGuiCol_Text, open ? palette::text : palette::dim);
-  clipped_text(name, 0.6f * (right_edge() - at.x));
-  ImGui::PopStyleColor();
+  clipped_text(name, 0.6f * (right_edge() - at.x), open ? palette::text : palette::dim);
   ImGui::PopFont();
   compat::push_font(ui.fonts.small);
   const std::string shown = hovered ? (open ? "fold" : "unfold") : open ? note_text : "…";
@@ -170,7 +153,7 @@ void begin_row(Ui& ui, const Row& row) {
   if (ui.rows) ui.rows->push_back({ui.drawn.part, row.label, row.words, ui.drawn.label});
   ImGui::PushID(row.name.c_str());
   ImGui::AlignTextToFramePadding();
-  clipped_text(row.label, label_column * ui.scale - ImGui::GetCursorPosX() - 4 * ui.scale);
+  clipped_text(row.label, label_column * ui.scale - ImGui::GetCursorPosX() - 4 * ui.scale, palette::text);
   tooltip(ui, row.help);
   ImGui::SameLine(label_column * ui.scale);
 }
@@ -182,7 +165,12 @@ void end_row(Ui& ui, const Row& row) {
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 6 * ui.scale);
     note(ui, row.meaning, true, row.warning ? palette::amber : palette::dim);
   }
-  if (std::exchange(ui.sought.here, false) && ui.sought.has_keys) draw_keyboard_frame(ui);
+  if (!std::exchange(ui.sought.here, false) || !ui.sought.has_keys) return;
+  // A frame shows that this choice has the keyboard.
+  const float s = ui.scale, left = ImGui::GetWindowPos().x;
+  const ImVec2 low{left + 8 * s, ui.sought.top - 3 * s};
+  const ImVec2 high{left + right_edge() + 4 * s, ImGui::GetCursorScreenPos().y - 3 * s};
+  ImGui::GetWindowDrawList()->AddRect(low, high, shade(palette::blue), 4 * s, 0, 1.5f * s);
 }
 
 void row_menu(Ui& ui, const Row& row, bool can_vary) {
@@ -214,9 +202,7 @@ bool slider_row(Ui& ui, const Row& row, double& value) {
 void file_row(Ui& ui, Row row, const std::string& file) {
   row.help = file;
   begin_row(ui, row);
-  ImGui::PushStyleColor(ImGuiCol_Text, palette::dim);
-  clipped_text(file, value_width(ui));
-  ImGui::PopStyleColor();
+  clipped_text(file, value_width(ui), palette::dim);
   end_row(ui, row);
 }
 
@@ -242,9 +228,7 @@ void draw_part(Ui& ui, const char* name, const Rect& where, ImGuiWindowFlags mor
 }
 
 void begin_typing(Ui& ui, ImGuiID id, const std::string& text) {
-  ui.edit = {};
-  ui.edit.id = id;
-  ui.edit.start = text.substr(0, size_of_letters(text, sizeof ui.edit.text - 1));
+  ui.edit = {.id = id, .start = text.substr(0, size_of_letters(text, sizeof ui.edit.text - 1))};
   std::strncpy(ui.edit.text, ui.edit.start.c_str(), sizeof ui.edit.text - 1);
 }
 
@@ -264,9 +248,8 @@ bool type_text(Ui& ui, const char* hint, float width) {
 bool popup_is_open() { return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup); }
 
 bool small_button(Ui& ui, const std::string& name, const std::string& label, float width) {
-  compat::push_font(ui.fonts.small);
+  const WithFont small(ui.fonts.small);
   const bool pressed = ImGui::Button((label + "##" + name).c_str(), {width, ImGui::GetFontSize() + 10 * ui.scale});
-  ImGui::PopFont();
   log_item(ui, name, "button");
   return pressed;
 }

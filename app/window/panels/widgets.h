@@ -1,11 +1,10 @@
 #pragma once
 #include "app/text/numbers.h"
 #include "app/window/picture/display.h"
+#include "app/window/system/imgui_compat.h"
 #include "app/window/system/style.h"
 #include "app/window/system/ui_log.h"
 #include "core/base/vec.h"
-
-#include <imgui.h>
 
 #include <functional>
 #include <optional>
@@ -65,12 +64,6 @@ struct SoughtRow {
   float top = 0;          ///< of the row while it is drawn
 };
 
-/// The control under the mouse, whose tooltip comes after a moment.
-struct HoveredItem {
-  ImGuiID id = 0;  ///< 0: none
-  double since = 0;
-};
-
 /// Which window the wheel scrolls.
 struct WheelOwner {
   ImGuiID owner = 0;  ///< that scrolled last; 0: none
@@ -111,7 +104,8 @@ struct Ui {
   double size = 10;      ///< of the scene: dragging a coordinate by 200 units of the design changes it by this much
   TextEdit edit;
   NumberDrag drag;
-  HoveredItem hovered;
+  ImGuiID hovered = 0;  ///< the control under the mouse, whose tooltip comes after a moment; 0: none
+  double hovered_since = 0;
   WheelOwner wheel;
   SoughtRow sought;
   RowPlace drawn;                         ///< the part of the column that is being drawn, and its section
@@ -143,6 +137,15 @@ class Scope {
   std::string before_;
 };
 
+/// Text has a font as long as it lives.
+class WithFont {
+ public:
+  explicit WithFont(ImFont* font) { compat::push_font(font); }
+  ~WithFont() { ImGui::PopFont(); }
+  WithFont(const WithFont&) = delete;
+  WithFont& operator=(const WithFont&) = delete;
+};
+
 /// Sends the column to a row, in this drawing and the next two.
 void seek_row(Ui& ui, const RowPlace& place);
 /// At the end of a drawing of the column: goes on with what was sought.
@@ -161,16 +164,14 @@ bool vector_row(Ui& ui, const Row& row, Vec3d& value);
 bool colour_row(Ui& ui, const Row& row, Vec3d& value);
 /// One of the buttons of a choice.
 struct Choice {
-  const char* name;
+  std::string name;
   const char* missing = nullptr;  ///< not null: it cannot be chosen, and why
   const char* help = "";          ///< tooltip
 };
 /// Label and buttons side by side, one of them chosen; names are also the log's. In several lines if `columns` > 0 is
 /// less than their number. What is missing is grey and says why.
 bool choice_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& chosen, int columns = 0);
-/// Label and a list that drops down.
-bool combo_row(Ui& ui, const Row& row, std::span<const std::string> names, int& chosen);
-/// The same; what is missing is grey, says why, and cannot be chosen.
+/// Label and a list that drops down; what is missing is grey, says why, and cannot be chosen.
 bool combo_row(Ui& ui, const Row& row, std::span<const Choice> choices, int& chosen);
 /// Label and a text to type. hint: shown grey where it is empty. begin: typing begins now.
 bool name_row(Ui& ui, const Row& row, const std::string& hint, bool begin, std::string& value);
@@ -184,9 +185,7 @@ void note(Ui& ui, const std::string& text, bool indent = true, Tone colour = pal
 void line_of_note(Ui& ui, const std::string& text, Tone colour);
 float line_of_note_height(const Ui& ui);
 
-/// The text, cut and with ".." at its end where it is wider than `width`; and the same drawn at a place of the window.
-std::string clipped(const std::string& text, float width);
-void clipped_text(const std::string& text, float width);
+/// The text at a place of the window, cut and with ".." at its end where it is wider than `width`.
 void clipped_text_at(const std::string& text, ImVec2 at, float width, Tone colour);
 
 /// A picture in the middle of a place of the window, as large as that allows.

@@ -62,6 +62,13 @@ void screen_bytes(const std::vector<float>& rgba, int width, const Look& look, s
   }
 }
 
+std::vector<float> rgb_of(const std::vector<float>& rgba) {
+  std::vector<float> rgb(rgba.size() / 4 * 3);
+  for (std::size_t from = 0, to = 0; from < rgba.size(); from += 4, to += 3)
+    for (std::size_t k = 0; k < 3; ++k) rgb[to + k] = rgba[from + k];
+  return rgb;
+}
+
 FrameDisplay::FrameDisplay() : program_(link_program()) {
   place_at_ = glGetUniformLocation(program_, "place");
   part_at_ = glGetUniformLocation(program_, "part");
@@ -80,17 +87,17 @@ FrameDisplay::~FrameDisplay() {
 }
 
 void FrameDisplay::upload(const ShownPicture& picture, const Look& look) {
-  if (picture.grid.columns > greatest_ || picture.grid.rows > greatest_)
-    throw IoError("the picture is larger than the display can show: " + std::to_string(picture.grid.columns) + "x" +
-                  std::to_string(picture.grid.rows) + ", at most " + std::to_string(greatest_) + " pixels each way");
-  screen_bytes(picture.rgba, picture.grid.columns, look, bytes_);
+  const int columns = picture.grid.columns, rows = picture.grid.rows;
+  if (columns > greatest_ || rows > greatest_)
+    throw IoError("the picture is larger than the display can show: " + std::to_string(columns) + "x" +
+                  std::to_string(rows) + ", at most " + std::to_string(greatest_) + " pixels each way");
+  screen_bytes(picture.rgba, columns, look, bytes_);
   glBindTexture(GL_TEXTURE_2D, texture_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  if (picture.grid.columns == grid_.columns && picture.grid.rows == grid_.rows)
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, grid_.columns, grid_.rows, GL_RGBA, GL_UNSIGNED_BYTE, bytes_.data());
+  if (columns == grid_.columns && rows == grid_.rows)
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, columns, rows, GL_RGBA, GL_UNSIGNED_BYTE, bytes_.data());
   else
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, picture.grid.columns, picture.grid.rows, 0, GL_RGBA, GL_UNSIGNED_BYTE,
-                 bytes_.data());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, columns, rows, 0, GL_RGBA, GL_UNSIGNED_BYTE, bytes_.data());
   grid_ = picture.grid;
   width_ = picture.width;
   height_ = picture.height;

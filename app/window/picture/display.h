@@ -44,6 +44,9 @@ struct Look {
 /// read, `bytes` gets 4, the last is 255. width: pixels a row.
 void screen_bytes(const std::vector<float>& rgba, int width, const Look& look, std::vector<std::uint8_t>& bytes);
 
+/// 3 of 4 floats a pixel.
+std::vector<float> rgb_of(const std::vector<float>& rgba);
+
 /// A picture to be shown: linear RGBA, 4 floats for each place of the grid, of an image of width x height pixels.
 struct ShownPicture {
   const std::vector<float>& rgba;

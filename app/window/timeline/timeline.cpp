@@ -55,15 +55,12 @@ bool has_keys(const Scene& scene, int frame) {
 }
 
 void key_cameras(Scene& scene, const CameraSlots& slots) {
-  if (!scene.animation) scene.animation.emplace();
   int frame = 0;
   for (const CameraSlot& slot : slots) {
-    const Camera& camera = slot.camera;
-    scene.animation->frames = std::max(scene.animation->frames, frame + 1);
-    set_key(*scene.animation, "/camera/look_from",
-            {frame, {camera.look_from.x, camera.look_from.y, camera.look_from.z}});
-    set_key(*scene.animation, "/camera/look_at", {frame, {camera.look_at.x, camera.look_at.y, camera.look_at.z}});
-    set_key(*scene.animation, "/camera/vfov", {frame, {camera.vfov}});
+    Scene seen;
+    seen.camera = slot.camera;
+    for (const char* value : {"/camera/look_from", "/camera/look_at", "/camera/vfov"})
+      add_key(scene, *find_slot(seen, value), frame);
     frame += frames_between_cameras;
   }
 }
@@ -87,16 +84,6 @@ void Timeline::draw_keys(Ui& ui, const Rect& track, const Animation& animation) 
                           {at(key.frame), middle + 6 * s}, {at(key.frame) - 5 * s, middle}, shade(palette::blue));
   draw->AddRectFilled({at(frame_) - 1.5f * s, track.y0 + 3 * s}, {at(frame_) + 1.5f * s, track.y1 - 3 * s},
                       shade(palette::amber), s);
-}
-
-std::optional<int> Timeline::drag_track(Ui& ui, const Rect& track, const Animation& animation) {
-  ImGui::SetCursorScreenPos({track.x0 - 6 * ui.scale, track.y0});
-  ImGui::InvisibleButton("track", {track.width() + 12 * ui.scale, track.height()});
-  log_item(ui, "film.track", std::to_string(frame_));
-  if (!ImGui::IsItemActive()) return {};
-  playing_ = false;
-  const float part = std::clamp((ImGui::GetIO().MousePos.x - track.x0) / track.width(), 0.0f, 1.0f);
-  return static_cast<int>(std::lround(part * static_cast<float>(animation.frames - 1)));
 }
 
 TimelineWish Timeline::draw(Ui& ui, const Rect& rect, const Scene& scene, double now) {
@@ -123,7 +110,14 @@ TimelineWish Timeline::draw(Ui& ui, const Rect& rect, const Scene& scene, double
     ImGui::PopFont();
     const float left = rect.x0 + (button_width + number_width + 20) * s, right = rect.x1 - (button_width + 30) * s;
     const Rect track{left, rect.y0 + 4 * s, std::max(left + 10, right), rect.y1 - 4 * s};
-    if (const auto to = drag_track(ui, track, animation)) wish.frame = *to;
+    ImGui::SetCursorScreenPos({track.x0 - 6 * s, track.y0});
+    ImGui::InvisibleButton("track", {track.width() + 12 * s, track.height()});
+    log_item(ui, "film.track", std::to_string(frame_));
+    if (ImGui::IsItemActive()) {
+      playing_ = false;
+      const float part = std::clamp((ImGui::GetIO().MousePos.x - track.x0) / track.width(), 0.0f, 1.0f);
+      wish.frame = static_cast<int>(std::lround(part * static_cast<float>(animation.frames - 1)));
+    }
     draw_keys(ui, track, animation);
     if (has_keys(scene, frame_)) {
       ImGui::SetCursorScreenPos({rect.x1 - (button_width + 10) * s, rect.y0 + 5 * s});

@@ -1,5 +1,5 @@
 #pragma once
-#include "app/window/panels/camera_slots.h"
+#include "app/window/gallery/gallery.h"
 #include "app/window/panels/widgets.h"
 #include "core/scene/slots.h"
 
@@ -43,7 +43,6 @@ class Timeline {
 
  private:
   void draw_keys(Ui& ui, const Rect& track, const Animation& animation) const;
-  std::optional<int> drag_track(Ui& ui, const Rect& track, const Animation& animation);
 
   int frame_ = 0;
   bool playing_ = false;

@@ -1,4 +1,4 @@
-#include "app/window/variations/small_renders.h"
+#include "app/window/variations/strip.h"
 
 #include "core/base/seconds.h"
 #include "core/render/render.h"

@@ -1,7 +1,6 @@
 #include "app/window/variations/strip.h"
 
 #include "app/window/document/editor.h"
-#include "app/window/system/imgui_compat.h"
 #include "core/image/tonemap.h"
 #include "core/scene/check.h"
 
@@ -65,9 +64,8 @@ void VariationStrip::vary(const Slot& slot) {
     axes_.erase(shown);
     if (axes_.empty()) return close();
     VariedValue& left = axes_[0];
-    const int marked = first && marked_.size() > 1 ? marked_[1] : -1;
-    if (first)
-      left.values = varied_values(left.slot, left.values[static_cast<std::size_t>(std::max(marked, 0))], strip_columns);
+    const auto present = static_cast<std::size_t>(std::max(left.marked, 0));
+    if (first) left.values = varied_values(left.slot, left.values[present], strip_columns);
   }
   base_.reset();
   stale_ = true;
@@ -88,7 +86,8 @@ float VariationStrip::height(float width, int image_width, int image_height, flo
 }
 
 Rect VariationStrip::cell_at(const Rect& rect, std::size_t index, float scale) const {
-  const auto column = static_cast<float>(index % strip_columns), row = static_cast<float>(index / strip_columns);
+  const std::size_t columns_before = index % strip_columns, rows_before = index / strip_columns;
+  const auto column = static_cast<float>(columns_before), row = static_cast<float>(rows_before);
   const float space = gap * scale, width = (rect.width() - (strip_columns + 1) * space) / strip_columns;
   const float height = (rect.height() - (head + gap) * scale) / static_cast<float>(rows());
   const float x = rect.x0 + space + column * (width + space), y = rect.y0 + head * scale + row * height;
@@ -103,13 +102,12 @@ void VariationStrip::ask(const Context& context, const Rect& rect, float scale) 
   stale_ = false;
   cells_.clear();
   cells_.resize(count());
-  SmallRequest request{count(), {}, clean_, context.wanted.threads};
-  request.scene = [base = *base_, axes = axes_, width = width_, height = height_](std::size_t index) {
+  const auto scene_of = [base = *base_, axes = axes_, width = width_, height = height_](std::size_t index) {
     std::optional<Scene> scene = varied_scene(base, axes, index);
     if (scene) scene->width = width, scene->height = height;
     return scene;
   };
-  renders_.request(std::move(request));
+  renders_.request({count(), scene_of, clean_, context.wanted.threads});
 }
 
 /// Asks for other pictures where that is due. Returns in how many seconds it is to be called again.
@@ -119,13 +117,11 @@ double VariationStrip::update(const Context& context, const Rect& rect, const Sc
   const bool begins = !base_;
   if (seen_changes_ != context.changes || begins) {
     seen_changes_ = context.changes;
-    marked_.assign(axes_.size(), -1);
-    for (std::size_t k = 0; k < axes_.size(); ++k) {
-      const auto slot = find_slot(scene, axes_[k].slot.pointer);
-      if (!slot) return close(), never;  // what it belongs to is gone
-      const std::vector<double>& values = axes_[k].values;
-      const auto found = std::find(values.begin(), values.end(), std::get<double>(slot->value));
-      if (found != values.end()) marked_[k] = static_cast<int>(found - values.begin());
+    for (auto& [slot, values, marked] : axes_) {
+      const auto now = find_slot(scene, slot.pointer);
+      if (!now) return close(), never;  // what it belongs to is gone
+      const auto found = std::find(values.begin(), values.end(), std::get<double>(now->value));
+      marked = found == values.end() ? -1 : static_cast<int>(found - values.begin());
     }
     // Which step the scene has now makes no difference to the pictures.
     std::optional<Scene> base = varied_scene(scene, axes_, 0);
@@ -164,7 +160,7 @@ bool VariationStrip::draw_cell(Ui& ui, const Rect& cell, std::size_t index) cons
   for (std::size_t k = 0; k < axes_.size(); ++k) {
     if (steps[k] < axes_[k].values.size())
       label += (label.empty() ? "" : ", ") + value_text(axes_[k].slot, axes_[k].values[steps[k]]);
-    marked = marked && marked_[k] == static_cast<int>(steps[k]);
+    marked = marked && axes_[k].marked == static_cast<int>(steps[k]);
   }
   if (label.empty() || cell.width() < 1 || cell.height() < 1) return false;
   const float s = ui.scale;
@@ -183,10 +179,9 @@ bool VariationStrip::draw_cell(Ui& ui, const Rect& cell, std::size_t index) cons
     draw->AddRect({low.x - s, low.y - s}, {high.x + s, high.y + s}, shade(palette::amber), 2 * s, 0, 2 * s);
   else if (ImGui::IsItemHovered())
     draw->AddRect(low, high, shade(palette::blue), 2 * s, 0, 1.5f * s);
-  compat::push_font(ui.fonts.small);
+  const WithFont small(ui.fonts.small);
   clipped_text_at(label, {cell.x0 + 2 * s, cell.y1 + 2 * s}, cell.width(),
                   marked ? Tone(palette::amber) : Tone(palette::text));
-  ImGui::PopFont();
   return pressed;
 }
 
@@ -200,23 +195,24 @@ std::optional<Scene> VariationStrip::draw(Ui& ui, const Context& context, const 
   draw_part(ui, "##strip", rect, bar_flags, {gap * s, 3 * s}, [&] {
     std::string title;
     for (const VariedValue& axis : axes_) title += (title.empty() ? "" : " and ") + axis.slot.label;
-    compat::push_font(ui.fonts.small);
+    const WithFont small(ui.fonts.small);
     ImGui::TextColored(palette::dim, "%s: click or arrow keys take one over%s", title.c_str(),
                        clean_ ? "; filtered" : "");
     ImGui::SameLine(std::max(1.0f, rect.width() - 60 * s));
     if (ImGui::SmallButton("close")) open = false;
     log_item(ui, "strip.close", "button");
-    ImGui::PopFont();
     for (std::size_t k = 0; k < count(); ++k)
       if (draw_cell(ui, cell_at(rect, k, s), k)) wanted = k;
   });
   if (ui.log) ui.log->changed("strip", fmt::format("{:.3f}", renders_.seconds_to_stand()));
   const std::array<int, 2> by = std::exchange(move_, {});
   if (wanted == count() && by != std::array{0, 0}) {
-    std::array<int, 2> steps{};
-    for (std::size_t k = 0; k < axes_.size(); ++k)
-      steps[k] = std::clamp(std::max(marked_[k], 0) + by[k], 0, static_cast<int>(axes_[k].values.size()) - 1);
-    wanted = static_cast<std::size_t>(steps[1] * strip_columns + steps[0]);
+    std::array<std::size_t, 2> steps{};
+    for (std::size_t k = 0; k < axes_.size(); ++k) {
+      const int last = static_cast<int>(axes_[k].values.size()) - 1;
+      steps[k] = static_cast<std::size_t>(std::clamp(std::max(axes_[k].marked, 0) + by[k], 0, last));
+    }
+    wanted = steps[1] * strip_columns + steps[0];
   }
   if (wanted < count()) taken = varied_scene(scene, axes_, wanted);
   if (!open) close();

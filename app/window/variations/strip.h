@@ -1,22 +1,73 @@
 #pragma once
+#include "app/window/document/job_queue.h"
 #include "app/window/panels/context.h"
 #include "app/window/panels/widgets.h"
 #include "app/window/picture/display.h"
-#include "app/window/variations/small_renders.h"
 #include "core/scene/slots.h"
 
 #include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
+/// This room shows what a value does: small pictures of the scene with the values of a row in steps.
 namespace tyndall {
+
+/// A small picture while it sharpens.
+struct SmallPicture {
+  int width = 0, height = 0;
+  std::vector<float> rgb;  ///< linear, top row first
+  std::uint32_t spp = 0;
+};
+
+/// What small renders are asked for.
+struct SmallRequest {
+  std::size_t count = 0;  ///< of pictures
+  /// The scene of a picture, in the size that it is to have; nothing: there is none. Called in the background.
+  std::function<std::optional<Scene>(std::size_t index)> scene;
+  bool clean = false;  ///< pictures are filtered
+  int threads = 1;     ///< for the first picture of each
+};
+
+/// Renders several small pictures in the background: first all of them with few samples, as quickly as it can, so that
+/// they stand after a moment; then they sharpen in turn, on one thread of the lowest priority, so that the main picture
+/// does not wait for them. For the main thread.
+class SmallRenders {
+ public:
+  /// wake: collect() has something to do; called from any thread.
+  explicit SmallRenders(const std::function<void()>& wake) : first_(wake), further_(wake) {}
+  ~SmallRenders() { ++number_; }
+
+  /// Takes the place of what was asked for before, and forgets its pictures. An empty one: renders nothing any more.
+  void request(SmallRequest request);
+
+  /// Takes what has come. Whether there was anything.
+  bool collect();
+  /// The newest picture of each; null: none yet, or there is none.
+  const std::vector<std::shared_ptr<const SmallPicture>>& pictures() const { return pictures_; }
+  /// Whether all pictures have all their samples.
+  bool finished() const { return first_.idle() && further_.idle(); }
+  /// Seconds from the request until all pictures stood; 0: they do not stand yet.
+  double seconds_to_stand() const { return stood_after_; }
+
+ private:
+  struct Work;
+  JobQueue::Job job(const std::shared_ptr<Work>& work, std::size_t index, std::uint32_t samples);
+
+  std::vector<std::shared_ptr<const SmallPicture>> pictures_;
+  double stood_after_ = 0;
+  std::atomic<std::uint64_t> number_ = 0;  ///< counts the requests; jobs of earlier ones give up
+  JobQueue first_, further_;               // last: their jobs use the others
+};
 
 /// A value of the scene and the steps in which it is shown.
 struct VariedValue {
   Slot slot;
   std::vector<double> values{};
+  int marked = -1;  ///< the step that the scene has now; -1: none
 };
 
 inline constexpr int strip_columns = 9, strip_rows = 3;
@@ -55,8 +106,8 @@ class VariationStrip {
     std::shared_ptr<const SmallPicture> shown;
     std::unique_ptr<PictureTexture> texture;
   };
-  int rows() const { return axes_.size() > 1 ? strip_rows : 1; }
-  std::size_t count() const { return static_cast<std::size_t>(strip_columns * rows()); }
+  std::size_t rows() const { return axes_.size() > 1 ? strip_rows : 1; }
+  std::size_t count() const { return strip_columns * rows(); }
   Rect cell_at(const Rect& rect, std::size_t index, float scale) const;
   double update(const Context& context, const Rect& rect, const Scene& scene, float scale);
   void ask(const Context& context, const Rect& rect, float scale);
@@ -64,7 +115,6 @@ class VariationStrip {
   bool draw_cell(Ui& ui, const Rect& cell, std::size_t index) const;
 
   std::vector<VariedValue> axes_;  ///< one or two; none: the strip is closed
-  std::vector<int> marked_;        ///< the step of each axis that the scene has now; -1: none
   std::vector<Cell> cells_;
   std::optional<Scene> base_;          ///< of the pictures, with the first step of each value
   std::uint64_t seen_changes_ = 0;     ///< Context::changes of the scene that was looked at last

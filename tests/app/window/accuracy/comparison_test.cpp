@@ -87,7 +87,7 @@ TEST_CASE("pictures are compared only if both are whole and of one size") {
 }
 
 TEST_CASE("work keeps to its share of the processors") {
-  ProcessorBudget fraction(0.02);
+  ProcessorBudget fraction{0.02};
   CHECK(fraction.due(0));
   double used = 0;
   for (double now = 0; now < 100; now += 0.01)

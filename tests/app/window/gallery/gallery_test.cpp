@@ -24,12 +24,12 @@ void write_sphere(const fs::path& file, double red) {
 /// What comes when these scenes are to be seen.
 std::map<std::string, ScreenPicture> pictures_of(const fs::path& cache, const std::vector<std::string>& scenes) {
   test::News news;
-  Thumbnails thumbnails(cache, [&] { news.tell(); });
-  thumbnails.want(scenes);
   std::map<std::string, ScreenPicture> came;
   const auto take = [&](const std::string& scene, const ScreenPicture& picture) { came[scene] = picture; };
+  Thumbnails thumbnails(cache, take, [&] { news.tell(); });
+  thumbnails.want(scenes);
   CHECK(news.wait_until([&] {
-    thumbnails.collect(take);
+    thumbnails.collect();
     return came.size() == scenes.size();
   }));
   CHECK(thumbnails.idle());

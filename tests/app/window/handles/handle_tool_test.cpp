@@ -98,7 +98,7 @@ TEST_CASE("with Shift the mouse moves a tenth") {
 TEST_CASE("G moves without a button until a click, whose release is not for others") {
   Hand hand;
   hand.tool.grab(hand.mouse, hand.selected, hand.scene);
-  CHECK(hand.tool.grabbing());
+  CHECK(hand.tool.active());
   hand.move(30, 0);
   CHECK(hand.update());
   hand.press();

@@ -1,4 +1,4 @@
-#include "app/window/panels/camera_slots.h"
+#include "app/window/gallery/gallery.h"
 
 #include <doctest/doctest.h>
 
