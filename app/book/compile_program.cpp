@@ -170,8 +170,9 @@ class Compilation {
       known = sources_.size();
       std::string all = "#include \"" + (headers_ / "take.h").string() + "\"\n";
       for (const fs::path& source : sources_) all += "#include \"" + source.string() + "\"\n";
-      write_text(task_.folder / "all.cc", all);
-      const ChildEnd end = call({"-E", "all.cc", "-o", "all.ii"});
+      const fs::path file = task_.folder / "all.cc";
+      write_text(file, all);
+      const ChildEnd end = call({"-E", file.string(), "-o", "all.ii"});
       if (!end.succeeded()) {
         const fs::path folder = folder_with(missing_header(end.errors), sources_.front());
         if (folder.empty() || std::find(options_.begin(), options_.end(), folder) != options_.end())
