@@ -1,10 +1,9 @@
 #pragma once
-#include "app/check/objects.h"
 #include "app/check/reading.h"
-#include "app/check/rules.h"
 #include "app/check/statistics.h"
 #include "core/base/thread_pool.h"
 
+#include <deque>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -25,16 +24,10 @@ struct Reference {
   std::vector<float> variance;  ///< of each number of the image, from two halves of the samples
 };
 
-/// What is spent on a reference at most, but for its first samples.
-struct ReferenceLimits {
-  double seconds = 0;
-  std::uint32_t spp = 8192;
-};
-
 /// Renders the scene until the noise is small against the difference from `picture`, which has the scene's size, or
-/// a limit is reached. go_on: asked now and then; false ends it. Pixels share no paths, so that their errors are
-/// independent.
-Reference render_reference(Scene scene, const LinearImage& picture, const ReferenceLimits& limits,
+/// a limit is reached, which the first samples may exceed. go_on: asked now and then; false ends it. Pixels share no
+/// paths, so that their errors are independent.
+Reference render_reference(Scene scene, const LinearImage& picture, double seconds, std::uint32_t spp,
                            const std::function<bool()>& go_on);
 
 /// What samples of a program tell of its picture: 3 floats a pixel of the lattice.
@@ -96,8 +89,8 @@ class Expectation {
   std::vector<BookSample> samples_;
   std::vector<float> mean_;       ///< of these
   std::vector<double> variance_;  ///< of one of them, of each large region and channel
-  std::vector<std::pair<Reading, std::unique_ptr<ReadPixels>>> read_;
-  std::unique_ptr<ReadPixels> newest_read_;
+  std::deque<std::pair<Reading, ReadPixels>> read_;
+  ReadPixels newest_read_;
 };
 
 /// How a picture differs from the scene as a few samples of each pixel show it: enough to tell whether it is a picture

@@ -10,27 +10,43 @@
 
 namespace tyndall {
 
-/// A mistake, and how much of the difference the scene rendered with it explains.
-struct Explanation {
-  std::string name, words;  ///< see Difference
-  double explained = 0;     ///< 1: all that is more than noise; below 0: it makes things worse
+/// One thing that programs of the books do otherwise: by their edition, or by a usual mistake.
+struct Difference {
+  std::string name;   ///< for scripts: "schlick-always-1"
+  std::string words;  ///< a clause without subject: "glass reflects everything (…)"
+  /// Changes the program; false: it has nothing that this would change.
+  std::function<bool(BookProgram&)> apply{};
+  /// How much of the difference of a picture the scene rendered with it explains. 1: all that is more than noise; below
+  /// 0: it makes things worse.
+  double explained = 0;
 };
+
+/// What editions and compilers do otherwise: said, never counted as a mistake. The first of two that exclude each other
+/// is the more usual one.
+std::vector<Difference> usual_choices();
+
+/// A wrong way to write the picture; it changes nothing in the program.
+Difference mistake_of(const Reading& reading);
+/// Paths that end after so many scattering events.
+Difference shorter_paths(int max_depth);
+/// Mistakes that are found by rendering the scene with each of them.
+std::vector<Difference> usual_mistakes();
 
 /// What is found about a picture.
 struct Findings {
   bool agrees = false;  ///< the picture differs from the scene by noise and by `choices` alone
   /// It cannot be told whether they agree: programs of the books find the scene's light too seldom.
   bool unknown = false;
-  bool too_few = false;              ///< they differ by noise alone, which is so much that nothing else would show
-  double unseen = 0;                 ///< fraction of the light by which the whole may be off without that it is seen
-  double enough = 0;                 ///< samples a pixel that would do where there are too few; 0: not known
-  std::vector<Explanation> choices;  ///< by which the program does things otherwise, none of which is a mistake
+  bool too_few = false;             ///< they differ by noise alone, which is so much that nothing else would show
+  double unseen = 0;                ///< fraction of the light by which the whole may be off without that it is seen
+  double enough = 0;                ///< samples a pixel that would do where there are too few; 0: not known
+  std::vector<Difference> choices;  ///< by which the program does things otherwise, none of which is a mistake
   /// The mistake with which the scene's picture agrees with this one; nothing: there is none, not all were tried, or
   /// no difference has to be explained.
-  std::optional<Explanation> mistake;
-  std::vector<Explanation> tried;  ///< all mistakes that were tried, the best first
-  int untried = 0;                 ///< mistakes for which there was no time
-  double seconds = 0;              ///< that there were: CheckOptions::seconds
+  std::optional<Difference> mistake;
+  std::vector<Difference> tried;  ///< all mistakes that were tried, the best first
+  int untried = 0;                ///< mistakes for which there was no time
+  double seconds = 0;             ///< that there were: CheckOptions::seconds
   TransferCurve curve = TransferCurve::light;
   double samples = 0;  ///< a pixel, as the noise tells; 0: it does not tell
   int blocks = 0, different = 0, block_edge = 0;
