@@ -3,7 +3,6 @@
 #include "app/files/outputs.h"
 #include "app/report/heat_map.h"
 #include "app/text/markup.h"
-#include "app/text/templates.h"
 #include "core/base/text.h"
 #include "core/image/image_io.h"
 #include "core/image/image_io_file.h"

@@ -1,14 +1,17 @@
 #pragma once
 #include "app/book/load_program.h"
-#include "app/files/own_samples.h"
+#include "app/files/watched_function.h"
 #include "app/text/values.h"
 #include "core/scene/frames.h"
 #include "core/scene/load.h"
 #include "core/scene/place.h"
 #include "core/scene/scene.h"
+#include "core/system/locks.h"
 
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -65,6 +68,32 @@ struct SceneRequest {
   std::optional<Size> size;
   Changes<RenderSettings> render;
   Changes<Display> display;
+};
+
+/// The samples that a reader's program computes itself, where its world is no scene. In a window the program changes
+/// when it is saved; the function stays. For any number of threads.
+class OwnSamples {
+ public:
+  OwnSamples();
+  /// program: null where there is a scene; reason: why there is none, a sentence with the program's name.
+  void take(std::shared_ptr<OwnProgram> program, const std::string& reason);
+  std::string reason() const;
+  /// How many programs were taken.
+  std::uint32_t taken() const;
+  /// What asks the program that was taken last.
+  const std::shared_ptr<WatchedFunction>& function() const { return function_; }
+
+ private:
+  struct Held {
+    Mutex mutex;
+    std::shared_ptr<OwnProgram> program;
+    std::string reason;
+    std::uint32_t taken = 0;
+  };
+  static void compute(void* held, double x, double y, std::uint64_t sample, double rgb[3]);
+
+  std::shared_ptr<Held> held_;
+  std::shared_ptr<WatchedFunction> function_;  ///< keeps what is held
 };
 
 /// Loads a scene, or what is shown in its place: a program whose world cannot be taken over. Then `own` says why, and
