@@ -1,26 +1,23 @@
 #include "app/cli/option_rows.h"
 
 #include "app/book/load_program.h"
-#include "app/check/own_picture.h"
+#include "app/check/check.h"
 #include "app/cli/commands.h"
-#include "app/text/name_pattern.h"
+#include "app/text/values.h"
 #include "core/base/text.h"
+#include "core/render/clean_film.h"
 
 #include <filesystem>
 
 namespace tyndall {
 namespace {
 
-using Text = const std::string&;
+using Request = const CommandRequest&;
 
-std::string see_help(const CommandRequest& request) { return " (see tyndall " + request.command + " --help)"; }
-
-void require(const CommandRequest& request, bool given, const char* what) {
-  if (!given) throw UsageError(what + std::string(" is missing") + see_help(request));
-}
+std::string see_help(Request request) { return " (see tyndall " + request.command + " --help)"; }
 
 /// A program may have further source files; nothing else takes more words than one.
-void take_scene(CommandRequest& request, std::size_t at = 0) {
+void take_scene(CommandRequest& request, std::size_t at) {
   if (request.operands.size() <= at) return;
   request.scene.what = request.operands[at];
   request.scene.program.allowed = true;
@@ -32,34 +29,75 @@ void take_scene(CommandRequest& request, std::size_t at = 0) {
   }
 }
 
-void finish_view(CommandRequest& request) {
-  take_scene(request);
-  require(request, !request.scene.what.empty(), "SCENE");
-}
+bool has_output(Request r) { return !r.output.empty(); }
+bool has_outputs(Request r) { return !r.outputs.empty(); }
+bool has_operands(Request r) { return !r.operands.empty(); }
+bool has_baseline(Request r) { return !r.baseline.folder.empty(); }
+bool has_reports(Request r) { return !r.report.empty() || !r.junit.empty(); }
 
-void finish_inspect(CommandRequest& request) {
-  finish_view(request);
-  if (!request.isa.empty() && !request.measure) throw UsageError("--isa can only be given with --measure");
-}
+/// What commands cannot do without.
+struct Need {
+  std::string_view commands;
+  bool (*given)(Request);
+  const char* what;
+};
+constexpr std::string_view of_scenes = "view render sweep animate chart inspect convert";
+constexpr Need needs[] = {
+    {of_scenes, [](Request r) { return !r.scene.what.empty(); }, "SCENE"},
+    {"render", [](Request r) { return r.replay || has_outputs(r); }, "an output (-o FILE)"},
+    {"sweep", [](Request r) { return !r.axes.empty(); }, "a value to vary (--vary POINTER=FROM:TO:STEPS)"},
+    {"sweep", [](Request r) { return !r.sheet.empty() || !r.csv.empty() || has_outputs(r); },
+     "an output (-o SHEET.png)"},
+    {"animate", has_outputs, "an output (-o 'f/%04d.png')"},
+    {"compare", has_operands, "IMAGE"},
+    {"compare", [](Request r) { return has_baseline(r) || r.operands.size() > 1; }, "REFERENCE"},
+    {"chart", has_output, "an output (-o FILE.svg)"},
+    {"merge", has_operands, "PART"},
+    {"denoise", [](Request r) { return !r.image.empty(); }, "FILM.exr"},
+    {"merge denoise", has_outputs, "an output (-o FILE)"},
+    {"convert", has_output, "an output (-o FILE)"},
+};
 
-void finish_render(CommandRequest& request) {
-  finish_view(request);
-  require(request, request.replay || !request.outputs.empty(), "an output (-o FILE)");
-  refuse_conflicts(request);
-}
+static_assert(min_clean_spp == 2);  // as a message says
+/// Options that exclude each other, or need another one.
+constexpr std::pair<bool (*)(Request), const char*> conflicts[] = {
+    {[](Request r) { return has_baseline(r) && (!r.heatmap.empty() || r.json); },
+     "--baseline goes with --report and --junit, not with --heatmap or --json"},
+    {[](Request r) { return has_baseline(r) && r.update && has_reports(r); },
+     "--update compares nothing, so it writes no report"},
+    {[](Request r) { return !has_baseline(r) && (r.update || has_reports(r)); },
+     "--update, --report and --junit need --baseline"},
+    {[](Request r) { return r.command == "inspect" && !r.isa.empty() && !r.measure; },
+     "--isa can only be given with --measure"},
+    {[](Request r) { return r.replay && has_outputs(r); },
+     "--replay and -o exclude each other: a replay writes no image"},
+    {[](Request r) { return r.replay && r.form.ppm == PpmCurve::gamma2; },
+     "--replay and --gamma2 exclude each other: a replay writes no image"},
+    {[](Request r) { return r.replay && r.viewer; },
+     "--replay and --watch-at exclude each other: a replay shows no image"},
+    {[](Request r) { return r.denoise && r.spp && *r.spp < min_clean_spp; },
+     "--denoise: found --spp 1, expected at least 2 samples a pixel"},
+    {[](Request r) { return r.fresh && r.resume; },
+     "--fresh and --resume exclude each other: one starts over, one goes on"},
+    {[](Request r) { return r.checkpoint > 0 && kept_film(r.outputs, r.form).empty(); },
+     "--checkpoint needs an output that ends in .exr, and --exr-film yes"},
+    {[](Request r) { return r.samples && r.denoise; },
+     "--samples and --denoise exclude each other: a part is filtered when it is merged"},
+    {[](Request r) { return r.samples && r.spp; },
+     "--samples and --spp exclude each other: --samples says which samples to take"},
+    {[](Request r) { return r.samples && r.time_limit < 1e300; },
+     "--samples and --time exclude each other: --samples says which samples to take"},
+    {[](Request r) { return r.samples && r.target_error > 0; },
+     "--samples and --target-error exclude each other: --samples says which samples to take"},
+};
 
 void finish_sweep(CommandRequest& request) {
-  finish_view(request);
-  require(request, !request.axes.empty(), "a value to vary (--vary POINTER=FROM:TO:STEPS)");
   if (request.axes.size() > 2)
     throw UsageError("--vary: found it " + std::to_string(request.axes.size()) + " times, expected it once or twice");
-  require(request, !request.sheet.empty() || !request.csv.empty() || !request.outputs.empty(),
-          "an output (-o SHEET.png)");
-  refuse_conflicts(request);
 }
 
 /// Reads the name of a file that stands for many, for the message "--output: found X, expected Y".
-void check_numbered(const char* option, Text name) {
+void check_numbered(const char* option, const std::string& name) {
   try {
     read_numbered_name(name);
   } catch (const UsageError& error) {
@@ -69,8 +107,6 @@ void check_numbered(const char* option, Text name) {
 
 /// Takes the video out of the outputs, and checks the names of the others.
 void finish_animate(CommandRequest& request) {
-  finish_view(request);
-  require(request, !request.outputs.empty(), "an output (-o 'f/%04d.png')");
   std::vector<std::filesystem::path> pictures;
   for (const std::filesystem::path& file : request.outputs) {
     if (file != "-" && lower_case(file.extension().string()) != ".y4m") {
@@ -83,53 +119,24 @@ void finish_animate(CommandRequest& request) {
   }
   request.outputs = std::move(pictures);
   if (!request.stats.empty()) check_numbered("--stats", request.stats.string());
-  refuse_conflicts(request);
 }
 
-/// Puts the images where they belong. Throws UsageError for too few or too many, and for options that do not go
-/// together.
+/// Puts the images where they belong.
 void finish_compare(CommandRequest& request) {
   const std::vector<std::string>& images = request.operands;
   request.baseline.ppm = request.form.ppm;
-  require(request, !images.empty(), "IMAGE");
-  if (!request.baseline.folder.empty()) {
+  if (has_baseline(request)) {
     request.baseline.images.assign(images.begin(), images.end());
     request.baseline.limits = request.limits;
-    if (!request.heatmap.empty() || request.json)
-      throw UsageError("--baseline goes with --report and --junit, not with --heatmap or --json");
-    if (request.update && (!request.report.empty() || !request.junit.empty()))
-      throw UsageError("--update compares nothing, so it writes no report");
     return;
   }
-  require(request, images.size() > 1, "REFERENCE");
   take_scene(request, 1);
-  if (request.update || !request.report.empty() || !request.junit.empty())
-    throw UsageError("--update, --report and --junit need --baseline");
   request.image = images[0] == "-" ? "/dev/stdin" : images[0];
   request.reference = images[1];
 }
 
 void finish_chart(CommandRequest& request) {
-  finish_view(request);
-  require(request, !request.output.empty(), "an output (-o FILE.svg)");
   if (request.scene.what != "all") read_file_name(request.output.string(), ".svg");
-}
-
-void finish_nothing(CommandRequest&) {}
-
-void finish_merge(CommandRequest& request) {
-  require(request, !request.operands.empty(), "PART");
-  require(request, !request.outputs.empty(), "an output (-o FILE)");
-}
-
-void finish_denoise(CommandRequest& request) {
-  require(request, !request.image.empty(), "FILM.exr");
-  require(request, !request.outputs.empty(), "an output (-o FILE)");
-}
-
-void finish_convert(CommandRequest& request) {
-  finish_view(request);
-  require(request, !request.output.empty(), "an output (-o FILE)");
 }
 
 constexpr const char* usual_heading = "Options";  // the usual heading
@@ -156,7 +163,7 @@ const std::vector<CommandRow>& command_rows() {
        "  ./mine | tyndall view - --reference cover.exr",
        rendering({{"Limits (the first one reached pauses the picture; Space goes on)", "--spp --time --target-error"}},
                  "--threads --isa --reference --gamma2 --ui-log"),
-       finish_view, run_view},
+       nullptr, run_view},
       {"render", "render without a window and write images", "render SCENE -o FILE [options]",
        "Renders a scene without a window and writes the image.",
        "Examples:\n"
@@ -169,7 +176,7 @@ const std::vector<CommandRow>& command_rows() {
              "--output --format --gamma2 --exr-film --region --denoise --stats --frame --replay --checkpoint --fresh "
              "--resume --watch-at --progress --quiet"},
             {"Limits (the first one reached ends the render)", "--spp --time --target-error --samples"}}),
-       finish_render, run_render},
+       nullptr, run_render},
       {"sweep", "render one or two values of a scene in steps, and say which differences are real",
        "sweep SCENE --vary POINTER=FROM:TO:STEPS -o SHEET.png [options]",
        "Renders a scene with one or two of its values in steps: a sheet of all pictures with the values\n"
@@ -269,7 +276,7 @@ const std::vector<CommandRow>& command_rows() {
        {{usual_heading, "NAME --thorough --json --progress --quiet"},
         {"Method", "{render}"},
         {"Machine", "--threads --isa"}},
-       finish_nothing,
+       nullptr,
        run_verify},
       {"merge",
        "add films whose sample ranges follow each other",
@@ -281,7 +288,7 @@ const std::vector<CommandRow>& command_rows() {
        "  tyndall render fog.json --samples 64:128 -o b.exr\n"
        "  tyndall merge a.exr b.exr -o fog.exr -o fog.png",
        {{usual_heading, "PART --output --format --gamma2 --exr-film --denoise"}},
-       finish_merge,
+       nullptr,
        run_merge},
       {"denoise",
        "filter the picture of a finished film",
@@ -292,7 +299,7 @@ const std::vector<CommandRow>& command_rows() {
        "filter decides where to show the filtered and where the raw picture, and estimates the error.",
        "Example:\n  tyndall denoise fog.exr -o fog-clean.png",
        {{usual_heading, "FILM.exr --output --format --gamma2 --exr-film --stats"}, {"Machine", "--threads --isa"}},
-       finish_denoise,
+       nullptr,
        run_denoise},
       {"inspect",
        "say what a scene contains and which models it needs",
@@ -303,7 +310,7 @@ const std::vector<CommandRow>& command_rows() {
        "  tyndall inspect fog.json --measure\n"
        "  tyndall inspect snapshot.png --json",
        {{usual_heading, "SCENE --set --include --trust --json --measure --isa"}, {"", "--accuracy"}},
-       finish_inspect,
+       nullptr,
        run_inspect},
       {"scenes",
        "list the built-in scenes",
@@ -311,7 +318,7 @@ const std::vector<CommandRow>& command_rows() {
        "Lists the built-in scenes. Every command takes their names in place of a file.",
        "",
        {},
-       finish_nothing,
+       nullptr,
        run_scenes},
       {"convert",
        "write a scene in normal form, also from an image",
@@ -326,11 +333,20 @@ const std::vector<CommandRow>& command_rows() {
        "  tyndall convert cornell-box -o box.xml\n"
        "  tyndall convert cornell-smoke -o smoke.py    # blender -b -P smoke.py -- smoke.exr",
        {{usual_heading, "SCENE --set --include --trust --output"}},
-       finish_convert,
+       nullptr,
        run_convert},
-
   };
   return rows;
+}
+
+void finish(const CommandRow& row, CommandRequest& request) {
+  if (of_scenes.find(row.name) != of_scenes.npos) take_scene(request, 0);
+  for (const Need& need : needs)
+    if (need.commands.find(row.name) != need.commands.npos && !need.given(request))
+      throw UsageError(need.what + std::string(" is missing") + see_help(request));
+  if (row.finish) row.finish(request);
+  for (const auto& [found, text] : conflicts)
+    if (found(request)) throw UsageError(text);
 }
 
 }  // namespace tyndall

@@ -43,7 +43,7 @@ Command read(const CommandRow& row, Arguments arguments) {
     help->page.summary = row.summary;
     return *help;
   }
-  row.finish(request);
+  finish(row, request);
   return request;
 }
 

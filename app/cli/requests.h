@@ -2,7 +2,6 @@
 #include "app/comparison/baseline.h"
 #include "app/files/open_scene.h"
 #include "app/files/outputs.h"
-#include "app/files/sweep_values.h"
 #include "app/files/viewer_stream.h"
 #include "app/manual/page.h"
 #include "app/text/progress.h"

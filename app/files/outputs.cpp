@@ -84,12 +84,13 @@ void check_image_names(const std::vector<fs::path>& files, const ImageForm& form
   const auto is_ppm = [&form](const auto& file) { return image_ending(file, form) == ".ppm"; };
   if (form.ppm == PpmCurve::gamma2 && std::none_of(files.begin(), files.end(), is_ppm))
     throw UsageError("--gamma2: found no output that ends in .ppm, expected one: only PPM is written so");
-  check_outputs(outputs_of("--output", files), {});
+  check_outputs(outputs_of(files), {});
 }
 
-std::vector<Output> outputs_of(const std::string& option, const std::vector<fs::path>& files) {
+std::vector<Output> outputs_of(const std::vector<fs::path>& files, const fs::path& stats) {
   std::vector<Output> outputs;
-  for (const fs::path& file : files) outputs.push_back({option, file});
+  for (const fs::path& file : files) outputs.push_back({"--output", file});
+  outputs.push_back({"--stats", stats});
   return outputs;
 }
 
@@ -181,6 +182,7 @@ void write_or_rescue(const fs::path& file, const std::function<void(const fs::pa
 }
 
 void write_text_or_rescue(const fs::path& file, const std::string& text) {
+  if (file == "-") return write_standard_output(text);
   write_or_rescue(file, [&text](const fs::path& to) { write_text_file(to, text); });
 }
 
