@@ -1,7 +1,7 @@
 #include "app/check/check.h"
 
 #include "app/book/load_program.h"
-#include "app/comparison/pair.h"
+#include "app/comparison/comparison.h"
 #include "app/files/open_scene.h"
 #include "core/base/error.h"
 #include "core/base/seconds.h"

@@ -1,4 +1,4 @@
-#include "app/check/expectation.h"
+#include "app/check/explain.h"
 
 #include "core/accuracy/error.h"
 #include "core/base/seconds.h"

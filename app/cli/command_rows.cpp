@@ -1,143 +1,7 @@
 #include "app/cli/option_rows.h"
 
-#include "app/book/load_program.h"
-#include "app/check/check.h"
-#include "app/cli/commands.h"
-#include "app/text/values.h"
-#include "core/base/text.h"
-#include "core/render/clean_film.h"
-
-#include <filesystem>
-
 namespace tyndall {
 namespace {
-
-using Request = const CommandRequest&;
-
-std::string see_help(Request request) { return " (see tyndall " + request.command + " --help)"; }
-
-/// A program may have further source files; nothing else takes more words than one.
-void take_scene(CommandRequest& request, std::size_t at) {
-  if (request.operands.size() <= at) return;
-  request.scene.what = request.operands[at];
-  request.scene.program.allowed = true;
-  request.scene.program.differs = differs_from_own;
-  for (std::size_t k = at + 1; k < request.operands.size(); ++k) {
-    if (!is_program(request.operands[at]) || !is_program(request.operands[k]))
-      throw UsageError("unexpected argument " + in_quotes(request.operands[k]) + see_help(request));
-    request.scene.program.more_files.emplace_back(request.operands[k]);
-  }
-}
-
-bool has_output(Request r) { return !r.output.empty(); }
-bool has_outputs(Request r) { return !r.outputs.empty(); }
-bool has_operands(Request r) { return !r.operands.empty(); }
-bool has_baseline(Request r) { return !r.baseline.folder.empty(); }
-bool has_reports(Request r) { return !r.report.empty() || !r.junit.empty(); }
-
-/// What commands cannot do without.
-struct Need {
-  std::string_view commands;
-  bool (*given)(Request);
-  const char* what;
-};
-constexpr std::string_view of_scenes = "view render sweep animate chart inspect convert";
-constexpr Need needs[] = {
-    {of_scenes, [](Request r) { return !r.scene.what.empty(); }, "SCENE"},
-    {"render", [](Request r) { return r.replay || has_outputs(r); }, "an output (-o FILE)"},
-    {"sweep", [](Request r) { return !r.axes.empty(); }, "a value to vary (--vary POINTER=FROM:TO:STEPS)"},
-    {"sweep", [](Request r) { return !r.sheet.empty() || !r.csv.empty() || has_outputs(r); },
-     "an output (-o SHEET.png)"},
-    {"animate", has_outputs, "an output (-o 'f/%04d.png')"},
-    {"compare", has_operands, "IMAGE"},
-    {"compare", [](Request r) { return has_baseline(r) || r.operands.size() > 1; }, "REFERENCE"},
-    {"chart", has_output, "an output (-o FILE.svg)"},
-    {"merge", has_operands, "PART"},
-    {"denoise", [](Request r) { return !r.image.empty(); }, "FILM.exr"},
-    {"merge denoise", has_outputs, "an output (-o FILE)"},
-    {"convert", has_output, "an output (-o FILE)"},
-};
-
-static_assert(min_clean_spp == 2);  // as a message says
-/// Options that exclude each other, or need another one.
-constexpr std::pair<bool (*)(Request), const char*> conflicts[] = {
-    {[](Request r) { return has_baseline(r) && (!r.heatmap.empty() || r.json); },
-     "--baseline goes with --report and --junit, not with --heatmap or --json"},
-    {[](Request r) { return has_baseline(r) && r.update && has_reports(r); },
-     "--update compares nothing, so it writes no report"},
-    {[](Request r) { return !has_baseline(r) && (r.update || has_reports(r)); },
-     "--update, --report and --junit need --baseline"},
-    {[](Request r) { return r.command == "inspect" && !r.isa.empty() && !r.measure; },
-     "--isa can only be given with --measure"},
-    {[](Request r) { return r.replay && has_outputs(r); },
-     "--replay and -o exclude each other: a replay writes no image"},
-    {[](Request r) { return r.replay && r.form.ppm == PpmCurve::gamma2; },
-     "--replay and --gamma2 exclude each other: a replay writes no image"},
-    {[](Request r) { return r.replay && r.viewer; },
-     "--replay and --watch-at exclude each other: a replay shows no image"},
-    {[](Request r) { return r.denoise && r.spp && *r.spp < min_clean_spp; },
-     "--denoise: found --spp 1, expected at least 2 samples a pixel"},
-    {[](Request r) { return r.fresh && r.resume; },
-     "--fresh and --resume exclude each other: one starts over, one goes on"},
-    {[](Request r) { return r.checkpoint > 0 && kept_film(r.outputs, r.form).empty(); },
-     "--checkpoint needs an output that ends in .exr, and --exr-film yes"},
-    {[](Request r) { return r.samples && r.denoise; },
-     "--samples and --denoise exclude each other: a part is filtered when it is merged"},
-    {[](Request r) { return r.samples && r.spp; },
-     "--samples and --spp exclude each other: --samples says which samples to take"},
-    {[](Request r) { return r.samples && r.time_limit < 1e300; },
-     "--samples and --time exclude each other: --samples says which samples to take"},
-    {[](Request r) { return r.samples && r.target_error > 0; },
-     "--samples and --target-error exclude each other: --samples says which samples to take"},
-};
-
-void finish_sweep(CommandRequest& request) {
-  if (request.axes.size() > 2)
-    throw UsageError("--vary: found it " + std::to_string(request.axes.size()) + " times, expected it once or twice");
-}
-
-/// Reads the name of a file that stands for many, for the message "--output: found X, expected Y".
-void check_numbered(const char* option, const std::string& name) {
-  try {
-    read_numbered_name(name);
-  } catch (const UsageError& error) {
-    throw UsageError(std::string(option) + ": " + error.what());
-  }
-}
-
-/// Takes the video out of the outputs, and checks the names of the others.
-void finish_animate(CommandRequest& request) {
-  std::vector<std::filesystem::path> pictures;
-  for (const std::filesystem::path& file : request.outputs) {
-    if (file != "-" && lower_case(file.extension().string()) != ".y4m") {
-      check_numbered("--output", file.string());
-      pictures.push_back(file);
-      continue;
-    }
-    if (!request.video.empty()) throw UsageError("--output: found two films, expected one .y4m or -");
-    request.video = file;
-  }
-  request.outputs = std::move(pictures);
-  if (!request.stats.empty()) check_numbered("--stats", request.stats.string());
-}
-
-/// Puts the images where they belong.
-void finish_compare(CommandRequest& request) {
-  const std::vector<std::string>& images = request.operands;
-  request.baseline.ppm = request.form.ppm;
-  if (has_baseline(request)) {
-    request.baseline.images.assign(images.begin(), images.end());
-    request.baseline.limits = request.limits;
-    return;
-  }
-  take_scene(request, 1);
-  request.image = images[0] == "-" ? "/dev/stdin" : images[0];
-  request.reference = images[1];
-}
-
-void finish_chart(CommandRequest& request) {
-  if (request.scene.what != "all") read_file_name(request.output.string(), ".svg");
-}
 
 constexpr const char* usual_heading = "Options";  // the usual heading
 
@@ -163,7 +27,7 @@ const std::vector<CommandRow>& command_rows() {
        "  ./mine | tyndall view - --reference cover.exr",
        rendering({{"Limits (the first one reached pauses the picture; Space goes on)", "--spp --time --target-error"}},
                  "--threads --isa --reference --gamma2 --ui-log"),
-       nullptr, run_view},
+       run_view},
       {"render", "render without a window and write images", "render SCENE -o FILE [options]",
        "Renders a scene without a window and writes the image.",
        "Examples:\n"
@@ -176,7 +40,7 @@ const std::vector<CommandRow>& command_rows() {
              "--output --format --gamma2 --exr-film --region --denoise --stats --frame --replay --checkpoint --fresh "
              "--resume --watch-at --progress --quiet"},
             {"Limits (the first one reached ends the render)", "--spp --time --target-error --samples"}}),
-       nullptr, run_render},
+       run_render},
       {"sweep", "render one or two values of a scene in steps, and say which differences are real",
        "sweep SCENE --vary POINTER=FROM:TO:STEPS -o SHEET.png [options]",
        "Renders a scene with one or two of its values in steps: a sheet of all pictures with the values\n"
@@ -193,7 +57,7 @@ const std::vector<CommandRow>& command_rows() {
             {"Output",
              "--output --csv --each --gamma2 --exr-film --region --denoise --checkpoint --fresh --progress --quiet"},
             {"Limits (the first one reached ends the picture)", "--spp --time --target-error --total-time"}}),
-       finish_sweep, run_sweep},
+       run_sweep},
       {"animate", "render the frames of a film, from keys or on a turntable",
        "animate SCENE --frames N -o 'f/%04d.png' [options]",
        "Renders the frames of a film: the values that have keys in the scene's \"animation\" follow them, and\n"
@@ -211,7 +75,7 @@ const std::vector<CommandRow>& command_rows() {
                   {"Output",
                    "--output --gamma2 --exr-film --region --denoise --stats --checkpoint --fresh --progress --quiet"},
                   {"Limits (the first one reached ends the frame)", "--spp --time --target-error"}}),
-       finish_animate, run_animate},
+       run_animate},
       {"compare",
        "measure how far an image is from a reference",
        "compare IMAGE REFERENCE | IMAGE SCENE | IMAGE... --baseline DIR [options]",
@@ -246,7 +110,6 @@ const std::vector<CommandRow>& command_rows() {
         {"Checks", "--max-rmse --max-relmse --max-flip --max-z"},
         {"Baseline (a folder of pictures that renders should go on looking like)",
          "--baseline --update --report --junit"}},
-       finish_compare,
        run_compare},
       {"chart",
        "chart speed against accuracy: error over time of several methods",
@@ -260,7 +123,6 @@ const std::vector<CommandRow>& command_rows() {
        "  tyndall chart fog.json --method 'mis=' --method 'no MIS=--integrator nee' -o fog.svg",
        {{usual_heading,
          "SCENE --set --include --trust --output --method --reference --budget --size --threads --progress --quiet"}},
-       finish_chart,
        run_chart},
       {"verify",
        "check the renderer against known answers",
@@ -276,7 +138,6 @@ const std::vector<CommandRow>& command_rows() {
        {{usual_heading, "NAME --thorough --json --progress --quiet"},
         {"Method", "{render}"},
         {"Machine", "--threads --isa"}},
-       nullptr,
        run_verify},
       {"merge",
        "add films whose sample ranges follow each other",
@@ -288,7 +149,6 @@ const std::vector<CommandRow>& command_rows() {
        "  tyndall render fog.json --samples 64:128 -o b.exr\n"
        "  tyndall merge a.exr b.exr -o fog.exr -o fog.png",
        {{usual_heading, "PART --output --format --gamma2 --exr-film --denoise"}},
-       nullptr,
        run_merge},
       {"denoise",
        "filter the picture of a finished film",
@@ -299,7 +159,6 @@ const std::vector<CommandRow>& command_rows() {
        "filter decides where to show the filtered and where the raw picture, and estimates the error.",
        "Example:\n  tyndall denoise fog.exr -o fog-clean.png",
        {{usual_heading, "FILM.exr --output --format --gamma2 --exr-film --stats"}, {"Machine", "--threads --isa"}},
-       nullptr,
        run_denoise},
       {"inspect",
        "say what a scene contains and which models it needs",
@@ -310,7 +169,6 @@ const std::vector<CommandRow>& command_rows() {
        "  tyndall inspect fog.json --measure\n"
        "  tyndall inspect snapshot.png --json",
        {{usual_heading, "SCENE --set --include --trust --json --measure --isa"}, {"", "--accuracy"}},
-       nullptr,
        run_inspect},
       {"scenes",
        "list the built-in scenes",
@@ -318,7 +176,6 @@ const std::vector<CommandRow>& command_rows() {
        "Lists the built-in scenes. Every command takes their names in place of a file.",
        "",
        {},
-       nullptr,
        run_scenes},
       {"convert",
        "write a scene in normal form, also from an image",
@@ -333,20 +190,9 @@ const std::vector<CommandRow>& command_rows() {
        "  tyndall convert cornell-box -o box.xml\n"
        "  tyndall convert cornell-smoke -o smoke.py    # blender -b -P smoke.py -- smoke.exr",
        {{usual_heading, "SCENE --set --include --trust --output"}},
-       nullptr,
        run_convert},
   };
   return rows;
-}
-
-void finish(const CommandRow& row, CommandRequest& request) {
-  if (of_scenes.find(row.name) != of_scenes.npos) take_scene(request, 0);
-  for (const Need& need : needs)
-    if (need.commands.find(row.name) != need.commands.npos && !need.given(request))
-      throw UsageError(need.what + std::string(" is missing") + see_help(request));
-  if (row.finish) row.finish(request);
-  for (const auto& [found, text] : conflicts)
-    if (found(request)) throw UsageError(text);
 }
 
 }  // namespace tyndall

@@ -1,5 +1,5 @@
-#include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
+#include "app/cli/requests.h"
 #include "app/files/open_scene.h"
 #include "app/report/contents.h"
 #include "app/report/gain.h"

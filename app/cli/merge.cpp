@@ -1,5 +1,5 @@
-#include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
+#include "app/cli/requests.h"
 #include "app/files/memory.h"
 #include "app/files/outputs.h"
 #include "app/text/standard_streams.h"

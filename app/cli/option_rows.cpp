@@ -1,6 +1,5 @@
 #include "app/cli/option_rows.h"
 
-#include "app/cli/setting_options.h"
 #include "app/text/values.h"
 #include "core/base/target.h"
 #include "core/base/text.h"
@@ -109,7 +108,8 @@ std::vector<OptionRow> scene_rows() {
        "/materials/gold/fuzz=0.2; VALUE is JSON, else a string;\n"
        "repeatable, in order"},
       {"-I,--include", "DIR",
-       by([](CommandRequest& request, Text t) { request.scene.program.include_folders.emplace_back(t); }, Takes::each),
+       by([](CommandRequest& request, Text t) { request.scene.program.sources.include_folders.emplace_back(t); },
+          Takes::each),
        "of a program: a folder of headers; repeatable"},
       {"--trust", "", by([](CommandRequest& request, Text) { request.scene.program.trusted = true; }, Takes::flag),
        "run a program also where the system cannot keep it from changing\nyour files (see tyndall --version)"},

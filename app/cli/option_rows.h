@@ -1,6 +1,6 @@
 #pragma once
-#include "app/cli/parse.h"
 #include "app/cli/requests.h"
+#include "app/cli/setting_options.h"
 
 #include <functional>
 #include <string>
@@ -49,13 +49,9 @@ struct CommandRow {
   const char* about;     ///< before the options in the help
   const char* examples;  ///< and after them
   std::vector<OptionGroup> groups;
-  void (*finish)(CommandRequest&);  ///< looks at the options as a whole; throws UsageError; null: nothing is special
   int (*run)(const CommandRequest&);
 };
 
 const std::vector<CommandRow>& command_rows();
-
-/// Puts the words where they belong. Throws UsageError for what is missing, and for options that exclude each other.
-void finish(const CommandRow& row, CommandRequest& request);
 
 }  // namespace tyndall

@@ -1,4 +1,4 @@
-#include "app/cli/commands.h"
+#include "app/cli/requests.h"
 #include "app/export/foreign_scene.h"
 #include "app/files/open_scene.h"
 #include "app/files/outputs.h"

@@ -154,27 +154,6 @@ RenderResult render_film(RenderJob& job, const SignalWatch& signals, ProgressRep
   }
 }
 
-/// What users should know of the picture, a line each, also with -q, which only turns progress off.
-std::vector<std::string> warnings(const RenderJob& job, const RenderOutcome& outcome) {
-  const RenderResult& result = outcome.result;
-  std::vector<std::string> texts;
-  if (outcome.picture.rare_bright_paths)
-    texts.push_back(std::string(rare_bright_paths) + "; the error may be larger than estimated");
-  if (job.options.clean && !result.clean)
-    texts.emplace_back("--denoise: the picture is not filtered, as some pixels have fewer than 2 samples");
-  const std::string uneven = uneven_text(job.loaded.scene, outcome.picture.totals);
-  if (!uneven.empty()) texts.push_back(uneven);
-  const FilmTotals& sum = outcome.picture.totals;
-  if (sum.rejected == 0) return texts;
-  std::string text = std::to_string(sum.rejected) + " of " + std::to_string(sum.samples) +
-                     " samples were rejected: not finite, or brighter than any light of the scene explains";
-  for (const RejectedSample& r : result.first_rejected)
-    text += (&r == result.first_rejected.data() ? "; the first are (pixel and index) " : " ") + std::to_string(r.x) +
-            "," + std::to_string(r.y) + "," + std::to_string(r.sample);
-  texts.push_back(text);
-  return texts;
-}
-
 /// Shows the finished picture in the viewer. Files are written by then, and nothing that fails here is an error.
 void show_last(const RenderJob& job, const RenderOutcome& outcome) {
   if (!job.view) return;
@@ -239,11 +218,28 @@ RenderResult Series::render(RenderJob& job, const std::string& name) {
   return result;
 }
 
-/// Tells what users should know of a picture; what holds for several, once.
+/// Tells what users should know of a picture, also with -q, which only turns progress off; what holds for several,
+/// once.
 void Series::warn(const RenderJob& job, const RenderOutcome& outcome, const std::string& name) {
-  for (const std::string& text : warnings(job, outcome))
+  const auto tell = [&](const std::string& text) {
     if (told_.insert(text).second)
       report_.say((name.empty() ? "" : name + ": ") + text + (count_ > 1 ? " (told once for all)" : ""));
+  };
+  const RenderResult& result = outcome.result;
+  const FilmTotals& sum = outcome.picture.totals;
+  if (outcome.picture.rare_bright_paths)
+    tell(std::string(rare_bright_paths) + "; the error may be larger than estimated");
+  if (job.options.clean && !result.clean)
+    tell("--denoise: the picture is not filtered, as some pixels have fewer than 2 samples");
+  const std::string uneven = uneven_text(job.loaded.scene, sum);
+  if (!uneven.empty()) tell(uneven);
+  if (sum.rejected == 0) return;
+  std::string text = std::to_string(sum.rejected) + " of " + std::to_string(sum.samples) +
+                     " samples were rejected: not finite, or brighter than any light of the scene explains";
+  for (const RejectedSample& r : result.first_rejected)
+    text += (&r == result.first_rejected.data() ? "; the first are (pixel and index) " : " ") + std::to_string(r.x) +
+            "," + std::to_string(r.y) + "," + std::to_string(r.sample);
+  tell(text);
 }
 
 bool Series::make(RenderJob& job, const std::string& name, const PictureSteps& steps) {

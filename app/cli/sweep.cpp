@@ -1,5 +1,5 @@
-#include "app/cli/commands.h"
 #include "app/cli/kept_pictures.h"
+#include "app/cli/requests.h"
 #include "app/cli/series.h"
 #include "app/files/open_scene.h"
 #include "app/report/contact_sheet.h"

@@ -1,6 +1,5 @@
 #include "app/comparison/baseline.h"
 
-#include "app/comparison/pair.h"
 #include "app/files/outputs.h"
 #include "app/text/values.h"
 #include "core/base/error.h"

@@ -1,5 +1,4 @@
 #include "app/comparison/baseline.h"
-#include "app/comparison/pair.h"
 #include "app/files/outputs.h"
 #include "app/report/heat_map.h"
 #include "app/text/markup.h"

@@ -49,8 +49,6 @@ Checkpoints::Checkpoints(std::filesystem::path file, std::optional<double> inter
                          std::function<Embedded(const Film&)> embedded)
     : file_(std::move(file)), interval_(interval), embedded_(std::move(embedded)) {}
 
-Checkpoints::~Checkpoints() { finish(); }
-
 bool Checkpoints::due() const {
   if (writing_) return false;
   const double usual = std::max(min_checkpoint_interval, checkpoint_interval_over_cost * cost_);

@@ -35,7 +35,7 @@ class Checkpoints {
   /// interval: seconds; absent: as above. embedded: what the file carries beside a film; called in the background.
   Checkpoints(std::filesystem::path file, std::optional<double> interval,
               std::function<Embedded(const Film&)> embedded);
-  ~Checkpoints();  ///< waits for the one that is being written
+  ~Checkpoints() { finish(); }  ///< waits for the one that is being written
 
   const std::filesystem::path& file() const { return file_; }
   /// Whether one is to be begun now, so that it is written when the interval is over. False while one is written.

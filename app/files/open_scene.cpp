@@ -32,14 +32,9 @@ ProgramRequest program_request(const SceneRequest& request) {
   if (!request.program.allowed) throw SceneError(request.what, "a program", expected_no_program);
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw SceneError(request.what, "no such file", "a C++ source file");
-  ProgramRequest parts;
-  parts.sources = {{file}, request.program.include_folders};
-  const auto& more = request.program.more_files;
-  parts.sources.files.insert(parts.sources.files.end(), more.begin(), more.end());
-  parts.compiler = request.program.compiler;
-  parts.go_on = request.program.go_on;
+  ProgramRequest parts = request.program;
+  parts.sources.files.insert(parts.sources.files.begin(), file);
   parts.watch_signals = !parts.go_on;
-  parts.trusted = request.program.trusted;
   return parts;
 }
 

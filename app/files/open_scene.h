@@ -48,14 +48,11 @@ void apply(const Changes<Settings>& changes, Settings& settings) {
 }
 
 /// What belongs to a program whose scene is wanted, see app/book.
-struct ProgramParts {
-  std::vector<std::filesystem::path> more_files, include_folders;  ///< beside the file with main()
+/// Its sources are those beside the file with main(); without go_on, which a window has, it watches signals.
+struct ProgramParts : ProgramRequest {
   /// Whether a C++ source file may be compiled and run at all: only one that the user has named for that.
   bool allowed = false;
-  bool trusted = false;         ///< it is also run where the system has no guard
-  std::string compiler{};       ///< see ProgramTask
-  bool told = false;            ///< what is to be told of it was told before
-  std::function<bool()> go_on;  ///< false gives up; empty: signals do, which a window watches itself
+  bool told = false;  ///< what is to be told of it was told before
   /// Says why a scene is not what its program computes; "": it is. May be empty.
   std::function<std::string(const Scene&, const ProgramScene&)> differs;
 };

@@ -48,6 +48,11 @@ fs::path free_name(const fs::path& file) {
   return {};
 }
 
+template <class... Errors>
+bool is_one_of(const std::exception& error) {
+  return (dynamic_cast<const Errors*>(&error) || ...);
+}
+
 bool succeeds(const std::function<void(const fs::path& file)>& write, const fs::path& file) {
   if (file.empty()) return false;
   try {
@@ -200,26 +205,14 @@ bool written_or_told(const std::function<void()>& write) {
 
 int told_exit_code() {
   constexpr int wrong_usage = 2, input_output_error = 3;
-  const auto told = [](const std::exception& error, int code) {
-    complain(error.what());
-    return code;
-  };
   try {
     throw;
-  } catch (const UsageError& error) {
-    return told(error, wrong_usage);
-  } catch (const SceneError& error) {
-    return told(error, wrong_usage);
-  } catch (const MergeError& error) {
-    return told(error, wrong_usage);
-  } catch (const NoSuchLayer& error) {
-    return told(error, wrong_usage);
-  } catch (const ProgramInterrupted& error) {
-    return told(error, 128 + error.signal);
   } catch (const std::bad_alloc&) {
     complain("not enough memory" + memory_limit_text());
   } catch (const std::exception& error) {
-    return told(error, input_output_error);
+    complain(error.what());
+    if (const auto* interrupted = dynamic_cast<const ProgramInterrupted*>(&error)) return 128 + interrupted->signal;
+    if (is_one_of<UsageError, SceneError, MergeError, NoSuchLayer>(error)) return wrong_usage;
   }
   return input_output_error;
 }

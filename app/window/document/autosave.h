@@ -1,7 +1,7 @@
 #pragma once
 #include "app/window/document/document.h"
-#include "core/base/stoppable.h"
 #include "core/scene/load.h"
+#include "core/system/locks.h"
 #include "core/system/open_file.h"
 
 #include <filesystem>
