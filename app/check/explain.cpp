@@ -195,12 +195,12 @@ class Search {
     }
     const Model model = expectation_.model_of(taken, right.model->samples);
     Candidate best{mistake, right.reading};
-    double& most = best.mistake.explained;
-    most = gone(right.regions, fit(suspect, right.reading, model).regions);
+    double& explained = best.mistake.explained;
+    explained = gone(right.regions, fit(suspect, right.reading, model).regions);
     for (const Reading& reading : right_readings_) {
-      if (most < promising) break;
-      const double explained = gone(right.regions, fit(suspect, reading, model).regions);
-      if (explained > most) most = explained, best.reading = reading;
+      if (explained < promising) break;
+      const double part = gone(right.regions, fit(suspect, reading, model).regions);
+      if (part > explained) explained = part, best.reading = reading;
     }
     candidates_.push_back(std::move(best));
   }

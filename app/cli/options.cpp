@@ -46,7 +46,7 @@ struct Need {
   const char* what;
 };
 constexpr std::string_view of_scenes = "view render sweep animate chart inspect convert";
-constexpr Need needs[] = {
+constexpr Need required[] = {
     {of_scenes, [](Request r) { return !r.scene.what.empty(); }, "SCENE"},
     {"render", [](Request r) { return r.replay || has_outputs(r); }, "an output (-o FILE)"},
     {"sweep", [](Request r) { return !r.axes.empty(); }, "a value to vary (--vary POINTER=FROM:TO:STEPS)"},
@@ -138,7 +138,7 @@ void finish_compare(CommandRequest& request) {
 void finish(CommandRequest& request) {
   const std::string_view name = request.command;
   if (of_scenes.find(name) != of_scenes.npos) take_scene(request, 0);
-  for (const Need& need : needs)
+  for (const Need& need : required)
     if (need.commands.find(name) != need.commands.npos && !need.given(request))
       throw UsageError(need.what + std::string(" is missing") + see_help(request));
   if (name == "animate") finish_animate(request);

@@ -58,7 +58,7 @@ bool Checkpoints::due() const {
 }
 
 void Checkpoints::take(const Film& film, ThreadPool& thread_pool) {
-  if (writer_.joinable()) writer_.join();
+  writer_.reset();
   taken_ = Clock::now();
   if (!write_in_background(film, thread_pool)) write(film);
 }
@@ -71,7 +71,7 @@ bool Checkpoints::write_in_background(const Film& film, ThreadPool& thread_pool)
   try {
     copy(film, copy_, thread_pool);
     writing_ = true;
-    writer_ = std::thread([this] {
+    writer_.emplace([this](const StopToken&) {
       write(copy_);
       writing_ = false;
     });
@@ -103,7 +103,7 @@ void Checkpoints::write(const Film& film) {
 }
 
 void Checkpoints::finish() {
-  if (writer_.joinable()) writer_.join();
+  writer_.reset();
   copy_ = {};
 }
 
