@@ -1,4 +1,4 @@
-#include "app/cli/commands.h"
+#include "app/cli/requests.h"
 #include "app/files/outputs.h"
 #include "core/system/process.h"
 

@@ -1,7 +1,7 @@
 #include "app/check/check.h"
 
 #include "app/book/load_program.h"
-#include "app/comparison/pair.h"
+#include "app/comparison/comparison.h"
 #include "app/files/open_scene.h"
 #include "core/base/error.h"
 #include "core/base/seconds.h"
@@ -23,9 +23,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double part_for_reference = 0.25;   // of the time
-constexpr double part_of_other_scene = 0.05;  // blocks that differ from the start, before others are looked for
-constexpr double part_of_right_scene = 0.5;   // of the difference that is left where another one is taken
+constexpr double part_for_reference = 0.25;        // of the time
+constexpr std::uint32_t reference_samples = 8192;  // a pixel, at most
+constexpr double part_of_other_scene = 0.05;       // blocks that differ from the start, before others are looked for
+constexpr double part_of_right_scene = 0.5;        // of the difference that is left where another one is taken
 
 bool is_picture_name(const fs::path& name) {
   const std::string ending = lower_case(name.extension().string());
@@ -137,12 +138,12 @@ Check check_picture(const CheckRequest& request) {
   Arrangement arrangement = find_arrangement(numbers, request.scene, std::move(loaded), go_on);
   Scene& scene = arrangement.loaded.scene;
   scene.width = picture.image.width, scene.height = picture.image.height;
-  Reference reference = render_reference(scene, picture.image, {part_for_reference * limit}, go_on);
+  Reference reference = render_reference(scene, picture.image, part_for_reference * limit, reference_samples, go_on);
   stage = "looking for what explains the difference";
   Check check;
   check.verdict = explain(numbers, scene, reference, request.options, go_on);
   if (!arrangement.words.empty())
-    check.verdict.choices.insert(check.verdict.choices.begin(), {"arrangement", arrangement.words, 1});
+    check.verdict.choices.insert(check.verdict.choices.begin(), {"arrangement", arrangement.words, {}, 1});
   const bool ppm = picture.kind == ImageKind::ppm;
   // Read by the square of its numbers, as that fits better.
   const bool gamma2 = ppm && request.ppm == PpmCurve::srgb && check.verdict.curve == TransferCurve::gamma2;

@@ -1,4 +1,4 @@
-#include "app/check/expectation.h"
+#include "app/check/explain.h"
 
 #include "core/accuracy/error.h"
 #include "core/base/seconds.h"
@@ -55,7 +55,7 @@ Regions without_noise(Regions regions, const SeenObjects& seen) {
 
 }  // namespace
 
-Reference render_reference(Scene scene, const LinearImage& picture, const ReferenceLimits& limits,
+Reference render_reference(Scene scene, const LinearImage& picture, double seconds, std::uint32_t spp,
                            const std::function<bool()>& go_on) {
   scene.render.sharing = false, scene.render.adaptive = false, scene.render.sampler = SamplerKind::sobol;
   scene.render.integrator = Integrator::mis;
@@ -66,8 +66,8 @@ Reference render_reference(Scene scene, const LinearImage& picture, const Refere
   options.spp = first_spp;
   RenderResult rendered = render(*prepared, options);
   const double difference = std::sqrt(relative_mse(picture.rgb, resolve(rendered.film)));
-  options.spp = limits.spp;
-  options.time_limit = std::max(0.0, limits.seconds - rendered.seconds);
+  options.spp = spp;
+  options.time_limit = std::max(0.0, seconds - rendered.seconds);
   options.target_error = std::isfinite(difference) ? std::max(min_error, part_of_difference * difference) : min_error;
   if (!rendered.interrupted) rendered = render(*prepared, options, progress, std::move(rendered.film));
   const Film& film = rendered.film;
@@ -181,22 +181,22 @@ std::shared_ptr<const BookModel> Expectation::model_of(const std::vector<BookSam
 /// The picture, read in a way that is tried often: right ones are kept.
 const ReadPixels& Expectation::read(const Reading& reading) {
   for (const auto& [known, pixels] : read_)
-    if (known == reading) return *pixels;
-  auto pixels = std::make_unique<ReadPixels>(read_pixels(picture_, lattice_, reading));
-  if (!is_right(reading)) return *(newest_read_ = std::move(pixels));
-  read_.emplace_back(reading, std::move(pixels));
-  return *read_.back().second;
+    if (known == reading) return pixels;
+  newest_read_ = read_pixels(picture_, lattice_, reading);
+  return is_right(reading) ? read_.emplace_back(reading, std::move(newest_read_)).second : newest_read_;
 }
 
 RegionDifferences Expectation::differences(const BookModel& model, const Reading& reading) {
   const ReadPixels& pixels = read(reading);
   const ComparedPixels compared{pixels.light, model.expected, pixels.tolerance, model.noise};
-  RegionDifferences result{block_differences(compared, small_), block_differences(compared, whole_), 0, 0};
-  result.small = result.all.size();
-  const auto large = block_differences(compared, large_), objects = block_differences(compared, objects_);
-  result.large = large.size();
-  result.all.insert(result.all.end(), large.begin(), large.end());
-  result.all.insert(result.all.end(), objects.begin(), objects.end());
+  RegionDifferences result{{},
+                           block_differences(compared, whole_),
+                           3 * static_cast<std::size_t>(small_.count),
+                           3 * static_cast<std::size_t>(large_.count)};
+  for (const Regions* regions : {&small_, &large_, &objects_}) {
+    const std::vector<BlockDifference> part = block_differences(compared, *regions);
+    result.all.insert(result.all.end(), part.begin(), part.end());
+  }
   return result;
 }
 

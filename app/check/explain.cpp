@@ -34,7 +34,6 @@ struct Fit {
 struct Candidate {
   Difference mistake;
   Reading reading;
-  double explained = 0;
 };
 
 /// The search for what explains a picture.
@@ -56,8 +55,8 @@ class Search {
     for (const int depth : likely_depths(right)) try_mistake(right, shorter_paths(depth), false);
     for (const Difference& mistake : usual_mistakes()) try_mistake(right, mistake, true);
     std::stable_sort(candidates_.begin(), candidates_.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.explained > b.explained; });
-    for (const Candidate& c : candidates_) findings_.tried.push_back({c.mistake.name, c.mistake.words, c.explained});
+                     [](const Candidate& a, const Candidate& b) { return a.mistake.explained > b.mistake.explained; });
+    for (const Candidate& c : candidates_) findings_.tried.push_back(c.mistake);
     if (!agrees_in_blocks(right.regions)) name_mistake(right);
     return std::move(findings_);
   }
@@ -152,8 +151,7 @@ class Search {
     findings_.curve = right.reading.curve, findings_.samples = right.model->samples;
     findings_.seen = expectation_.seen();
     findings_.objects = different_objects(right.regions);
-    findings_.choices.clear();
-    for (const Difference& choice : right.suspect.choices) findings_.choices.push_back({choice.name, choice.words, 0});
+    findings_.choices = right.suspect.choices;
     findings_.unknown = expectation_.comparable() < min_comparable;
     const bool agree = !findings_.unknown && agrees(right.regions);
     findings_.unseen = unseen_light(right.regions);
@@ -166,8 +164,9 @@ class Search {
   /// A wrong reading must be clearly better than the best right one.
   void try_readings(const Fit& right) {
     const Fit best = closest_reading(right.suspect, wrong_readings_, right.model);
-    if (best.regions.amount() < clear_improvement * right.regions.amount())
-      candidates_.push_back({mistake_of(best.reading), best.reading, gone(right.regions, best.regions)});
+    if (best.regions.amount() >= clear_improvement * right.regions.amount()) return;
+    candidates_.push_back({mistake_of(best.reading), best.reading});
+    candidates_.back().mistake.explained = gone(right.regions, best.regions);
   }
 
   /// The two lengths of paths by which the scene would be about as dark as the picture.
@@ -195,11 +194,13 @@ class Search {
       return;
     }
     const Model model = expectation_.model_of(taken, right.model->samples);
-    Candidate best{mistake, right.reading, gone(right.regions, fit(suspect, right.reading, model).regions)};
+    Candidate best{mistake, right.reading};
+    double& explained = best.mistake.explained;
+    explained = gone(right.regions, fit(suspect, right.reading, model).regions);
     for (const Reading& reading : right_readings_) {
-      if (best.explained < promising) break;
-      const double explained = gone(right.regions, fit(suspect, reading, model).regions);
-      if (explained > best.explained) best.explained = explained, best.reading = reading;
+      if (explained < promising) break;
+      const double part = gone(right.regions, fit(suspect, reading, model).regions);
+      if (part > explained) explained = part, best.reading = reading;
     }
     candidates_.push_back(std::move(best));
   }
@@ -208,20 +209,20 @@ class Search {
   /// been seen beside it: never the best of those for which there was time.
   void name_mistake(const Fit& right) {
     for (const Candidate& candidate : std::span(candidates_).first(std::min(max_looked_at, candidates_.size()))) {
-      if (findings_.untried > 0 || candidate.explained < promising) return;
-      const Suspect suspect{{}, candidate.mistake};
+      if (findings_.untried > 0 || candidate.mistake.explained < promising) return;
+      Difference mistake = candidate.mistake;
+      const Suspect suspect{{}, mistake};
       const std::vector<BookSample> taken = samples_of(suspect, true);
       if (taken.empty()) ++findings_.untried;
       if (taken.empty()) return;
       known_.clear();
       const Fit found = with_choices(closest(suspect, {candidate.reading}, taken));
-      const double explained = gone(right.regions, found.regions);
-      if (!agrees(found.regions) || explained < promising) continue;
+      mistake.explained = gone(right.regions, found.regions);
+      if (!agrees(found.regions) || mistake.explained < promising) continue;
       const Suspect innocent{found.suspect.choices, {}};
       const Model model = expectation_.model_of(samples_of(innocent, false), found.model->samples);
       describe(fit(innocent, is_right(found.reading) ? found.reading : right.reading, model));
-      if (!findings_.agrees && !findings_.too_few)
-        findings_.mistake = {candidate.mistake.name, candidate.mistake.words, explained};
+      if (!findings_.agrees && !findings_.too_few) findings_.mistake = mistake;
       return;
     }
   }

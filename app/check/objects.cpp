@@ -1,5 +1,4 @@
-#include "app/check/objects.h"
-
+#include "app/check/statistics.h"
 #include "app/report/contents.h"
 #include "app/report/replay.h"
 #include "core/compile/compile.h"
@@ -54,29 +53,6 @@ SeenObjects::Object describe(const Scene& scene, const std::vector<int>& path) {
   return seen;
 }
 
-/// Numbers the objects as they are seen.
-class Labels {
- public:
-  Labels(const Scene& scene, const RenderScene& columns) : scene_(scene), columns_(columns) {
-    objects.push_back({"the sky", "sky"});
-    for (const std::vector<int>& path : media_of(scene)) objects.push_back(describe(scene, path));
-  }
-  static int of_medium(int medium) { return 1 + medium; }
-  int of_element(std::int32_t element) {
-    if (element < 0) return 0;
-    const std::int32_t object = columns_.elements.object[static_cast<std::size_t>(element)];
-    const auto [place, is_new] = known_.try_emplace(object, static_cast<int>(objects.size()));
-    if (is_new) objects.push_back(describe(scene_, columns_.objects.path(object)));
-    return place->second;
-  }
-  std::vector<SeenObjects::Object> objects;
-
- private:
-  const Scene& scene_;
-  const RenderScene& columns_;
-  std::map<std::int32_t, int> known_;
-};
-
 }  // namespace
 
 SeenObjects seen_objects(const Scene& scene, const Lattice& lattice) {
@@ -84,8 +60,16 @@ SeenObjects seen_objects(const Scene& scene, const Lattice& lattice) {
   const std::vector<TextureView> textures = texture_views(columns);
   const SceneView view = view_of(columns, textures);
   const Kernels kernels = *choose_kernels("");
-  SeenObjects seen;
-  Labels labels(scene, columns);
+  SeenObjects seen{{{"the sky", "sky"}}, {}};  // the media follow, and the others as they are seen
+  for (const std::vector<int>& path : media_of(scene)) seen.objects.push_back(describe(scene, path));
+  std::map<std::int32_t, int> numbers;
+  const auto number_of = [&](std::int32_t element) {
+    if (element < 0) return 0;
+    const std::int32_t object = columns.elements.object[static_cast<std::size_t>(element)];
+    const auto [place, is_new] = numbers.try_emplace(object, static_cast<int>(seen.objects.size()));
+    if (is_new) seen.objects.push_back(describe(scene, columns.objects.path(object)));
+    return place->second;
+  };
   std::vector<FirstHit> hits(static_cast<std::size_t>(lattice.width));
   for (int y = 0; y < lattice.height; y += lattice.step) {
     kernels.first_hits(view, {0, y, lattice.width, y + 1}, hits.data());
@@ -93,10 +77,9 @@ SeenObjects seen_objects(const Scene& scene, const Lattice& lattice) {
       const FirstHit& hit = hits[static_cast<std::size_t>(x)];
       const float distance = hit.element < 0 ? std::numeric_limits<float>::infinity() : hit.depth;
       const int medium = seen_medium(view, x, y, distance);
-      seen.of_pixel.push_back(medium < 0 ? labels.of_element(hit.element) : Labels::of_medium(medium));
+      seen.of_pixel.push_back(medium < 0 ? number_of(hit.element) : 1 + medium);
     }
   }
-  seen.objects = std::move(labels.objects);
   return seen;
 }
 

@@ -1,5 +1,4 @@
-#include "app/check/own_picture.h"
-
+#include "app/check/check.h"
 #include "app/check/statistics.h"
 #include "core/base/seconds.h"
 

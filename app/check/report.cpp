@@ -1,5 +1,7 @@
 #include "app/check/explain.h"
 
+#include "core/base/text.h"
+
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
@@ -39,12 +41,12 @@ std::string common_kind(const Findings& v) {
 }
 
 std::string how_made(const Findings& v) {
-  std::string text;
-  const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
-  if (v.samples > 0) add(fmt::format("about {} samples a pixel, as its noise tells", std::lround(v.samples)));
-  if (!curve_text(v.curve).empty()) add(curve_text(v.curve));
-  for (const Explanation& choice : v.choices) add(choice.words);
-  return text.empty() ? "" : "picture  " + text + "\n";
+  std::vector<std::string> parts;
+  if (v.samples > 0)
+    parts.push_back(fmt::format("about {} samples a pixel, as its noise tells", std::lround(v.samples)));
+  if (!curve_text(v.curve).empty()) parts.push_back(curve_text(v.curve));
+  for (const Difference& choice : v.choices) parts.push_back(choice.words);
+  return parts.empty() ? "" : "picture  " + joined(parts, "; ") + "\n";
 }
 
 std::string left_out_text(const Findings& v) {
@@ -70,9 +72,12 @@ std::string mistake_text(const Findings& v) {
   return text + "\n";
 }
 
-nlohmann::ordered_json json_of(const std::vector<Explanation>& list) {
+nlohmann::ordered_json json_of(const Difference& d) {
+  return {{"name", d.name}, {"text", d.words}, {"explained", d.explained}};
+}
+nlohmann::ordered_json json_of(const std::vector<Difference>& list) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const Explanation& e : list) json.push_back({{"name", e.name}, {"text", e.words}, {"explained", e.explained}});
+  for (const Difference& d : list) json.push_back(json_of(d));
   return json;
 }
 
@@ -109,8 +114,7 @@ nlohmann::ordered_json verdict_json(const Findings& v) {
   if (!v.unknown && !v.too_few) json["agrees"] = v.agrees;
   json["too_few_samples"] = v.too_few;
   json["explanation"] = nullptr;
-  if (v.mistake)
-    json["explanation"] = {{"name", v.mistake->name}, {"text", v.mistake->words}, {"explained", v.mistake->explained}};
+  if (v.mistake) json["explanation"] = json_of(*v.mistake);
   json["choices"] = json_of(v.choices);
   json["curve"] = curve_text(v.curve);
   json["samples"] = v.samples;

@@ -1,5 +1,4 @@
-#include "app/check/rules.h"
-
+#include "app/check/explain.h"
 #include "app/report/contents.h"
 #include "core/base/math.h"
 

@@ -1,7 +1,9 @@
 #pragma once
 #include "app/check/book_paths.h"
+#include "core/scene/scene.h"
 
 #include <span>
+#include <string>
 #include <vector>
 
 /// What many samples of each pixel tell: the picture that a program would have shown of them, and how noisy it is; and
@@ -46,6 +48,20 @@ struct Regions {
   int count = 0;
 };
 
+/// The object that is seen first through the centre of each pixel of a lattice.
+struct SeenObjects {
+  struct Object {
+    std::string name;            ///< "the sky", `"ball" (glass)`
+    std::string kind;            ///< "sky", "glass", "metal", "matt surfaces", "lights", "smoke", "moving objects"
+    bool noisy_texture = false;  ///< it has a noise texture, whose veins lie elsewhere in Tyndall
+  };
+  std::vector<Object> objects;
+  std::vector<int> of_pixel;  ///< index into objects
+};
+SeenObjects seen_objects(const Scene& scene, const Lattice& lattice);
+
+/// The objects as regions: the pixels around which the same object is seen. Objects of a noise texture have none.
+Regions regions_of(const SeenObjects& seen, const Lattice& lattice);
 /// Squares of a lattice, `edge` of its pixels wide; those at the right and the lower edge may be smaller.
 Regions blocks_of(const Lattice& lattice, int edge);
 /// The edge of some 400 blocks, with as many pixels each as statistics need.

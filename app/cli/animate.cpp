@@ -1,11 +1,12 @@
-#include "app/cli/commands.h"
 #include "app/cli/kept_pictures.h"
+#include "app/cli/requests.h"
 #include "app/cli/series.h"
 #include "app/files/open_scene.h"
 #include "app/files/y4m.h"
-#include "app/text/name_pattern.h"
 #include "app/text/standard_streams.h"
+#include "app/text/values.h"
 #include "core/base/error.h"
+#include "core/base/fnv1a.h"
 #include "core/base/text.h"
 
 #include <algorithm>
@@ -17,8 +18,7 @@ namespace {
 /// Numbered files of one format.
 struct FrameFiles {
   NamePattern pattern;
-  bool listed = false;  ///< the format carries no settings: those are in the list
-  FrameList list{};
+  std::optional<FrameList> list{};  ///< of settings, which the format does not carry; absent: it does
 };
 
 /// What is to be done for one frame.
@@ -61,8 +61,8 @@ std::vector<FrameFiles> files_of(const CommandRequest& command) {
   for (const std::filesystem::path& name : command.outputs) {
     FrameFiles files{read_numbered_name(name.string())};
     const std::string ending = image_ending(name, {});
-    files.listed = ending == ".ppm" || ending == ".pfm" || ending == ".hdr";
-    if (files.listed) files.list = FrameList(files.pattern.before + "frames" + files.pattern.after + ".list");
+    if (ending == ".ppm" || ending == ".pfm" || ending == ".hdr")
+      files.list.emplace(files.pattern.before + "frames" + files.pattern.after + ".list");
     all.push_back(std::move(files));
   }
   return all;
@@ -76,13 +76,12 @@ CommandRequest command_of(const CommandRequest& command, int frame, std::vector<
   return made;
 }
 
-/// A job whose picture can be compared with what is there already.
-RenderJob job_of(const Animating& film, const CommandRequest& command, int frame) {
-  RenderJob job{command};
-  job.kernels = kernels_to_render(command.isa);
+/// A job that renders a frame into these files, and whose picture can be compared with what is there already.
+RenderJob job_of(const Animating& film, int frame, std::vector<std::filesystem::path> outputs) {
+  RenderJob job{command_of(film.command, frame, std::move(outputs))};
   job.loaded = at_frame(film.base, film.plan, frame);
-  job.options = render_options(command, job.loaded);
   job.whole_only = true;
+  set_up(job);
   return job;
 }
 
@@ -90,16 +89,14 @@ RenderJob job_of(const Animating& film, const CommandRequest& command, int frame
 FrameTask task_of(const Animating& film, int frame) {
   std::vector<std::filesystem::path> names;
   for (const FrameFiles& files : film.files) names.emplace_back(name_for(files.pattern, frame));
-  const CommandRequest command = command_of(film.command, frame, names);
-  check_outputs(outputs_of("--output", names), film.base.files);
-  const RenderJob job = job_of(film, command, frame);
+  check_outputs(outputs_of(names), film.base.files);
+  const RenderJob job = job_of(film, frame, names);
   FrameTask task{frame, {}, {}};
   const std::string mark = picture_mark(job);
   for (std::size_t k = 0; k < names.size(); ++k) {
     PictureState kept = PictureState::nothing;
-    if (!command.fresh)
-      kept = film.files[k].listed ? look_at_list(names[k], film.files[k].list, frame, mark)
-                                  : look_at_picture(names[k], job);
+    const auto& list = film.files[k].list;
+    if (!film.command.fresh) kept = list ? look_at_list(names[k], *list, frame, mark) : look_at_picture(names[k], job);
     if (kept != PictureState::whole) task.outputs.push_back(names[k]);
     if (kept == PictureState::whole && task.film.empty() && is_exr(names[k]) && read_film_label(names[k]))
       task.film = names[k];
@@ -109,12 +106,11 @@ FrameTask task_of(const Animating& film, int frame) {
 
 /// What the video is of.
 std::string video_mark(const Animating& film) {
-  const CommandRequest command = command_of(film.command, 0, {});
-  RenderJob job = job_of(film, command, film.range.first);
+  RenderJob job = job_of(film, film.range.first, {});
   job.loaded.scene.animation = film.base.scene.animation;  // each frame follows from the first and from the keys
-  return mark_of(picture_mark(job) + " " + std::to_string(film.range.first) + " of " +
-                 std::to_string(film.plan.frames) + (film.plan.turntable ? " turntable" : "") +
-                 (film.plan.seed_per_frame ? "" : " one seed"));
+  return hash_text(fnv1a(picture_mark(job) + " " + std::to_string(film.range.first) + " of " +
+                         std::to_string(film.plan.frames) + (film.plan.turntable ? " turntable" : "") +
+                         (film.plan.seed_per_frame ? "" : " one seed")));
 }
 
 void open_video(Animating& film) {
@@ -136,15 +132,14 @@ void list_frame(Animating& film, const RenderJob& job, int frame, bool whole) {
   for (FrameFiles& files : film.files) {
     const std::filesystem::path name = name_for(files.pattern, frame);
     const auto& outputs = job.command.outputs;
-    if (files.listed && std::find(outputs.begin(), outputs.end(), name) != outputs.end())
-      files.list.add(frame, {picture_mark(job), whole});
+    if (files.list && std::find(outputs.begin(), outputs.end(), name) != outputs.end())
+      files.list->add(frame, {picture_mark(job), whole});
   }
 }
 
 /// Renders a frame and writes it; false if something could not be written.
 bool make_frame(Animating& film, const FrameTask& task, Series& series) {
-  const CommandRequest command = command_of(film.command, task.frame, task.outputs);
-  RenderJob job = job_of(film, command, task.frame);
+  RenderJob job = job_of(film, task.frame, task.outputs);
   prepare(job);
   if (!task.film.empty()) take_film(job, read_film_alone(task.film));
   const auto made = [&](const RenderOutcome& outcome, bool written) {

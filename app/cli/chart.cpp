@@ -1,9 +1,7 @@
 #include "app/curves/chart.h"
-#include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
+#include "app/cli/requests.h"
 #include "app/comparison/comparison.h"
-#include "app/comparison/pair.h"
-#include "app/curves/measure.h"
 #include "app/files/open_scene.h"
 #include "app/files/outputs.h"
 #include "app/text/progress.h"
@@ -34,14 +32,6 @@ void make_small(Scene& scene) {
   scene.height = std::max(1, static_cast<int>(scene.height * scale));
 }
 
-/// Settings of --method: the scene's own, and what its flags change.
-ChartMethod method_of(const CommandRequest& request, const Scene& scene) {
-  ChartMethod method{request.curve, scene.render, request.isa};
-  find_kernels(request.isa);
-  apply(request.scene.render, method.settings);
-  return method;
-}
-
 class ChartJob {
  public:
   ChartJob(const CommandRequest& command, const SignalWatch& signals)
@@ -57,7 +47,11 @@ class ChartJob {
     Scene& scene = loaded.scene;
     if (!request.size) make_small(scene);
     std::vector<ChartMethod> methods;
-    for (const CommandRequest& m : command_.methods) methods.push_back(method_of(m, scene));
+    for (const CommandRequest& m : command_.methods) {
+      find_kernels(m.isa);
+      methods.push_back({m.curve, scene.render, m.isa});
+      apply(m.scene.render, methods.back().settings);
+    }
     if (methods.empty()) methods = default_methods(scene);
     const double budget = command_.budget;
     Chart chart;

@@ -1,136 +1,7 @@
 #include "app/cli/option_rows.h"
 
-#include "app/book/load_program.h"
-#include "app/check/own_picture.h"
-#include "app/cli/commands.h"
-#include "app/text/name_pattern.h"
-#include "core/base/text.h"
-
-#include <filesystem>
-
 namespace tyndall {
 namespace {
-
-using Text = const std::string&;
-
-std::string see_help(const CommandRequest& request) { return " (see tyndall " + request.command + " --help)"; }
-
-void require(const CommandRequest& request, bool given, const char* what) {
-  if (!given) throw UsageError(what + std::string(" is missing") + see_help(request));
-}
-
-/// A program may have further source files; nothing else takes more words than one.
-void take_scene(CommandRequest& request, std::size_t at = 0) {
-  if (request.operands.size() <= at) return;
-  request.scene.what = request.operands[at];
-  request.scene.program.allowed = true;
-  request.scene.program.differs = differs_from_own;
-  for (std::size_t k = at + 1; k < request.operands.size(); ++k) {
-    if (!is_program(request.operands[at]) || !is_program(request.operands[k]))
-      throw UsageError("unexpected argument " + in_quotes(request.operands[k]) + see_help(request));
-    request.scene.program.more_files.emplace_back(request.operands[k]);
-  }
-}
-
-void finish_view(CommandRequest& request) {
-  take_scene(request);
-  require(request, !request.scene.what.empty(), "SCENE");
-}
-
-void finish_inspect(CommandRequest& request) {
-  finish_view(request);
-  if (!request.isa.empty() && !request.measure) throw UsageError("--isa can only be given with --measure");
-}
-
-void finish_render(CommandRequest& request) {
-  finish_view(request);
-  require(request, request.replay || !request.outputs.empty(), "an output (-o FILE)");
-  refuse_conflicts(request);
-}
-
-void finish_sweep(CommandRequest& request) {
-  finish_view(request);
-  require(request, !request.axes.empty(), "a value to vary (--vary POINTER=FROM:TO:STEPS)");
-  if (request.axes.size() > 2)
-    throw UsageError("--vary: found it " + std::to_string(request.axes.size()) + " times, expected it once or twice");
-  require(request, !request.sheet.empty() || !request.csv.empty() || !request.outputs.empty(),
-          "an output (-o SHEET.png)");
-  refuse_conflicts(request);
-}
-
-/// Reads the name of a file that stands for many, for the message "--output: found X, expected Y".
-void check_numbered(const char* option, Text name) {
-  try {
-    read_numbered_name(name);
-  } catch (const UsageError& error) {
-    throw UsageError(std::string(option) + ": " + error.what());
-  }
-}
-
-/// Takes the video out of the outputs, and checks the names of the others.
-void finish_animate(CommandRequest& request) {
-  finish_view(request);
-  require(request, !request.outputs.empty(), "an output (-o 'f/%04d.png')");
-  std::vector<std::filesystem::path> pictures;
-  for (const std::filesystem::path& file : request.outputs) {
-    if (file != "-" && lower_case(file.extension().string()) != ".y4m") {
-      check_numbered("--output", file.string());
-      pictures.push_back(file);
-      continue;
-    }
-    if (!request.video.empty()) throw UsageError("--output: found two films, expected one .y4m or -");
-    request.video = file;
-  }
-  request.outputs = std::move(pictures);
-  if (!request.stats.empty()) check_numbered("--stats", request.stats.string());
-  refuse_conflicts(request);
-}
-
-/// Puts the images where they belong. Throws UsageError for too few or too many, and for options that do not go
-/// together.
-void finish_compare(CommandRequest& request) {
-  const std::vector<std::string>& images = request.operands;
-  request.baseline.ppm = request.form.ppm;
-  require(request, !images.empty(), "IMAGE");
-  if (!request.baseline.folder.empty()) {
-    request.baseline.images.assign(images.begin(), images.end());
-    request.baseline.limits = request.limits;
-    if (!request.heatmap.empty() || request.json)
-      throw UsageError("--baseline goes with --report and --junit, not with --heatmap or --json");
-    if (request.update && (!request.report.empty() || !request.junit.empty()))
-      throw UsageError("--update compares nothing, so it writes no report");
-    return;
-  }
-  require(request, images.size() > 1, "REFERENCE");
-  take_scene(request, 1);
-  if (request.update || !request.report.empty() || !request.junit.empty())
-    throw UsageError("--update, --report and --junit need --baseline");
-  request.image = images[0] == "-" ? "/dev/stdin" : images[0];
-  request.reference = images[1];
-}
-
-void finish_chart(CommandRequest& request) {
-  finish_view(request);
-  require(request, !request.output.empty(), "an output (-o FILE.svg)");
-  if (request.scene.what != "all") read_file_name(request.output.string(), ".svg");
-}
-
-void finish_nothing(CommandRequest&) {}
-
-void finish_merge(CommandRequest& request) {
-  require(request, !request.operands.empty(), "PART");
-  require(request, !request.outputs.empty(), "an output (-o FILE)");
-}
-
-void finish_denoise(CommandRequest& request) {
-  require(request, !request.image.empty(), "FILM.exr");
-  require(request, !request.outputs.empty(), "an output (-o FILE)");
-}
-
-void finish_convert(CommandRequest& request) {
-  finish_view(request);
-  require(request, !request.output.empty(), "an output (-o FILE)");
-}
 
 constexpr const char* usual_heading = "Options";  // the usual heading
 
@@ -156,7 +27,7 @@ const std::vector<CommandRow>& command_rows() {
        "  ./mine | tyndall view - --reference cover.exr",
        rendering({{"Limits (the first one reached pauses the picture; Space goes on)", "--spp --time --target-error"}},
                  "--threads --isa --reference --gamma2 --ui-log"),
-       finish_view, run_view},
+       run_view},
       {"render", "render without a window and write images", "render SCENE -o FILE [options]",
        "Renders a scene without a window and writes the image.",
        "Examples:\n"
@@ -169,7 +40,7 @@ const std::vector<CommandRow>& command_rows() {
              "--output --format --gamma2 --exr-film --region --denoise --stats --frame --replay --checkpoint --fresh "
              "--resume --watch-at --progress --quiet"},
             {"Limits (the first one reached ends the render)", "--spp --time --target-error --samples"}}),
-       finish_render, run_render},
+       run_render},
       {"sweep", "render one or two values of a scene in steps, and say which differences are real",
        "sweep SCENE --vary POINTER=FROM:TO:STEPS -o SHEET.png [options]",
        "Renders a scene with one or two of its values in steps: a sheet of all pictures with the values\n"
@@ -186,7 +57,7 @@ const std::vector<CommandRow>& command_rows() {
             {"Output",
              "--output --csv --each --gamma2 --exr-film --region --denoise --checkpoint --fresh --progress --quiet"},
             {"Limits (the first one reached ends the picture)", "--spp --time --target-error --total-time"}}),
-       finish_sweep, run_sweep},
+       run_sweep},
       {"animate", "render the frames of a film, from keys or on a turntable",
        "animate SCENE --frames N -o 'f/%04d.png' [options]",
        "Renders the frames of a film: the values that have keys in the scene's \"animation\" follow them, and\n"
@@ -204,7 +75,7 @@ const std::vector<CommandRow>& command_rows() {
                   {"Output",
                    "--output --gamma2 --exr-film --region --denoise --stats --checkpoint --fresh --progress --quiet"},
                   {"Limits (the first one reached ends the frame)", "--spp --time --target-error"}}),
-       finish_animate, run_animate},
+       run_animate},
       {"compare",
        "measure how far an image is from a reference",
        "compare IMAGE REFERENCE | IMAGE SCENE | IMAGE... --baseline DIR [options]",
@@ -239,7 +110,6 @@ const std::vector<CommandRow>& command_rows() {
         {"Checks", "--max-rmse --max-relmse --max-flip --max-z"},
         {"Baseline (a folder of pictures that renders should go on looking like)",
          "--baseline --update --report --junit"}},
-       finish_compare,
        run_compare},
       {"chart",
        "chart speed against accuracy: error over time of several methods",
@@ -253,7 +123,6 @@ const std::vector<CommandRow>& command_rows() {
        "  tyndall chart fog.json --method 'mis=' --method 'no MIS=--integrator nee' -o fog.svg",
        {{usual_heading,
          "SCENE --set --include --trust --output --method --reference --budget --size --threads --progress --quiet"}},
-       finish_chart,
        run_chart},
       {"verify",
        "check the renderer against known answers",
@@ -269,7 +138,6 @@ const std::vector<CommandRow>& command_rows() {
        {{usual_heading, "NAME --thorough --json --progress --quiet"},
         {"Method", "{render}"},
         {"Machine", "--threads --isa"}},
-       finish_nothing,
        run_verify},
       {"merge",
        "add films whose sample ranges follow each other",
@@ -281,7 +149,6 @@ const std::vector<CommandRow>& command_rows() {
        "  tyndall render fog.json --samples 64:128 -o b.exr\n"
        "  tyndall merge a.exr b.exr -o fog.exr -o fog.png",
        {{usual_heading, "PART --output --format --gamma2 --exr-film --denoise"}},
-       finish_merge,
        run_merge},
       {"denoise",
        "filter the picture of a finished film",
@@ -292,7 +159,6 @@ const std::vector<CommandRow>& command_rows() {
        "filter decides where to show the filtered and where the raw picture, and estimates the error.",
        "Example:\n  tyndall denoise fog.exr -o fog-clean.png",
        {{usual_heading, "FILM.exr --output --format --gamma2 --exr-film --stats"}, {"Machine", "--threads --isa"}},
-       finish_denoise,
        run_denoise},
       {"inspect",
        "say what a scene contains and which models it needs",
@@ -303,7 +169,6 @@ const std::vector<CommandRow>& command_rows() {
        "  tyndall inspect fog.json --measure\n"
        "  tyndall inspect snapshot.png --json",
        {{usual_heading, "SCENE --set --include --trust --json --measure --isa"}, {"", "--accuracy"}},
-       finish_inspect,
        run_inspect},
       {"scenes",
        "list the built-in scenes",
@@ -311,7 +176,6 @@ const std::vector<CommandRow>& command_rows() {
        "Lists the built-in scenes. Every command takes their names in place of a file.",
        "",
        {},
-       finish_nothing,
        run_scenes},
       {"convert",
        "write a scene in normal form, also from an image",
@@ -326,9 +190,7 @@ const std::vector<CommandRow>& command_rows() {
        "  tyndall convert cornell-box -o box.xml\n"
        "  tyndall convert cornell-smoke -o smoke.py    # blender -b -P smoke.py -- smoke.exr",
        {{usual_heading, "SCENE --set --include --trust --output"}},
-       finish_convert,
        run_convert},
-
   };
   return rows;
 }

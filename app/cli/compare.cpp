@@ -1,5 +1,5 @@
 #include "app/check/check.h"
-#include "app/cli/commands.h"
+#include "app/cli/requests.h"
 #include "app/files/outputs.h"
 #include "app/report/heat_map.h"
 #include "app/text/progress.h"
@@ -26,8 +26,9 @@ BlockScores compare_films(const CommandRequest& command) {
 /// The picture against a scene; nothing if the reference is a picture.
 std::optional<Check> check_against_scene(const CommandRequest& command) {
   if (!names_scene(command.reference.string())) {
-    const bool of_scene = command.seconds || !command.scene.overrides.empty() ||
-                          !command.scene.program.include_folders.empty() || !command.scene.program.more_files.empty();
+    const ProgramSources& sources = command.scene.program.sources;
+    const bool of_scene = command.seconds || !command.scene.overrides.empty() || !sources.include_folders.empty() ||
+                          !sources.files.empty();
     check_names_picture(command.reference.string());
     if (of_scene) throw UsageError("--time, --set, -I and further files need a scene in place of REFERENCE");
     return {};

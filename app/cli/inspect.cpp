@@ -1,5 +1,5 @@
-#include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
+#include "app/cli/requests.h"
 #include "app/files/open_scene.h"
 #include "app/report/contents.h"
 #include "app/report/gain.h"
@@ -227,12 +227,12 @@ void add_methods(const Report& report, const Kernels& kernels, bool measure, Ans
   answer.add(
       "chains", specular_paths_text(report),
       {{"chains", columns.specular.sphere.size()}, {"guide_lobes", guide.lobes()}, {"guide_ms", guide.milliseconds}});
-  if (measure) answer.add("chain_gain", measure_specular_gain(scene, kernels.isa));
+  if (measure) answer.add("chain_gain", measure_method_gain(MisMethod::specular, scene, kernels.isa));
   answer.add("guide", guide_text(report));
   answer.add("splitting", splitting_text(report), {{"splitting", columns.splits_paths}});
-  if (measure) answer.add("splitting_gain", measure_splitting_gain(scene, kernels.isa));
+  if (measure) answer.add("splitting_gain", measure_method_gain(MisMethod::splitting, scene, kernels.isa));
   answer.add("sharing", sharing_text(report));
-  if (measure) answer.add("sharing_gain", measure_reuse_gain(scene, kernels.isa));
+  if (measure) answer.add("sharing_gain", measure_method_gain(MisMethod::sharing, scene, kernels.isa));
   answer.add("background", background_text(report), {{"background", c.background}});
   answer.add("motion", c.motion ? "yes" : "no", {{"motion", c.motion}});
   answer.add("defocus", c.defocus ? "yes" : "no", {{"defocus", c.defocus}});

@@ -1,8 +1,11 @@
 #include "app/cli/kept_pictures.h"
 
+#include "app/text/standard_streams.h"
 #include "core/base/error.h"
 #include "core/base/fnv1a.h"
+#include "core/base/text.h"
 #include "core/files/film_files.h"
+#include "core/render/plan.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/place.h"
 #include "core/system/open_file.h"
@@ -11,12 +14,126 @@
 
 #include <fstream>
 #include <new>
+#include <optional>
 #include <sstream>
 #include <system_error>
 #include <utility>
 
 namespace tyndall {
 namespace {
+
+std::string region_text(const Region& r) { return fmt::format("{},{},{},{}", r.x0, r.y0, r.x1, r.y1); }
+
+/// What keeps a render from going on with a film, as "found X, expected Y" without "found"; "": nothing does.
+std::string differing_film(const StoredFilm& stored, const RenderJob& job) {
+  const Film& film = stored.part.film;
+  const RenderOptions& options = job.options;
+  const FilmLabel label = label_for(job.loaded.scene, job.kernels.isa);
+  if (const auto other = differing_samples(stored.scene, stored.label, job.loaded.scene, label))
+    return other->found + ", expected " + other->expected;
+  if (!(film.region == *options.region))
+    return "a film of another region, " + region_text(film.region) + ", expected " + region_text(*options.region);
+  if (film.first_sample != options.first_sample)
+    return fmt::format("samples from {}, expected {}", film.first_sample, options.first_sample);
+  const std::uint32_t maximum = totals(film).max_taken;
+  if (job.command.samples && maximum > *options.spp)
+    return fmt::format("samples up to {}, expected {}", film.first_sample + maximum, job.command.samples->last);
+  if (options.adaptive && film.planned.empty() && maximum > warm_up)
+    return "an adaptive film that does not say how many samples each pixel was to get, expected one that does";
+  return "";
+}
+
+/// One line on standard error if a film that fits does not say which pixels its textures and sky had.
+void tell_contents(const StoredFilm& film) {
+  if (film.label.contents.empty() && !film.remark.empty()) complain(film.remark);
+}
+
+std::string text_of_samples(std::uint32_t count) {
+  return std::to_string(count) + (count == 1 ? " sample" : " samples") + " a pixel";
+}
+
+/// Reads what may be hours of work. If that fails, it is not replaced but told, with the way out.
+template <class Read>
+auto read_kept(Read read, const std::string& advice) {
+  try {
+    return read();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw UsageError(error.what() + advice);
+  }
+}
+
+/// Whether the film in the file is to be gone on with without --resume.
+bool invites(const std::filesystem::path& file, const RenderJob& job, const std::string& advice) {
+  const auto label = read_kept([&file] { return read_film_label(file); }, advice);
+  if (!label || label->unfinished) return label.has_value();
+  if (label->isa.empty()) return false;  // from before films said whether they are finished
+  try {
+    const auto spp = read_stored_frame(file).scene.render.spp;
+    return spp && static_cast<std::uint32_t>(*spp) == *job.options.spp;
+  } catch (const std::exception&) {
+    return false;  // finished, but its scene cannot be read any more
+  }
+}
+
+/// Throws UsageError if a render would replace an unfinished film that it does not go on from. on: the film in `kept`
+/// that it goes on from, from when it was interrupted; null: it starts anew.
+void spare_unfinished(const std::vector<std::filesystem::path>& outputs, const std::filesystem::path& kept,
+                      const StoredFilm* on) {
+  for (const auto& file : outputs) {
+    std::error_code error;
+    if (file == kept || !is_exr(file) || !std::filesystem::is_regular_file(file, error)) continue;
+    try {
+      const auto label = read_film_label(file);
+      if (!label || !label->unfinished) continue;
+      if (on) {
+        const StoredFilm other = read_stored_frame(file);
+        if (!differing_samples(other.scene, other.label, on->scene, on->label)) continue;  // a copy
+      }
+    } catch (const ImageFileError&) {
+      continue;  // no film
+    }
+    throw UsageError(file.string() + ": found an unfinished film, expected it to be the first .exr output, which is " +
+                     "gone on with; --fresh replaces it");
+  }
+}
+
+void start_with(StoredFilm stored, const RenderJob& job, RenderStart& start) {
+  const CommandRequest& command = job.command;
+  const std::uint32_t taken = labelled_spp(stored.part.film), requested = *job.options.spp;
+  const std::string name = (command.resume ? "--resume" : stored.part.name) + ": ";
+  const std::uint32_t maximum = job.options.adaptive ? taken : totals(stored.part.film).max_taken;
+  const std::string range = (maximum > taken ? std::to_string(taken) + " to " : "") + text_of_samples(maximum);
+  if (maximum > requested)
+    start.note = name + "the film has " + range + " already, more than the " + std::to_string(requested) +
+                 " asked for; " + (taken < requested ? "all pixels get as many" : "it is written as it is");
+  else if (taken == requested)
+    start.note = stored.part.name + ": already complete: " + text_of_samples(taken);
+  else if (!command.resume)
+    start.note = name + "goes on from the film's " + text_of_samples(taken);
+  start.as_requested = taken == requested && !stored.label.unfinished && command.outputs.size() == 1 &&
+                       command.stats.empty() && !command.denoise && stored.scene.display == job.loaded.scene.display;
+  start.film = std::move(stored.part.film);
+}
+
+/// The film in `file`, if it is to be gone on with.
+std::optional<StoredFilm> find_film(const std::filesystem::path& file, const RenderJob& job) {
+  const bool resume = job.command.resume;
+  std::error_code error;
+  const bool exists = std::filesystem::exists(file, error);
+  if (resume && !exists)
+    throw UsageError("--resume: found no file " + in_quotes(file.string()) +
+                     ", expected a film to go on from; without --resume the render starts anew");
+  const std::string advice = std::string("; --fresh") + (resume ? " in place of --resume" : "") + " starts over";
+  if (!exists || (!resume && !invites(file, job, advice))) return {};
+  StoredFilm stored = read_kept([&file] { return read_stored_film(file); }, advice);
+  const std::string found = differing_film(stored, job);
+  if (!found.empty() && !resume && !stored.label.unfinished) return {};
+  if (!found.empty()) throw UsageError(file.string() + ": found " + found + advice);
+  tell_contents(stored);
+  return stored;
+}
 
 constexpr const char* remedy = "; --fresh replaces it";
 
@@ -56,13 +173,20 @@ std::string differing_picture(const StoredFilm& stored, const JsonValue& stats, 
   return "";
 }
 
+JsonDocument figures_in(const std::filesystem::path& file) {
+  try {
+    return parse_json(read_embedded_stats(file).value_or("{}"));
+  } catch (const ParseError&) {
+    throw UsageError(file.string() + ": found a picture whose figures cannot be read, expected one of this command");
+  }
+}
+
 PictureState look(const std::filesystem::path& file, const RenderJob& job) {
   const auto label = is_exr(file) ? read_film_label(file) : std::nullopt;
-  const std::string text = read_embedded_stats(file).value_or("{}");
-  const JsonDocument stats = parse_json(text);
+  const JsonDocument stats = figures_in(file);
   const StoredFilm stored = label ? read_stored_frame(file) : described_film(file, stats.root);
   const bool unfinished = label && label->unfinished;
-  std::string found = differing_film(stored, job.command, job.loaded, job.options, job.kernels);
+  std::string found = differing_film(stored, job);
   if (found.empty() && !unfinished) found = differing_picture(stored, stats.root, job, !is_exr(file));
   if (!found.empty()) throw UsageError(file.string() + ": found " + found);
   tell_contents(stored);
@@ -71,19 +195,28 @@ PictureState look(const std::filesystem::path& file, const RenderJob& job) {
 
 }  // namespace
 
+RenderStart find_start(const RenderJob& job) {
+  const CommandRequest& command = job.command;
+  RenderStart start;
+  start.place = film_place(command.outputs, command.form);
+  const FilmPlace& place = start.place;
+  if (command.resume && place.output.empty())
+    throw UsageError("--resume needs an output that ends in .exr, and --exr-film yes");
+  if (command.fresh) return start;
+  std::error_code error;
+  const bool apart = !place.beside().empty() && std::filesystem::exists(place.beside(), error);
+  const std::filesystem::path& file = apart ? place.unfinished : place.output;
+  std::optional<StoredFilm> stored;
+  if (!file.empty()) stored = find_film(file, job);
+  spare_unfinished(command.outputs, place.output, stored ? &*stored : nullptr);
+  if (stored) start_with(std::move(*stored), job, start);
+  return start;
+}
+
 PictureState look_at_picture(const std::filesystem::path& file, const RenderJob& job) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) return PictureState::nothing;
-  try {
-    return look(file, job);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const ParseError&) {
-    throw UsageError(file.string() + ": found a picture whose figures cannot be read, expected one of this command" +
-                     remedy);
-  } catch (const std::exception& problem) {
-    throw UsageError(problem.what() + std::string(remedy));
-  }
+  return read_kept([&] { return look(file, job); }, remedy);
 }
 
 FrameList::FrameList(std::filesystem::path file) : file_(std::move(file)) {
@@ -126,18 +259,15 @@ PictureState look_at_list(const std::filesystem::path& file, const FrameList& li
   return entry->whole ? PictureState::whole : PictureState::nothing;
 }
 
-std::string mark_of(const std::string& text) { return hash_text(fnv1a(text)); }
-
 std::string picture_mark(const RenderJob& job) {
   const CommandRequest& c = job.command;
   Scene scene = move_textures(job.loaded.scene, job.loaded.folder, ".");
   scene.name.clear();
   scene.render.spp.reset();
-  const Region& r = *job.options.region;
-  return mark_of(fmt::format("{} {} {} {} {} {},{},{},{} {} {} ", TYNDALL_VERSION, job.kernels.isa, *job.options.spp,
-                             c.time_limit, c.target_error, r.x0, r.y0, r.x1, r.y1, c.denoise,
-                             static_cast<int>(c.form.ppm)) +
-                 write_scene(scene) + contents_hash(scene));
+  return hash_text(
+      fnv1a(fmt::format("{} {} {} {} {} {} {} {} ", TYNDALL_VERSION, job.kernels.isa, *job.options.spp, c.time_limit,
+                        c.target_error, region_text(*job.options.region), c.denoise, static_cast<int>(c.form.ppm)) +
+            write_scene(scene) + contents_hash(scene)));
 }
 
 }  // namespace tyndall

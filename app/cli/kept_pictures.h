@@ -1,5 +1,5 @@
 #pragma once
-#include "app/cli/render_job.h"
+#include "app/cli/render_setup.h"
 
 #include <filesystem>
 #include <map>
@@ -8,10 +8,17 @@
 /// What an earlier run has left of the pictures that a command is to make, so that a killed one goes on.
 namespace tyndall {
 
+/// Looks at the film in the .exr output, or in the unfinished file beside it (see FilmPlace) if that is there. One that
+/// fits is gone on with if it is unfinished, has just the samples that are asked for, or --resume asks for it. Throws
+/// UsageError where --resume finds no film that fits, and for an unfinished one that does not fit: it says what
+/// differs; likewise for unfinished ones in further outputs. Any other file is replaced in the end. Here and below the
+/// job has been set up.
+RenderStart find_start(const RenderJob& job);
+
 enum class PictureState { nothing, unfinished, whole };
 
 /// What there is of a job's picture in a PNG or EXR. Throws UsageError if the file is of something else: it holds no
-/// picture of the same scene, settings and version. The job needs its scene, options and kernels.
+/// picture of the same scene, settings and version.
 PictureState look_at_picture(const std::filesystem::path& file, const RenderJob& job);
 
 /// A list beside numbered pictures of formats that carry no settings: which frames are whole, and what they are of.
@@ -25,7 +32,6 @@ class FrameList {
     bool whole = false;
   };
 
-  FrameList() = default;
   /// Reads the list, which need not be there.
   explicit FrameList(std::filesystem::path file);
 
@@ -45,7 +51,5 @@ PictureState look_at_list(const std::filesystem::path& file, const FrameList& li
 
 /// 16 hexadecimal digits that differ with the job's scene, settings, version and instruction set.
 std::string picture_mark(const RenderJob& job);
-/// The same of any text.
-std::string mark_of(const std::string& text);
 
 }  // namespace tyndall

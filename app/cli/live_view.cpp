@@ -17,19 +17,6 @@ constexpr double seconds_per_pixel = 5e-8;        // of a frame, before the firs
 constexpr double clean_seconds_per_pixel = 2e-6;  // of one thread, before the first one is measured
 constexpr double patience_over_elapsed = 0.005, shortest_patience = 0.02;
 
-/// Means of the region, row by row.
-std::vector<float> means_of(const Film& film, ThreadPool& thread_pool) {
-  std::vector<float> rgb(3 * film.pixels.size());
-  const auto width = static_cast<std::size_t>(film.region.width());
-  thread_pool.for_each(film.region.height(), [&](int row) {
-    for (std::size_t i = static_cast<std::size_t>(row) * width; i < (static_cast<std::size_t>(row) + 1) * width; ++i) {
-      const Vec3f value = mean(film, film.pixels[i]);
-      rgb[3 * i] = value.x, rgb[3 * i + 1] = value.y, rgb[3 * i + 2] = value.z;
-    }
-  });
-  return rgb;
-}
-
 }  // namespace
 
 LiveView::LiveView(const ViewerAddress& address, const std::string& name, const PreparedScene& prepared,
@@ -53,11 +40,12 @@ void LiveView::take(const Film& film, ThreadPool& thread_pool) {
     clean_cost_ = seconds_since(begin), last_clean_ = Clock::now();
   }
   const auto after_clean = Clock::now();
-  send(film, means_of(film, thread_pool), pixel_relative_error(film, &thread_pool));
+  send(film, thread_pool);
   cost_ = seconds_since(after_clean), last_ = Clock::now();
 }
 
-void LiveView::send(const Film& film, const std::vector<float>& rgb, const std::vector<float>& errors) {
+void LiveView::send(const Film& film, ThreadPool& thread_pool) {
+  const std::vector<float> rgb = resolve(film), errors = pixel_relative_error(film, &thread_pool);
   ViewerFrame frame{film.region, {}};
   frame.values.reserve(viewer_channel_count * film.pixels.size());
   for (std::size_t i = 0; i < film.pixels.size(); ++i) {
@@ -67,7 +55,7 @@ void LiveView::send(const Film& film, const std::vector<float>& rgb, const std::
   stream_.send(std::move(frame));
 }
 
-void LiveView::finish(const Film& film, const std::vector<float>& rgb, const CleanPicture* clean) {
+void LiveView::finish(const Film& film, const CleanPicture* clean) {
   const double patience = std::max(shortest_patience, patience_over_elapsed * seconds_since(start_));
   stream_.finish(patience);
   if (!stream_.ready()) return;
@@ -76,10 +64,8 @@ void LiveView::finish(const Film& film, const std::vector<float>& rgb, const Cle
   else if (totals(film).min_taken >= min_clean_spp)
     clean_ = clean_film(film, prepared_, threads_, isa_).rgb;
   ThreadPool thread_pool(threads_);
-  send(film, rgb, pixel_relative_error(film, &thread_pool));
+  send(film, thread_pool);
   stream_.finish(patience);
 }
-
-std::optional<std::string> LiveView::problem() { return stream_.problem(); }
 
 }  // namespace tyndall

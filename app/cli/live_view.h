@@ -20,15 +20,15 @@ class LiveView {
   bool due() const;
   /// Sends the film as it is. thread_pool: idle.
   void take(const Film& film, ThreadPool& thread_pool);
-  /// Sends the finished picture and waits until the viewer has it, as ViewerStream::finish() does. rgb: the film's
-  /// means; clean: its clean view, null: it is made here. Does nothing if there is no viewer.
-  void finish(const Film& film, const std::vector<float>& rgb, const CleanPicture* clean);
+  /// Sends the finished picture and waits until the viewer has it, as ViewerStream::finish() does. clean: the film's
+  /// clean view, null: it is made here. Does nothing if there is no viewer.
+  void finish(const Film& film, const CleanPicture* clean);
   /// What went wrong with the viewer, once.
-  std::optional<std::string> problem();
+  std::optional<std::string> problem() { return stream_.problem(); }
 
  private:
   using Clock = std::chrono::steady_clock;
-  void send(const Film& film, const std::vector<float>& rgb, const std::vector<float>& errors);
+  void send(const Film& film, ThreadPool& thread_pool);
 
   const PreparedScene& prepared_;
   std::string isa_;

@@ -1,5 +1,5 @@
-#include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
+#include "app/cli/requests.h"
 #include "app/files/memory.h"
 #include "app/files/outputs.h"
 #include "app/text/standard_streams.h"
@@ -13,15 +13,15 @@ namespace {
 
 /// Writes the film's files and returns the exit code. Layers (albedo, normal, depth) are not written: such an EXR has
 /// none.
-int write(const Film& film, const Scene& scene, const FilmLabel& label, const std::vector<std::filesystem::path>& files,
-          const ImageForm& form, const std::optional<CleanOfFilm>& clean) {
+int write(const CommandRequest& command, const Film& film, const Scene& scene, const FilmLabel& label,
+          const CleanOfFilm* clean) {
   const auto embedded = [&](const std::filesystem::path& file) {
     return Embedded{embedded_scene(scene, ".", film, file), clean ? clean_stats_text(film, clean->picture, 0) : "",
                     label};
   };
   const LinearImage image{film.region.width(), film.region.height(), resolve(film)};
-  const auto problems =
-      write_images({film, image, scene.display, embedded, {}, clean ? &clean->picture : nullptr, form}, files);
+  const auto problems = write_images(
+      {film, image, scene.display, embedded, {}, clean ? &clean->picture : nullptr, command.form}, command.outputs);
   const std::string uneven = uneven_text(scene, totals(film));
   if (!uneven.empty()) complain(uneven);
   for (const std::string& problem : problems) complain(problem);
@@ -64,15 +64,16 @@ Parts read_parts(const std::vector<std::filesystem::path>& files) {
   return parts;
 }
 
-MemoryPlan memory_plan(const FilmPart& part, const Scene& scene, const std::vector<std::filesystem::path>& files,
-                       const ImageForm& form) {
-  MemoryPlan plan;
-  plan.width = part.film.region.width(), plan.height = part.film.region.height();
-  plan.place = part.name;
-  plan.emission = has_lights(scene);
-  plan.files = files;
-  plan.form = form;
-  return plan;
+void check_memory(const CommandRequest& command, const FilmPart& part, const Scene& scene, bool parts, bool clean) {
+  check_memory({.width = part.film.region.width(),
+                .height = part.film.region.height(),
+                .place = part.name,
+                .emission = has_lights(scene),
+                .clean = clean,
+                .parts = parts,
+                .files = command.outputs,
+                .form = command.form},
+               free_memory());
 }
 
 }  // namespace
@@ -80,13 +81,11 @@ MemoryPlan memory_plan(const FilmPart& part, const Scene& scene, const std::vect
 int run_merge(const CommandRequest& command) {
   const std::vector<std::filesystem::path> files(command.operands.begin(), command.operands.end());
   check_image_names(command.outputs, command.form);
-  check_outputs(outputs_of("--output", command.outputs), files);
-  check_can_write(outputs_of("--output", command.outputs));
+  const std::vector<Output> outputs = outputs_of(command.outputs);
+  check_outputs(outputs, files);
+  check_can_write(outputs);
   const Parts parts = read_parts(files);
-  MemoryPlan plan = memory_plan(parts.frames.front(), parts.scene, command.outputs, command.form);
-  plan.parts = parts.frames.size() > 1;
-  plan.clean = command.denoise;
-  check_memory(plan, free_memory());
+  check_memory(command, parts.frames.front(), parts.scene, parts.frames.size() > 1, command.denoise);
   const Film film = merge(parts.frames, [&](std::size_t part) { return read_film_alone(files[part]); });
   if (parts.label.isa.starts_with("several"))
     complain("the parts are of instruction sets that differ in a few bits (" + parts.label.isa +
@@ -94,31 +93,24 @@ int run_merge(const CommandRequest& command) {
   if (!parts.remark.empty() && (command.denoise || parts.label.contents.empty())) complain(parts.remark);
   std::optional<CleanOfFilm> clean;
   if (command.denoise) clean = clean_view(film, parts.scene, files.front().string());
-  return write(film, parts.scene, parts.label, command.outputs, command.form, clean);
+  return write(command, film, parts.scene, parts.label, clean ? &*clean : nullptr);
 }
 
 int run_denoise(const CommandRequest& command) {
   check_image_names(command.outputs, command.form, command.stats);
   find_kernels(command.isa);
-  std::vector<Output> outputs = outputs_of("--output", command.outputs);
-  outputs.push_back({"--stats", command.stats});
+  const std::vector<Output> outputs = outputs_of(command.outputs, command.stats);
   check_outputs(outputs, {command.image});
   check_can_write(outputs);
   const StoredFilm stored = read_stored_frame(command.image);
-  MemoryPlan plan = memory_plan(stored.part, stored.scene, command.outputs, command.form);
-  plan.clean = true;
-  check_memory(plan, free_memory());
+  check_memory(command, stored.part, stored.scene, false, true);
   if (!stored.remark.empty()) complain(stored.remark);
   const Film film = read_film_alone(command.image);
   const CleanOfFilm clean = clean_view(film, stored.scene, command.image.string(), command.threads, command.isa);
-  const int code = write(film, stored.scene, stored.label, command.outputs, command.form, clean);
+  const int code = write(command, film, stored.scene, stored.label, &clean);
   if (is_doubtful(clean.picture, totals(film).min_taken))
     complain(std::string(rare_bright_paths) + "; the error may be larger than estimated");
-  const std::string stats = clean_stats_text(film, clean.picture, clean.seconds);
-  if (command.stats == "-")
-    write_standard_output(stats);
-  else if (!command.stats.empty())
-    write_text_or_rescue(command.stats, stats);
+  if (!command.stats.empty()) write_text_or_rescue(command.stats, clean_stats_text(film, clean.picture, clean.seconds));
   return code;
 }
 

@@ -1,12 +1,9 @@
 #include "app/cli/option_rows.h"
 
-#include "app/cli/setting_options.h"
-#include "app/files/sweep_values.h"
-#include "app/text/name_pattern.h"
+#include "app/text/values.h"
 #include "core/base/target.h"
 #include "core/base/text.h"
 #include "core/base/thread_pool.h"
-#include "core/render/clean_film.h"
 
 #include <functional>
 
@@ -111,7 +108,8 @@ std::vector<OptionRow> scene_rows() {
        "/materials/gold/fuzz=0.2; VALUE is JSON, else a string;\n"
        "repeatable, in order"},
       {"-I,--include", "DIR",
-       by([](CommandRequest& request, Text t) { request.scene.program.include_folders.emplace_back(t); }, Takes::each),
+       by([](CommandRequest& request, Text t) { request.scene.program.sources.include_folders.emplace_back(t); },
+          Takes::each),
        "of a program: a folder of headers; repeatable"},
       {"--trust", "", by([](CommandRequest& request, Text) { request.scene.program.trusted = true; }, Takes::flag),
        "run a program also where the system cannot keep it from changing\nyour files (see tyndall --version)"},
@@ -321,28 +319,6 @@ const OptionRow& option_row(std::string_view name, std::string_view command) {
           (row.names == name || std::string_view(row.names).ends_with("," + std::string(name))))
         return row;
   throw std::logic_error("no option " + std::string(name));
-}
-
-void refuse_conflicts(const CommandRequest& r) {
-  if (r.replay && !r.outputs.empty()) throw UsageError("--replay and -o exclude each other: a replay writes no image");
-  if (r.replay && r.form.ppm == PpmCurve::gamma2)
-    throw UsageError("--replay and --gamma2 exclude each other: a replay writes no image");
-  if (r.replay && r.viewer) throw UsageError("--replay and --watch-at exclude each other: a replay shows no image");
-  if (r.denoise && r.spp && *r.spp < min_clean_spp)
-    throw UsageError("--denoise: found --spp " + std::to_string(*r.spp) + ", expected at least " +
-                     std::to_string(min_clean_spp) + " samples a pixel");
-  if (r.fresh && r.resume) throw UsageError("--fresh and --resume exclude each other: one starts over, one goes on");
-  if (r.checkpoint > 0 && kept_film(r.outputs, r.form).empty())
-    throw UsageError("--checkpoint needs an output that ends in .exr, and --exr-film yes");
-  if (!r.samples) return;
-  if (r.denoise) throw UsageError("--samples and --denoise exclude each other: a part is filtered when it is merged");
-  const char* other = r.spp                  ? "--spp"
-                      : r.time_limit < 1e300 ? "--time"
-                      : r.target_error > 0   ? "--target-error"
-                                             : nullptr;
-  if (other)
-    throw UsageError("--samples and " + std::string(other) +
-                     " exclude each other: --samples says which samples to take");
 }
 
 }  // namespace tyndall

@@ -1,6 +1,6 @@
 #pragma once
-#include "app/cli/parse.h"
 #include "app/cli/requests.h"
+#include "app/cli/setting_options.h"
 
 #include <functional>
 #include <string>
@@ -35,9 +35,6 @@ const OptionRow& option_row(std::string_view name, std::string_view command);
 /// The curve of a chart that --method describes, NAME=FLAGS.
 CommandRequest read_method(const std::string& text);
 
-/// Refuses options of a render that exclude each other.
-void refuse_conflicts(const CommandRequest& request);
-
 /// Options that stand below one heading of a help.
 struct OptionGroup {
   const char* heading;  ///< "": no help lists them
@@ -52,7 +49,6 @@ struct CommandRow {
   const char* about;     ///< before the options in the help
   const char* examples;  ///< and after them
   std::vector<OptionGroup> groups;
-  void (*finish)(CommandRequest&);  ///< looks at the options as a whole; throws UsageError
   int (*run)(const CommandRequest&);
 };
 

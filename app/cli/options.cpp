@@ -1,8 +1,10 @@
-#include "app/cli/commands.h"
+#include "app/book/load_program.h"
+#include "app/check/check.h"
 #include "app/cli/option_rows.h"
-#include "app/cli/setting_options.h"
 #include "app/text/standard_streams.h"
+#include "app/text/values.h"
 #include "core/base/text.h"
+#include "core/render/clean_film.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -14,6 +16,139 @@ namespace {
 
 using Text = const std::string&;
 using Arguments = const std::vector<std::string>&;
+using Request = const CommandRequest&;
+
+std::string see_help(Request request) { return " (see tyndall " + request.command + " --help)"; }
+
+/// A program may have further source files; nothing else takes more words than one.
+void take_scene(CommandRequest& request, std::size_t at) {
+  if (request.operands.size() <= at) return;
+  request.scene.what = request.operands[at];
+  request.scene.program.allowed = true;
+  request.scene.program.differs = differs_from_own;
+  for (std::size_t k = at + 1; k < request.operands.size(); ++k) {
+    if (!is_program(request.operands[at]) || !is_program(request.operands[k]))
+      throw UsageError("unexpected argument " + in_quotes(request.operands[k]) + see_help(request));
+    request.scene.program.sources.files.emplace_back(request.operands[k]);
+  }
+}
+
+bool has_output(Request r) { return !r.output.empty(); }
+bool has_outputs(Request r) { return !r.outputs.empty(); }
+bool has_operands(Request r) { return !r.operands.empty(); }
+bool has_baseline(Request r) { return !r.baseline.folder.empty(); }
+bool has_reports(Request r) { return !r.report.empty() || !r.junit.empty(); }
+
+/// What commands cannot do without.
+struct Need {
+  std::string_view commands;
+  bool (*given)(Request);
+  const char* what;
+};
+constexpr std::string_view of_scenes = "view render sweep animate chart inspect convert";
+constexpr Need required[] = {
+    {of_scenes, [](Request r) { return !r.scene.what.empty(); }, "SCENE"},
+    {"render", [](Request r) { return r.replay || has_outputs(r); }, "an output (-o FILE)"},
+    {"sweep", [](Request r) { return !r.axes.empty(); }, "a value to vary (--vary POINTER=FROM:TO:STEPS)"},
+    {"sweep", [](Request r) { return !r.sheet.empty() || !r.csv.empty() || has_outputs(r); },
+     "an output (-o SHEET.png)"},
+    {"animate", has_outputs, "an output (-o 'f/%04d.png')"},
+    {"compare", has_operands, "IMAGE"},
+    {"compare", [](Request r) { return has_baseline(r) || r.operands.size() > 1; }, "REFERENCE"},
+    {"chart", has_output, "an output (-o FILE.svg)"},
+    {"merge", has_operands, "PART"},
+    {"denoise", [](Request r) { return !r.image.empty(); }, "FILM.exr"},
+    {"merge denoise", has_outputs, "an output (-o FILE)"},
+    {"convert", has_output, "an output (-o FILE)"},
+};
+
+static_assert(min_clean_spp == 2);  // as a message says
+/// Options that exclude each other, or need another one.
+constexpr std::pair<bool (*)(Request), const char*> conflicts[] = {
+    {[](Request r) { return has_baseline(r) && (!r.heatmap.empty() || r.json); },
+     "--baseline goes with --report and --junit, not with --heatmap or --json"},
+    {[](Request r) { return has_baseline(r) && r.update && has_reports(r); },
+     "--update compares nothing, so it writes no report"},
+    {[](Request r) { return !has_baseline(r) && (r.update || has_reports(r)); },
+     "--update, --report and --junit need --baseline"},
+    {[](Request r) { return r.command == "inspect" && !r.isa.empty() && !r.measure; },
+     "--isa can only be given with --measure"},
+    {[](Request r) { return r.replay && has_outputs(r); },
+     "--replay and -o exclude each other: a replay writes no image"},
+    {[](Request r) { return r.replay && r.form.ppm == PpmCurve::gamma2; },
+     "--replay and --gamma2 exclude each other: a replay writes no image"},
+    {[](Request r) { return r.replay && r.viewer; },
+     "--replay and --watch-at exclude each other: a replay shows no image"},
+    {[](Request r) { return r.denoise && r.spp && *r.spp < min_clean_spp; },
+     "--denoise: found --spp 1, expected at least 2 samples a pixel"},
+    {[](Request r) { return r.fresh && r.resume; },
+     "--fresh and --resume exclude each other: one starts over, one goes on"},
+    {[](Request r) { return r.checkpoint > 0 && kept_film(r.outputs, r.form).empty(); },
+     "--checkpoint needs an output that ends in .exr, and --exr-film yes"},
+    {[](Request r) { return r.samples && r.denoise; },
+     "--samples and --denoise exclude each other: a part is filtered when it is merged"},
+    {[](Request r) { return r.samples && r.spp; },
+     "--samples and --spp exclude each other: --samples says which samples to take"},
+    {[](Request r) { return r.samples && r.time_limit < 1e300; },
+     "--samples and --time exclude each other: --samples says which samples to take"},
+    {[](Request r) { return r.samples && r.target_error > 0; },
+     "--samples and --target-error exclude each other: --samples says which samples to take"},
+};
+
+/// Reads the name of a file that stands for many, for the message "--output: found X, expected Y".
+void check_numbered(const char* option, const std::string& name) {
+  try {
+    read_numbered_name(name);
+  } catch (const UsageError& error) {
+    throw UsageError(std::string(option) + ": " + error.what());
+  }
+}
+
+/// Takes the video out of the outputs, and checks the names of the others.
+void finish_animate(CommandRequest& request) {
+  std::vector<std::filesystem::path> pictures;
+  for (const std::filesystem::path& file : request.outputs) {
+    if (file != "-" && lower_case(file.extension().string()) != ".y4m") {
+      check_numbered("--output", file.string());
+      pictures.push_back(file);
+      continue;
+    }
+    if (!request.video.empty()) throw UsageError("--output: found two films, expected one .y4m or -");
+    request.video = file;
+  }
+  request.outputs = std::move(pictures);
+  if (!request.stats.empty()) check_numbered("--stats", request.stats.string());
+}
+
+/// Puts the images where they belong.
+void finish_compare(CommandRequest& request) {
+  const std::vector<std::string>& images = request.operands;
+  request.baseline.ppm = request.form.ppm;
+  if (has_baseline(request)) {
+    request.baseline.images.assign(images.begin(), images.end());
+    request.baseline.limits = request.limits;
+    return;
+  }
+  take_scene(request, 1);
+  request.image = images[0] == "-" ? "/dev/stdin" : images[0];
+  request.reference = images[1];
+}
+
+/// Puts the words where they belong. Throws UsageError for what is missing, and for options that exclude each other.
+void finish(CommandRequest& request) {
+  const std::string_view name = request.command;
+  if (of_scenes.find(name) != of_scenes.npos) take_scene(request, 0);
+  for (const Need& need : required)
+    if (need.commands.find(name) != need.commands.npos && !need.given(request))
+      throw UsageError(need.what + std::string(" is missing") + see_help(request));
+  if (name == "animate") finish_animate(request);
+  if (name == "compare") finish_compare(request);
+  if (name == "chart" && request.scene.what != "all") read_file_name(request.output.string(), ".svg");
+  if (request.axes.size() > 2)
+    throw UsageError("--vary: found it " + std::to_string(request.axes.size()) + " times, expected it once or twice");
+  for (const auto& [found, text] : conflicts)
+    if (found(request)) throw UsageError(text);
+}
 
 void add_group(CLI::App& app, const OptionGroup& group, CommandRequest& request) {
   app.option_defaults()->group(group.heading);
@@ -43,7 +178,7 @@ Command read(const CommandRow& row, Arguments arguments) {
     help->page.summary = row.summary;
     return *help;
   }
-  row.finish(request);
+  finish(request);
   return request;
 }
 

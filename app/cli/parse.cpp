@@ -1,4 +1,4 @@
-#include "app/cli/parse.h"
+#include "app/cli/setting_options.h"
 
 #include "core/base/text.h"
 

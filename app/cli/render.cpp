@@ -1,4 +1,4 @@
-#include "app/cli/commands.h"
+#include "app/cli/requests.h"
 #include "app/cli/series.h"
 #include "app/files/open_scene.h"
 #include "app/report/replay.h"

@@ -3,10 +3,12 @@
 #include "app/files/outputs.h"
 #include "core/render/render.h"
 #include "core/scene/load.h"
+#include "core/system/processors.h"
 #include "core/targets/kernels.h"
 
+#include <chrono>
+#include <memory>
 #include <string>
-#include <vector>
 
 /// Turns what the user asked for into what render() is told.
 namespace tyndall {
@@ -21,10 +23,6 @@ Kernels kernels_to_render(const std::string& isa);
 /// The scene of a command, with --frame the one of that frame.
 LoadedScene open_frame(const CommandRequest& command, OwnSamples& own);
 
-/// Limits and region of a render. spp is always set; where only time or error end the render, to max_samples.
-/// Throws UsageError for a region beyond the image and for adaptive sampling of a range.
-RenderOptions render_options(const CommandRequest& command, const LoadedScene& loaded);
-
 /// Where a render begins: anew, or with the film that its .exr output holds already.
 struct RenderStart {
   Film film;  ///< to go on from; empty: the render starts anew
@@ -34,26 +32,35 @@ struct RenderStart {
   FilmPlace place;   ///< where the film is kept
 };
 
-/// Looks at the film in the .exr output, or in the unfinished file beside it (see FilmPlace) if that is there. One that
-/// fits is gone on with if it is unfinished, has just the samples that
-/// are asked for, or --resume asks for it. Throws UsageError where --resume finds no film that fits, and for an
-/// unfinished one that does not fit: it says what differs; likewise for unfinished ones in further outputs. Any other
-/// file is replaced in the end.
-RenderStart find_start(const CommandRequest& command, const LoadedScene& loaded, const RenderOptions& options,
-                       const Kernels& kernels);
+/// One headless render from command to files. `render` makes one; `sweep` and `animate` make one for each picture.
+struct RenderJob {
+  CommandRequest command;
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  LoadedScene loaded{};     ///< what the command's scene is; see open_scene_or_samples()
+  OwnSamples own{};         ///< where it is a picture
+  bool whole_only = false;  ///< of a picture that is unfinished only a film is written, which can be gone on with
+  bool is_there = false;    ///< an earlier run has written all of it
+  ThreadCount threads = thread_count(command.threads);
+  RenderOptions options{};
+  Kernels kernels{};
+  RenderStart begin{};
+  std::shared_ptr<const PreparedScene> prepared{};
+  std::shared_ptr<class LiveView> view{};  ///< in a viewer; null: none
+  std::uint64_t samples_before = 0;
+  double seconds_build = 0;
+};
 
-/// One line on standard error if a film that fits does not say which pixels its textures and sky had.
-void tell_contents(const StoredFilm& film);
+/// Finds the kernels, and limits and region of a render: so much that its picture can be compared with what is there.
+/// spp is always set; where only time or error end the render, to max_samples. The job needs its scene. Throws
+/// UsageError for a region beyond the image and for adaptive sampling of a range.
+void set_up(RenderJob& job);
+
+/// Remarks on what the user may not expect of the outputs, settings and textures. Outputs that nothing can take the
+/// place of are told where that costs something: checkpoints go to another file or nowhere, and where the folder takes
+/// no new files, what cannot be written into an output goes far from it.
+void tell_remarks(const RenderJob& job);
 
 /// One line on standard error if textures of the scene have an alpha channel, which is not looked at.
 void tell_alpha(const LoadedScene& loaded);
-
-/// What to tell of outputs that nothing can take the place of, where that costs something: checkpoints go to another
-/// file or nowhere, and where the folder takes no new files, what cannot be written into an output goes far from it.
-std::vector<std::string> remarks_on_outputs(const CommandRequest& command, const FilmPlace& film);
-
-/// What keeps a render from going on with a film, as "found X, expected Y" without "found"; "": nothing does.
-std::string differing_film(const StoredFilm& stored, const CommandRequest& command, const LoadedScene& loaded,
-                           const RenderOptions& options, const Kernels& kernels);
 
 }  // namespace tyndall

@@ -2,7 +2,6 @@
 #include "app/comparison/baseline.h"
 #include "app/files/open_scene.h"
 #include "app/files/outputs.h"
-#include "app/files/sweep_values.h"
 #include "app/files/viewer_stream.h"
 #include "app/manual/page.h"
 #include "app/text/progress.h"
@@ -15,7 +14,7 @@
 #include <variant>
 #include <vector>
 
-/// What the user asked for. Only read_command() makes it.
+/// What the user asked for, which only read_command() makes, and the commands that do it.
 namespace tyndall {
 
 /// All that options and arguments can say. Each command reads the part that its options fill.
@@ -89,5 +88,27 @@ struct PrintCommand {
 /// scene's file.
 using Command = std::variant<CommandRequest, PrintCommand>;
 Command read_command(const std::vector<std::string>& arguments);
+
+/// The exit code of a command that computed a picture and could not write all of it.
+inline constexpr int output_failed = 3;
+
+/// Runs the command that was read, or prints the text.
+int run(const Command& command);
+
+/// The commands. Each returns the program's exit code: 0 when done, 1 if a check failed, output_failed, or 130 and 143
+/// if interrupted. For everything else they throw: UsageError, SceneError and MergeError where the user is at fault,
+/// IoError and ImageFileError where input or output fails.
+int run_view(const CommandRequest& request);
+int run_render(const CommandRequest& request);
+int run_sweep(const CommandRequest& request);
+int run_animate(const CommandRequest& request);
+int run_compare(const CommandRequest& request);
+int run_chart(const CommandRequest& request);
+int run_verify(const CommandRequest& request);
+int run_merge(const CommandRequest& request);
+int run_denoise(const CommandRequest& request);
+int run_inspect(const CommandRequest& request);
+int run_scenes(const CommandRequest& request);
+int run_convert(const CommandRequest& request);
 
 }  // namespace tyndall

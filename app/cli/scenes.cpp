@@ -1,4 +1,4 @@
-#include "app/cli/commands.h"
+#include "app/cli/requests.h"
 #include "app/export/foreign_scene.h"
 #include "app/files/open_scene.h"
 #include "app/files/outputs.h"
@@ -49,10 +49,6 @@ int run_convert(const CommandRequest& command) {
   const LoadedScene loaded = open_scene(command.scene);
   const std::filesystem::path folder = command.output.parent_path();  // of "-", too: none
   const ForeignFile file = converted(move_textures(loaded.scene, loaded.folder, folder), loaded.name, command.output);
-  if (command.output == "-") {
-    write_standard_output(file.text);
-    return 0;
-  }
   std::vector<Output> outputs{{"--output", command.output}};
   for (const auto& [name, pixels] : file.pictures) outputs.push_back({"--output", folder / name});
   for (const auto& [name, mesh] : file.meshes) outputs.push_back({"--output", folder / name});

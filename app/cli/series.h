@@ -1,5 +1,5 @@
 #pragma once
-#include "app/cli/render_job.h"
+#include "app/cli/render_setup.h"
 #include "app/text/progress.h"
 #include "core/system/signals.h"
 
@@ -10,6 +10,20 @@
 
 /// The pictures that a command renders, one after the other: a render is a list of one.
 namespace tyndall {
+
+/// Checks the names of the outputs, before any file is read.
+void check_names(const CommandRequest& command);
+/// Finds everything else that can be wrong before the first sample, and where the render begins.
+void prepare(RenderJob& job);
+/// Lets a job that is prepared start with a whole film, to which nothing is added.
+void take_film(RenderJob& job, Film film);
+
+/// What a render has come to, at its end or when it is asked for in between.
+struct RenderOutcome {
+  const RenderResult& result;
+  FinishedPicture picture;
+  bool unfinished = false;  ///< more samples are to come
+};
 
 /// What a command does beside rendering and writing a picture. All may be empty.
 struct PictureSteps {
@@ -45,8 +59,5 @@ class Series {
   double seconds_ = 0;
   std::set<std::string> told_;
 };
-
-/// Lets a job start with a whole film, to which nothing is added.
-void take_film(RenderJob& job, Film film);
 
 }  // namespace tyndall

@@ -1,12 +1,12 @@
-#include "app/cli/commands.h"
 #include "app/cli/kept_pictures.h"
+#include "app/cli/requests.h"
 #include "app/cli/series.h"
 #include "app/files/open_scene.h"
 #include "app/report/contact_sheet.h"
 #include "app/report/film_difference.h"
 #include "app/text/markup.h"
-#include "app/text/name_pattern.h"
 #include "app/text/standard_streams.h"
+#include "app/text/values.h"
 #include "core/accuracy/error.h"
 #include "core/base/error.h"
 #include "core/base/fnv1a.h"
@@ -80,11 +80,16 @@ LoadedScene scene_of(const Sweeping& sweep, const SweepStep& step) {
                       sweep.base.name + ": step " + number + " (" + settings + ")");
 }
 
-CommandRequest command_of(const Sweeping& sweep, const SweepStep& step) {
-  CommandRequest command = sweep.command;
-  command.outputs = step.outputs;
-  command.time_limit = std::min(command.time_limit, sweep.command.total_time);
-  return command;
+/// A job whose picture can be compared with what is there already.
+RenderJob job_of(const Sweeping& sweep, const SweepStep& step) {
+  RenderJob job{sweep.command};
+  job.command.outputs = step.outputs;
+  job.command.time_limit = std::min(job.command.time_limit, sweep.command.total_time);
+  check_names(job.command);
+  job.loaded = scene_of(sweep, step);
+  job.whole_only = true;
+  set_up(job);
+  return job;
 }
 
 void check_axes(const CommandRequest& command) {
@@ -115,13 +120,8 @@ void check_steps(Sweeping& sweep) {
   check_outputs(outputs, sweep.base.files);
   check_can_write(std::vector<Output>(outputs.begin(), outputs.begin() + 2));
   for (const SweepStep& step : sweep.steps) {
-    const CommandRequest command = command_of(sweep, step);
-    check_names(command);
-    RenderJob job{command};
-    job.kernels = kernels_to_render(command.isa);
-    job.loaded = scene_of(sweep, step);
-    job.options = render_options(command, job.loaded);
-    if (command.fresh) continue;
+    const RenderJob job = job_of(sweep, step);
+    if (job.command.fresh) continue;
     for (const auto& file : step.outputs)
       if (is_exr(file)) look_at_picture(file, job);
   }
@@ -153,11 +153,8 @@ void add_figures(Sweeping& sweep, std::size_t k, const RenderOutcome& outcome, c
 /// Renders a picture and takes what is needed of it; false if something could not be written.
 bool make_picture(Sweeping& sweep, std::size_t k, Series& series) {
   const SweepStep& step = sweep.steps[k];
-  CommandRequest command = command_of(sweep, step);
-  command.time_limit = time_limit(sweep, series);
-  RenderJob job{command};
-  job.loaded = scene_of(sweep, step);
-  job.whole_only = true;
+  RenderJob job = job_of(sweep, step);
+  job.command.time_limit = time_limit(sweep, series);
   prepare(job);
   auto kept = kept_film_of(job);
   job.is_there = job.begin.as_requested || kept;
@@ -239,9 +236,7 @@ bool write_all(const Sweeping& sweep) {
   bool whole = true;
   const CommandRequest& command = sweep.command;
   if (!command.sheet.empty()) whole = written_or_told([&] { write_sheet(sweep); });
-  if (command.csv == "-")
-    whole = written_or_told([&] { write_standard_output(csv_text(sweep)); }) && whole;
-  else if (!command.csv.empty())
+  if (!command.csv.empty())
     whole = written_or_told([&] { write_text_or_rescue(command.csv, csv_text(sweep)); }) && whole;
   return whole;
 }

@@ -1,6 +1,6 @@
 #include "app/cli/verify.h"
-#include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
+#include "app/cli/requests.h"
 #include "app/files/open_scene.h"
 #include "app/text/progress.h"
 #include "app/text/standard_streams.h"

@@ -92,16 +92,6 @@ std::vector<VerifyCase> read_table(std::string_view text, const std::filesystem:
   return cases;
 }
 
-/// Groups and cases, for suggestions.
-std::vector<std::string> all_names(const std::vector<VerifyCase>& cases) {
-  std::set<std::string> names;
-  for (const VerifyCase& c : cases) {
-    names.insert(c.name);
-    names.insert(c.name.substr(0, c.name.find('/')));
-  }
-  return {names.begin(), names.end()};
-}
-
 constexpr double max_z = 4;
 
 int count(const VerifyRun& run, Verdict verdict) {
@@ -181,7 +171,9 @@ std::vector<VerifyCase> chosen_cases(const std::vector<VerifyCase>& cases, const
   const auto begins = [](const VerifyCase& c, const std::string& name) { return c.name.starts_with(name); };
   for (const std::string& name : names)
     if (std::none_of(cases.begin(), cases.end(), [&](const VerifyCase& c) { return begins(c, name); })) {
-      const std::string hint = suggestion(name, all_names(cases));
+      std::set<std::string> known;  // groups and cases
+      for (const VerifyCase& c : cases) known.insert({c.name, c.name.substr(0, c.name.find('/'))});
+      const std::string hint = suggestion(name, {known.begin(), known.end()});
       throw UsageError("found no case " + in_quotes(name) + hint + ", expected the beginning of a case's name");
     }
   std::vector<VerifyCase> chosen;

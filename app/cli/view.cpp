@@ -1,5 +1,5 @@
-#include "app/cli/commands.h"
 #include "app/cli/render_setup.h"
+#include "app/cli/requests.h"
 #include "app/files/arriving_picture.h"
 #include "app/files/memory.h"
 #include "app/files/open_scene.h"
@@ -86,6 +86,15 @@ int open_window(const std::string& instead, [[maybe_unused]] const Options& opti
 #endif
 }
 
+/// What a picture and a scene have in common.
+WindowOptions options_of(const CommandRequest& command, const LoadedScene& loaded) {
+  WindowOptions options;
+  options.scene = loaded;
+  options.threads = command.threads, options.isa = command.isa;
+  options.reference = command.reference, options.ui_log = command.ui_log;
+  return options;
+}
+
 void check_files(const CommandRequest& command, std::vector<std::filesystem::path> inputs) {
   if (!command.reference.empty()) inputs.push_back(picture_name(command.reference).file);
   check_outputs({{"--ui-log", command.ui_log}}, inputs);
@@ -121,12 +130,7 @@ int view_picture(const CommandRequest& command, const std::string& begin) {
   const LoadedScene loaded = scene_of(*picture, command);
   check_memory(loaded.scene);
   return open_window("the program's picture can be kept in a file: > image.ppm in place of | tyndall view -", [&] {
-    WindowOptions options;
-    options.scene = loaded;
-    options.threads = command.threads;
-    options.isa = command.isa;
-    options.reference = command.reference;
-    options.ui_log = command.ui_log;
+    WindowOptions options = options_of(command, loaded);
     options.picture = picture;
     return options;
   });
@@ -154,19 +158,13 @@ int view_scene(const CommandRequest& command) {
   check_files(command, loaded.files);
   return open_window("the same picture without a window: " + headless_command(command), [&] {
     tell_alpha(loaded);
+    WindowOptions options = options_of(command, loaded);
     const auto& arguments = command.arguments;
-    const bool named = std::find(arguments.begin(), arguments.end(), command.scene.what) != arguments.end();
-    return WindowOptions{loaded,
-                         open,
-                         read_edits,
-                         command.threads,
-                         command.isa,
-                         command.reference,
-                         command.ui_log,
-                         named,
-                         {command.time_limit, command.target_error},
-                         nullptr,
-                         is_program(command.scene.what) ? own->function() : nullptr};
+    options.reload = open, options.read_edits = read_edits;
+    options.scene_named = std::find(arguments.begin(), arguments.end(), command.scene.what) != arguments.end();
+    options.limits = {command.time_limit, command.target_error};
+    if (is_program(command.scene.what)) options.function = own->function();
+    return options;
   });
 }
 

@@ -1,7 +1,5 @@
 #include "app/comparison/baseline.h"
 
-#include "app/comparison/pair.h"
-#include "app/comparison/picture_folder.h"
 #include "app/files/outputs.h"
 #include "app/text/values.h"
 #include "core/base/error.h"
@@ -14,12 +12,78 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 
 namespace tyndall {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+/// The endings of pictures' names, for messages.
+constexpr const char* picture_endings = ".png .exr .pfm .hdr .ppm .pgm .jpg .jpeg .bmp .tga";
+
+/// Which pictures a folder holds, the folders within it included.
+struct PictureFolder {
+  /// By their names from the folder on, with "/" between them: "box.png", "fog/thin.exr".
+  std::map<std::string, fs::path> pictures;
+  std::vector<std::string> others;  ///< files that are no pictures by their names; those that begin with "." go untold
+  std::vector<std::string> loops;   ///< links that lead back to a folder around them; all other links are followed
+};
+
+bool is_picture(const fs::path& file) {
+  const std::string ending = lower_case(file.extension().string());
+  const std::string endings = picture_endings + std::string(" ");
+  return !ending.empty() && endings.find(ending + " ") != endings.npos;
+}
+
+class Walk {
+ public:
+  explicit Walk(const std::vector<fs::path>& without) : without_(without) {}
+
+  /// name: of the folder, as the names of what is in it begin; empty for the outermost.
+  void into(const fs::path& folder, const std::string& name) {
+    around_.push_back(folder);
+    std::error_code error;
+    fs::directory_iterator entry(folder, error);
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+      take(*entry, (fs::path(name) / entry->path().filename()).generic_string());
+    }
+    if (error) throw IoError(folder.string() + ": cannot read the folder: " + error.message());
+    around_.pop_back();
+  }
+
+  PictureFolder found;
+
+ private:
+  void take(const fs::directory_entry& entry, const std::string& name) {
+    std::error_code ignored;  // what cannot be looked at is no folder, and as a picture it fails
+    const fs::path& path = entry.path();
+    const auto is_this = [&](const fs::path& other) { return fs::equivalent(path, other, ignored); };
+    if (!entry.is_directory(ignored)) {
+      if (is_picture(path))
+        found.pictures.emplace(name, path);
+      else if (path.filename().string().front() != '.')
+        found.others.push_back(name);
+    } else if (std::any_of(around_.begin(), around_.end(), is_this)) {
+      found.loops.push_back(name);
+    } else if (std::none_of(without_.begin(), without_.end(), is_this)) {
+      into(path, name);
+    }
+  }
+
+  const std::vector<fs::path>& without_;
+  std::vector<fs::path> around_;  ///< the folders that are being gone through, the outermost first
+};
+
+/// without: folders that are not gone into. Throws IoError for a folder that cannot be read.
+PictureFolder pictures_in(const fs::path& folder, const std::vector<fs::path>& without) {
+  Walk walk(without);
+  walk.into(folder, "");
+  std::sort(walk.found.others.begin(), walk.found.others.end());
+  std::sort(walk.found.loops.begin(), walk.found.loops.end());
+  return std::move(walk.found);
+}
 
 constexpr char tolerances_name[] = "tolerances.json";
 constexpr std::pair<const char*, std::optional<double> Tolerance::*> keys[] = {{"max_rmse", &Tolerance::rmse},
@@ -151,15 +215,6 @@ void check(CheckedPicture& picture, PpmCurve ppm) {
   picture.seconds = seconds_since(start);
 }
 
-/// What stands in the place of pictures where there is none: nothing was checked, which is no success.
-CheckedPicture nothing_compared(const BaselineRequest& request) {
-  CheckedPicture none;
-  none.name = "no picture";
-  none.failures.push_back("nothing was compared: there is no picture in " + request.images.front().string() +
-                          " (names that end in " + picture_endings + ")");
-  return none;
-}
-
 /// The files of the pictures, which are whole files for layers too, and what becomes of each in the baseline. Throws
 /// IoError unless all of them can be written.
 std::map<fs::path, fs::path> copies_of(const std::map<std::string, fs::path>& pictures, const fs::path& folder) {
@@ -206,7 +261,12 @@ BaselineCheck check_baseline(const BaselineRequest& request) {
     has_ppm = has_ppm || (picture.comparison && picture.comparison->has_ppm);
   }
   check_gamma2(request.ppm, has_ppm);
-  if (result.pictures.empty()) result.pictures.push_back(nothing_compared(request));
+  if (result.pictures.empty()) {  // nothing was checked, which is no success
+    CheckedPicture& none = result.pictures.emplace_back();
+    none.name = "no picture";
+    none.failures.push_back("nothing was compared: there is no picture in " + request.images.front().string() +
+                            " (names that end in " + picture_endings + ")");
+  }
   return result;
 }
 

@@ -1,6 +1,5 @@
 #include "app/comparison/comparison.h"
 
-#include "app/comparison/pair.h"
 #include "app/text/values.h"
 #include "core/accuracy/flip.h"
 #include "core/base/text.h"

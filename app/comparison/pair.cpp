@@ -1,4 +1,4 @@
-#include "app/comparison/pair.h"
+#include "app/comparison/comparison.h"
 
 #include "app/text/values.h"
 #include "core/base/text.h"

@@ -1,4 +1,4 @@
-#include "app/curves/measure.h"
+#include "app/curves/chart.h"
 
 #include "core/accuracy/error.h"
 #include "core/render/prepare.h"

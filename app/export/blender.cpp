@@ -1,5 +1,5 @@
 #include "app/export/foreign_scene.h"
-#include "app/text/templates.h"
+#include "app/text/markup.h"
 #include "core/base/kinds.h"
 #include "core/base/text.h"
 #include "core/compile/columns.h"

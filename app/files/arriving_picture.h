@@ -1,7 +1,7 @@
 #pragma once
-#include "core/base/stoppable.h"
 #include "core/image/pnm_reader.h"
 #include "core/render/sample_source.h"
+#include "core/system/locks.h"
 #include "core/system/open_file.h"
 
 #include <functional>

@@ -49,8 +49,6 @@ Checkpoints::Checkpoints(std::filesystem::path file, std::optional<double> inter
                          std::function<Embedded(const Film&)> embedded)
     : file_(std::move(file)), interval_(interval), embedded_(std::move(embedded)) {}
 
-Checkpoints::~Checkpoints() { finish(); }
-
 bool Checkpoints::due() const {
   if (writing_) return false;
   const double usual = std::max(min_checkpoint_interval, checkpoint_interval_over_cost * cost_);
@@ -60,7 +58,7 @@ bool Checkpoints::due() const {
 }
 
 void Checkpoints::take(const Film& film, ThreadPool& thread_pool) {
-  if (writer_.joinable()) writer_.join();
+  writer_.reset();
   taken_ = Clock::now();
   if (!write_in_background(film, thread_pool)) write(film);
 }
@@ -73,7 +71,7 @@ bool Checkpoints::write_in_background(const Film& film, ThreadPool& thread_pool)
   try {
     copy(film, copy_, thread_pool);
     writing_ = true;
-    writer_ = std::thread([this] {
+    writer_.emplace([this](const StopToken&) {
       write(copy_);
       writing_ = false;
     });
@@ -105,7 +103,7 @@ void Checkpoints::write(const Film& film) {
 }
 
 void Checkpoints::finish() {
-  if (writer_.joinable()) writer_.join();
+  writer_.reset();
   copy_ = {};
 }
 

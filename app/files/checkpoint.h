@@ -11,7 +11,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 
 /// Keeps the work of long renders: their film is written now and then, so that what kills the program or the machine
 /// costs one interval, not the render.
@@ -35,7 +34,7 @@ class Checkpoints {
   /// interval: seconds; absent: as above. embedded: what the file carries beside a film; called in the background.
   Checkpoints(std::filesystem::path file, std::optional<double> interval,
               std::function<Embedded(const Film&)> embedded);
-  ~Checkpoints();  ///< waits for the one that is being written
+  ~Checkpoints() { finish(); }  ///< waits for the one that is being written
 
   const std::filesystem::path& file() const { return file_; }
   /// Whether one is to be begun now, so that it is written when the interval is over. False while one is written.
@@ -58,7 +57,7 @@ class Checkpoints {
   std::optional<double> interval_;
   std::function<Embedded(const Film&)> embedded_;
   Film copy_;
-  std::thread writer_;
+  std::optional<StoppableThread> writer_;
   std::atomic<bool> writing_ = false;
   Clock::time_point taken_ = Clock::now();  ///< when the last one was taken, at first the start
   std::atomic<double> cost_ = 0;            ///< seconds that the last one took

@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/scene/check.h"
 
+#include <algorithm>
 #include <system_error>
 
 namespace tyndall {
@@ -31,14 +32,9 @@ ProgramRequest program_request(const SceneRequest& request) {
   if (!request.program.allowed) throw SceneError(request.what, "a program", expected_no_program);
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw SceneError(request.what, "no such file", "a C++ source file");
-  ProgramRequest parts;
-  parts.sources = {{file}, request.program.include_folders};
-  const auto& more = request.program.more_files;
-  parts.sources.files.insert(parts.sources.files.end(), more.begin(), more.end());
-  parts.compiler = request.program.compiler;
-  parts.go_on = request.program.go_on;
+  ProgramRequest parts = request.program;
+  parts.sources.files.insert(parts.sources.files.begin(), file);
   parts.watch_signals = !parts.go_on;
-  parts.trusted = request.program.trusted;
   return parts;
 }
 
@@ -77,6 +73,38 @@ void apply_options(const SceneRequest& request, LoadedScene& loaded) {
 }
 
 }  // namespace
+
+OwnSamples::OwnSamples() : held_(std::make_shared<Held>()) {
+  const auto remove = [held = held_](WatchedFunction* function) { delete function; };
+  function_ = {new WatchedFunction(compute, held_.get()), remove};
+}
+
+void OwnSamples::compute(void* held, double x, double y, std::uint64_t, double rgb[3]) {
+  auto& its = *static_cast<Held*>(held);
+  std::unique_lock lock(its.mutex);
+  const std::shared_ptr<OwnProgram> program = its.program;
+  lock.unlock();
+  if (!program) return;
+  const std::vector<double> colour = program->samples({x, y});
+  std::copy(colour.begin(), colour.end(), rgb);
+}
+
+void OwnSamples::take(std::shared_ptr<OwnProgram> program, const std::string& reason) {
+  const std::lock_guard lock(held_->mutex);
+  held_->taken += program ? 1 : 0;
+  held_->program.swap(program);
+  held_->reason = reason;
+}
+
+std::string OwnSamples::reason() const {
+  const std::lock_guard lock(held_->mutex);
+  return held_->reason;
+}
+
+std::uint32_t OwnSamples::taken() const {
+  const std::lock_guard lock(held_->mutex);
+  return held_->taken;
+}
 
 LoadedScene open_scene_or_samples(const SceneRequest& request, OwnSamples& own) {
   own.take(nullptr, "");

@@ -1,14 +1,17 @@
 #pragma once
 #include "app/book/load_program.h"
-#include "app/files/own_samples.h"
+#include "app/files/watched_function.h"
 #include "app/text/values.h"
 #include "core/scene/frames.h"
 #include "core/scene/load.h"
 #include "core/scene/place.h"
 #include "core/scene/scene.h"
+#include "core/system/locks.h"
 
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -45,14 +48,11 @@ void apply(const Changes<Settings>& changes, Settings& settings) {
 }
 
 /// What belongs to a program whose scene is wanted, see app/book.
-struct ProgramParts {
-  std::vector<std::filesystem::path> more_files, include_folders;  ///< beside the file with main()
+/// Its sources are those beside the file with main(); without go_on, which a window has, it watches signals.
+struct ProgramParts : ProgramRequest {
   /// Whether a C++ source file may be compiled and run at all: only one that the user has named for that.
   bool allowed = false;
-  bool trusted = false;         ///< it is also run where the system has no guard
-  std::string compiler{};       ///< see ProgramTask
-  bool told = false;            ///< what is to be told of it was told before
-  std::function<bool()> go_on;  ///< false gives up; empty: signals do, which a window watches itself
+  bool told = false;  ///< what is to be told of it was told before
   /// Says why a scene is not what its program computes; "": it is. May be empty.
   std::function<std::string(const Scene&, const ProgramScene&)> differs;
 };
@@ -65,6 +65,32 @@ struct SceneRequest {
   std::optional<Size> size;
   Changes<RenderSettings> render;
   Changes<Display> display;
+};
+
+/// The samples that a reader's program computes itself, where its world is no scene. In a window the program changes
+/// when it is saved; the function stays. For any number of threads.
+class OwnSamples {
+ public:
+  OwnSamples();
+  /// program: null where there is a scene; reason: why there is none, a sentence with the program's name.
+  void take(std::shared_ptr<OwnProgram> program, const std::string& reason);
+  std::string reason() const;
+  /// How many programs were taken.
+  std::uint32_t taken() const;
+  /// What asks the program that was taken last.
+  const std::shared_ptr<WatchedFunction>& function() const { return function_; }
+
+ private:
+  struct Held {
+    Mutex mutex;
+    std::shared_ptr<OwnProgram> program;
+    std::string reason;
+    std::uint32_t taken = 0;
+  };
+  static void compute(void* held, double x, double y, std::uint64_t sample, double rgb[3]);
+
+  std::shared_ptr<Held> held_;
+  std::shared_ptr<WatchedFunction> function_;  ///< keeps what is held
 };
 
 /// Loads a scene, or what is shown in its place: a program whose world cannot be taken over. Then `own` says why, and

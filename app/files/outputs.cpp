@@ -48,6 +48,11 @@ fs::path free_name(const fs::path& file) {
   return {};
 }
 
+template <class... Errors>
+bool is_one_of(const std::exception& error) {
+  return (dynamic_cast<const Errors*>(&error) || ...);
+}
+
 bool succeeds(const std::function<void(const fs::path& file)>& write, const fs::path& file) {
   if (file.empty()) return false;
   try {
@@ -84,12 +89,13 @@ void check_image_names(const std::vector<fs::path>& files, const ImageForm& form
   const auto is_ppm = [&form](const auto& file) { return image_ending(file, form) == ".ppm"; };
   if (form.ppm == PpmCurve::gamma2 && std::none_of(files.begin(), files.end(), is_ppm))
     throw UsageError("--gamma2: found no output that ends in .ppm, expected one: only PPM is written so");
-  check_outputs(outputs_of("--output", files), {});
+  check_outputs(outputs_of(files), {});
 }
 
-std::vector<Output> outputs_of(const std::string& option, const std::vector<fs::path>& files) {
+std::vector<Output> outputs_of(const std::vector<fs::path>& files, const fs::path& stats) {
   std::vector<Output> outputs;
-  for (const fs::path& file : files) outputs.push_back({option, file});
+  for (const fs::path& file : files) outputs.push_back({"--output", file});
+  outputs.push_back({"--stats", stats});
   return outputs;
 }
 
@@ -181,6 +187,7 @@ void write_or_rescue(const fs::path& file, const std::function<void(const fs::pa
 }
 
 void write_text_or_rescue(const fs::path& file, const std::string& text) {
+  if (file == "-") return write_standard_output(text);
   write_or_rescue(file, [&text](const fs::path& to) { write_text_file(to, text); });
 }
 
@@ -198,26 +205,14 @@ bool written_or_told(const std::function<void()>& write) {
 
 int told_exit_code() {
   constexpr int wrong_usage = 2, input_output_error = 3;
-  const auto told = [](const std::exception& error, int code) {
-    complain(error.what());
-    return code;
-  };
   try {
     throw;
-  } catch (const UsageError& error) {
-    return told(error, wrong_usage);
-  } catch (const SceneError& error) {
-    return told(error, wrong_usage);
-  } catch (const MergeError& error) {
-    return told(error, wrong_usage);
-  } catch (const NoSuchLayer& error) {
-    return told(error, wrong_usage);
-  } catch (const ProgramInterrupted& error) {
-    return told(error, 128 + error.signal);
   } catch (const std::bad_alloc&) {
     complain("not enough memory" + memory_limit_text());
   } catch (const std::exception& error) {
-    return told(error, input_output_error);
+    complain(error.what());
+    if (const auto* interrupted = dynamic_cast<const ProgramInterrupted*>(&error)) return 128 + interrupted->signal;
+    if (is_one_of<UsageError, SceneError, MergeError, NoSuchLayer>(error)) return wrong_usage;
   }
   return input_output_error;
 }

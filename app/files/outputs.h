@@ -42,8 +42,9 @@ struct Output {
   std::string option;
   std::filesystem::path file;
 };
-/// The files of an option that may be repeated.
-std::vector<Output> outputs_of(const std::string& option, const std::vector<std::filesystem::path>& files);
+/// The files of --output and --stats.
+std::vector<Output> outputs_of(const std::vector<std::filesystem::path>& files,
+                               const std::filesystem::path& stats = {});
 /// Throws IoError unless all of them could be written now, see above. "" and "-" are no files.
 void check_can_write(const std::vector<Output>& outputs);
 /// Throws UsageError if an output is one of the files that the command reads, or two outputs are one file, also under
@@ -65,7 +66,7 @@ void write_copy(const std::filesystem::path& from, const std::filesystem::path& 
 /// what memory does not suffice for, are not written elsewhere.
 void write_or_rescue(const std::filesystem::path& file,
                      const std::function<void(const std::filesystem::path& file)>& write);
-/// The same for text.
+/// The same for text; "-" is standard output.
 void write_text_or_rescue(const std::filesystem::path& file, const std::string& text);
 
 /// Calls write(), for one of several outputs. Where that fails, says so in a line and returns false, so that the others

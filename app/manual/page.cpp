@@ -64,12 +64,6 @@ std::string short_help(const std::string& help) {
 
 bool takes_file(const OptionPage& option) { return option.unit.rfind("FILE", 0) == 0 || option.unit == "DIR"; }
 
-std::vector<std::string> names_of(const std::vector<CommandPage>& commands) {
-  std::vector<std::string> names;
-  for (const CommandPage& command : commands) names.push_back(command.name);
-  return names;
-}
-
 std::string bash_values(const CommandPage& command) {
   std::string text;
   for (const OptionPage& option : command.options) {
@@ -85,12 +79,6 @@ std::string bash_values(const CommandPage& command) {
     text += " ;;\n";
   }
   return text;
-}
-
-std::string bash_options(const CommandPage& command) {
-  std::vector<std::string> names;
-  for (const OptionPage& option : command.options) names.insert(names.end(), option.names.begin(), option.names.end());
-  return "      " + command.name + ") words='" + joined(names, " ") + "' ;;\n";
 }
 
 constexpr char bash_start[] = R"(# Completion of tyndall for bash; made by "tyndall help bash".
@@ -162,10 +150,16 @@ std::string man_page(const std::vector<CommandPage>& commands) {
 
 std::string bash_completion(const std::vector<CommandPage>& commands) {
   std::string text = bash_start;
-  for (const CommandPage& command : commands) text += bash_values(command);
-  text += "  esac\n  local commands='" + joined(names_of(commands), " ") +
+  std::vector<std::string> names;
+  for (const CommandPage& command : commands) text += bash_values(command), names.push_back(command.name);
+  text += "  esac\n  local commands='" + joined(names, " ") +
           "'\n  if [ -n \"$words\" ]; then :\n  elif [[ $word == -* ]]; then\n    case $command in\n";
-  for (const CommandPage& command : commands) text += bash_options(command);
+  for (const CommandPage& command : commands) {
+    names.clear();
+    for (const OptionPage& option : command.options)
+      names.insert(names.end(), option.names.begin(), option.names.end());
+    text += "      " + command.name + ") words='" + joined(names, " ") + "' ;;\n";
+  }
   return text + "      *) words='--help --version' ;;\n" + bash_end;
 }
 

@@ -49,16 +49,6 @@ std::array<double, 3> mean_light(const LinearImage& image, int x0, int y0, int x
   return sum;
 }
 
-/// Measures of a sheet, pixels.
-struct SheetLayout {
-  int gap, title, detail, cell_height;
-  explicit SheetLayout(const ScreenPicture& cell)
-      : gap(std::clamp(cell.width / 24, 10, 28)),
-        title(std::clamp(cell.width / 16, 17, 34)),
-        detail(std::clamp(cell.width / 20, 14, 26)),
-        cell_height(cell.height + gap / 2 + title + detail + gap) {}
-};
-
 }  // namespace
 
 Size sheet_cell(int width, int height, int columns) {
@@ -100,23 +90,24 @@ ScreenPicture on_sheet(const LinearImage& image, const Display& display, Size ce
 ScreenPicture contact_sheet(const std::vector<SheetPicture>& pictures, int columns, const std::string& heading,
                             const std::string& note) {
   const ScreenPicture& first = pictures.front().picture;
-  const SheetLayout layout(first);
-  const int rows = (static_cast<int>(pictures.size()) + columns - 1) / columns, gap = layout.gap;
-  const int head = layout.title + layout.detail + 2 * gap;
-  ScreenPicture sheet = blank(gap + columns * (first.width + gap), head + rows * layout.cell_height + gap / 2);
-  const Lettering title(layout.title), detail(layout.detail);
+  const int gap = std::clamp(first.width / 24, 10, 28), title_height = std::clamp(first.width / 16, 17, 34),
+            detail_height = std::clamp(first.width / 20, 14, 26);
+  const int rows = (static_cast<int>(pictures.size()) + columns - 1) / columns;
+  const int head = title_height + detail_height + 2 * gap, cell_height = first.height + gap / 2 + head - gap;
+  ScreenPicture sheet = blank(gap + columns * (first.width + gap), head + rows * cell_height + gap / 2);
+  const Lettering title(title_height), detail(detail_height);
   const int whole = sheet.width - 2 * gap;
   title.write(sheet, gap, gap, title.fitted(heading, whole), ink);
-  detail.write(sheet, gap, gap + layout.title + gap / 4, detail.fitted(note, whole), pale_ink);
+  detail.write(sheet, gap, gap + title_height + gap / 4, detail.fitted(note, whole), pale_ink);
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     const SheetPicture& one = pictures[i];
     const int x = gap + static_cast<int>(i) % columns * (first.width + gap);
-    const int y = head + static_cast<int>(i) / columns * layout.cell_height;
+    const int y = head + static_cast<int>(i) / columns * cell_height;
     copy(one.picture, sheet, x, y);
     if (one.marked) frame(sheet, x, y, first.width, first.height, std::max(2, gap / 8));
     const int line = y + first.height + gap / 2;
     title.write(sheet, x, line, title.fitted(one.title, first.width), ink);
-    detail.write(sheet, x, line + layout.title, detail.fitted(one.detail, first.width), pale_ink);
+    detail.write(sheet, x, line + title_height, detail.fitted(one.detail, first.width), pale_ink);
   }
   return sheet;
 }

@@ -77,27 +77,21 @@ KernelGain measure_kernel_gain(const PreparedScene& scene, const Kernels& kernel
   return result;
 }
 
-MethodGain measure_specular_gain(Scene scene, const std::string& isa) {
+MethodGain measure_method_gain(MisMethod method, Scene scene, const std::string& isa) {
   make_small(scene);
   const auto with = prepare(scene);
-  if (with->columns().specular.sphere.empty() && with->guide().lobes() == 0) return {};
-  scene.render.caustics = Caustics::scatter;
-  return measure(*with, *prepare(scene), isa);
-}
-
-MethodGain measure_splitting_gain(Scene scene, const std::string& isa) {
-  make_small(scene);
-  const auto with = prepare(scene);
-  if (!with->columns().splits_paths) return {};
-  return measure(*with, *prepare_without_splitting(scene), isa);
-}
-
-MethodGain measure_reuse_gain(Scene scene, const std::string& isa) {
-  make_small(scene);
-  const auto with = prepare(scene);
-  if (!with->reuses_paths()) return {};
-  scene.render.sharing = false;
-  return measure(*with, *prepare(scene), isa);
+  const bool specular = !with->columns().specular.sphere.empty() || with->guide().lobes() > 0;
+  switch (method) {
+    case MisMethod::specular:
+      scene.render.caustics = Caustics::scatter;
+      return specular ? measure(*with, *prepare(scene), isa) : MethodGain{};
+    case MisMethod::splitting:
+      return with->columns().splits_paths ? measure(*with, *prepare_without_splitting(scene), isa) : MethodGain{};
+    case MisMethod::sharing:
+      scene.render.sharing = false;
+      return with->reuses_paths() ? measure(*with, *prepare(scene), isa) : MethodGain{};
+  }
+  return {};
 }
 
 }  // namespace tyndall

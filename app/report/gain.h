@@ -29,15 +29,11 @@ struct MethodGain {
   double error = 1;       ///< estimated squared error at equal time over that without the method
 };
 
-/// Exact chains, against leaving their light to chance. Renders the scene with and without them in turns, as a small
-/// picture on one thread, for about two seconds. Where chance seldom finds the light, the error without chains is
-/// estimated too small, and the true gain is larger.
-MethodGain measure_specular_gain(Scene scene, const std::string& isa);
-
-/// Both ways at smooth glass that the camera sees (core/transport/splitting.h), likewise.
-MethodGain measure_splitting_gain(Scene scene, const std::string& isa);
-
-/// Sharing of second vertices between pixels, likewise.
-MethodGain measure_reuse_gain(Scene scene, const std::string& isa);
+/// Exact chains, against leaving their light to chance; both ways at smooth glass that the camera sees
+/// (core/transport/splitting.h); sharing of second vertices between pixels.
+enum class MisMethod { specular, splitting, sharing };
+/// Renders the scene with and without the method in turns, as a small picture on one thread, for about two seconds.
+/// Where chance seldom finds the light, the error without chains is estimated too small, and the true gain is larger.
+MethodGain measure_method_gain(MisMethod method, Scene scene, const std::string& isa);
 
 }  // namespace tyndall

@@ -22,41 +22,32 @@ std::array<std::string_view, 5> dots_of(char sign) {
   return {"   ", "   ", "   ", "   ", " # "};
 }
 
-class Canvas {
- public:
-  explicit Canvas(LinearImage& image) : image_(image) {}
-  void set(int x, int y, const std::array<float, 3>& colour) {
-    if (x < 0 || x >= image_.width || y < 0 || y >= image_.height) return;
-    const auto at =
-        3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) + static_cast<std::size_t>(x));
-    std::copy(colour.begin(), colour.end(), image_.rgb.begin() + static_cast<std::ptrdiff_t>(at));
-  }
-  void write(int left, int top, std::string_view text) {
-    for (const char sign : text) {
-      const auto rows = dots_of(sign);
-      for (int y = 0; y < 5 * dot; ++y)
-        for (int x = 0; x < 3 * dot; ++x)
-          if (rows[static_cast<std::size_t>(y / dot)][static_cast<std::size_t>(x / dot)] == '#')
-            set(left + x, top + y, {0.8f, 0.8f, 0.8f});
-      left += 4 * dot;
-    }
-  }
+void set(LinearImage& image, int x, int y, const std::array<float, 3>& colour = {0.8f, 0.8f, 0.8f}) {
+  if (x < 0 || x >= image.width || y < 0 || y >= image.height) return;
+  std::copy(colour.begin(), colour.end(), image.rgb.begin() + 3 * (std::ptrdiff_t{y} * image.width + x));
+}
 
- private:
-  LinearImage& image_;
-};
+void write(LinearImage& image, int left, int top, std::string_view text) {
+  for (const char sign : text) {
+    const auto rows = dots_of(sign);
+    for (int y = 0; y < 5 * dot; ++y)
+      for (int x = 0; x < 3 * dot; ++x)
+        if (rows[static_cast<std::size_t>(y / dot)][static_cast<std::size_t>(x / dot)] == '#')
+          set(image, left + x, top + y);
+    left += 4 * dot;
+  }
+}
 
 int width_of(std::string_view text) { return (4 * static_cast<int>(text.size()) - 1) * dot; }
 
 void draw_scale(LinearImage& image, int top) {
-  Canvas canvas(image);
   const int last = image.width - 1;
   for (int y = 0; y < bar; ++y)
     for (int x = 0; x <= last; ++x)
-      canvas.set(x, top + gap + y, heat(static_cast<float>(x) / static_cast<float>(std::max(last, 1))));
+      set(image, x, top + gap + y, heat(static_cast<float>(x) / static_cast<float>(std::max(last, 1))));
   const auto label = [&](int x, int left, std::string_view text) {
-    for (int y = 0; y < mark; ++y) canvas.set(x, top + gap + bar + y, {0.8f, 0.8f, 0.8f});
-    canvas.write(left, top + gap + bar + mark + 1, text);
+    for (int y = 0; y < mark; ++y) set(image, x, top + gap + bar + y);
+    write(image, left, top + gap + bar + mark + 1, text);
   };
   label(0, 0, "0");
   if (last > 80) label(last / 2, last / 2 - width_of("0.5") / 2, "0.5");

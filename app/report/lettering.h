@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -7,6 +8,11 @@
 
 /// Text in pictures.
 namespace tyndall {
+
+/// A font file's path in the first folder that has it, of those of Debian, Arch, Fedora and the user; "" if none has.
+std::string find_font(const std::string& file);
+/// The code of the character at a byte of a UTF-8 text, and the place of the next one; 0xfffd for what is broken.
+unsigned next_character(const std::string& text, std::size_t& at);
 
 /// A picture as a screen shows it: 8-bit sRGB, 3 bytes a pixel, top row first.
 struct ScreenPicture {

@@ -36,11 +36,6 @@ const char* fate_text(Fate fate) {
   return "";
 }
 
-std::string what_is_met(const Scene& scene, const RenderScene& compiled, const PathVertex& v) {
-  if (v.met != Met::medium) return object_text(scene, compiled.object_of(v.element));
-  return "the medium " + object_text(scene, media_of(scene)[static_cast<std::size_t>(v.medium)]);
-}
-
 double luminance(Vec3f light) {
   const double sum = 0.2126 * static_cast<double>(light.x) + 0.7152 * static_cast<double>(light.y) +
                      0.0722 * static_cast<double>(light.z);
@@ -51,7 +46,11 @@ double luminance(Vec3f light) {
 std::string vertex_text(const Scene& scene, const RenderScene& compiled, const PathVertex& vertex) {
   std::string fate = fate_text(vertex.fate);
   if (vertex.met == Met::nothing) return fate;
-  return what_is_met(scene, compiled, vertex) + ", " + fate + (vertex.inside ? " on its inner side" : "");
+  const std::string met =
+      vertex.met == Met::medium
+          ? "the medium " + object_text(scene, media_of(scene)[static_cast<std::size_t>(vertex.medium)])
+          : object_text(scene, compiled.object_of(vertex.element));
+  return met + ", " + fate + (vertex.inside ? " on its inner side" : "");
 }
 
 std::string heading(const Scene& scene, const RenderScene& compiled, const PathVertex& v) {
@@ -133,8 +132,7 @@ std::vector<PathStop> stops_of(const Scene& scene, const RenderScene& compiled, 
     PathStop stop;
     stop.before = v.before;
     stop.away = v.met == Met::nothing;
-    const Vec3f at = stop.away ? v.direction : v.point;
-    stop.point = Vec3d{at.x, at.y, at.z} + (stop.away ? Vec3d{} : compiled.origin);
+    stop.point = stop.away ? exact(v.direction) : exact(v.point) + compiled.origin;
     const bool continues = v.before >= 0 && !v.branch;
     const Vec3f gained =
         v.radiance - (continues ? path.vertices[static_cast<std::size_t>(v.before)].radiance : Vec3f{});

@@ -1,6 +1,11 @@
 #include "app/text/markup.h"
 
+#include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/scene/load.h"
+
+#include <fstream>
+#include <iterator>
 
 namespace tyndall {
 namespace {
@@ -37,6 +42,22 @@ std::string in_shell(std::string_view text) {
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
+}
+
+std::string from_template(const std::string& file, const std::vector<std::pair<std::string, std::string>>& texts) {
+  const std::filesystem::path place = assets_folder() / "templates" / file;
+  std::ifstream in(place, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(in)), {});
+  std::size_t at = 0;
+  for (const auto& [name, replacement] : texts) {
+    const std::string mark = "{{" + name + "}}";
+    at = text.find(mark, at);
+    if (at == std::string::npos)
+      throw IoError(place.string() + ": found no " + mark + ", expected the template that belongs to this program");
+    text.replace(at, mark.size(), replacement);
+    at += replacement.size();
+  }
+  return text;
 }
 
 }  // namespace tyndall

@@ -1,6 +1,8 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 /// Text as other formats quote it. In pages and reports that are made of tags: whatever it is, also the name of a file,
 /// they stay well-formed. What neither XML nor HTML can hold, control characters and bytes that are not UTF-8, becomes
@@ -15,5 +17,9 @@ std::string in_html(std::string_view text);
 std::string in_csv(const std::string& text);
 /// As one word of a shell's command line, in single quotes.
 std::string in_shell(std::string_view text);
+
+/// The text of a file in assets/templates, with a text in the place of each {{name}}, in the order in which these stand
+/// there. Throws IoError if the file is not there, or lacks a name.
+std::string from_template(const std::string& file, const std::vector<std::pair<std::string, std::string>>& texts);
 
 }  // namespace tyndall

@@ -56,6 +56,29 @@ std::filesystem::path read_file_name(const std::string& text, const std::string&
 /// The index of text in names. The message of a near miss suggests what was meant.
 std::size_t read_name(const std::string& text, const std::vector<std::string>& names);
 
+/// A value of the scene by its JSON pointer, and what it is to be in turn in a sweep, each as --set takes it.
+struct SweepAxis {
+  std::string pointer;
+  std::vector<std::string> values;
+};
+inline constexpr int max_sweep_steps = 10000;
+/// POINTER=FROM:TO:STEPS, POINTER=[0,0.1,0.5] or POINTER=gold,glass.
+SweepAxis read_sweep_axis(const std::string& text);
+
+/// A name of the files that one command writes many of, with a place for what differs from file to file: "f/%04d.png"
+/// has a number in it, "f/%v.exr" a value; %% stands for %.
+struct NamePattern {
+  std::string before, after;  ///< what stands around the place
+  int digits = 0;             ///< least number of digits, filled up with zeros; of a number
+};
+/// Reads a name with one %d, as %04d or %d.
+NamePattern read_numbered_name(const std::string& text);
+/// The same with one %v.
+NamePattern read_valued_name(const std::string& text);
+std::string name_for(const NamePattern& pattern, int number);
+/// Slashes in the value become _.
+std::string name_for(const NamePattern& pattern, std::string value);
+
 /// The text in lines of at most that many bytes, broken at spaces. Longer words, and what stands in [brackets], are not
 /// broken.
 std::string wrapped(const std::string& text, std::size_t columns);

@@ -5,7 +5,6 @@
 #include "app/files/outputs.h"
 #include "app/files/watched_function.h"
 #include "app/text/standard_streams.h"
-#include "app/watch/host.h"
 #include "app/window/window.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -18,17 +17,87 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cfenv>
+#include <clocale>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <memory>
 #include <string>
 
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
+
 /// The library for programs of others: what <tyndall/watch.h> promises, by the parts of the program.
 namespace tyndall {
 namespace {
 
 constexpr const char* no_window = "; with the option output the picture is written to a file, without a window";
+
+/// Whether denormal numbers are taken for 0, as programs compiled with -ffast-math ask for.
+bool flushes_to_zero() {
+#ifdef __SSE2__
+  constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x40;
+  return (_mm_getcsr() & (flush_to_zero | denormals_are_zero)) != 0;
+#else
+  return false;
+#endif
+}
+
+/// While it lives, this thread and those that it starts compute as the IEEE standard says and as pictures need it:
+/// rounding to nearest, with denormal numbers, without traps. In the end all is as it was: a program that was compiled
+/// with -ffast-math has no denormal numbers, others may round otherwise. Also restores the locale's character type,
+/// which the window system sets.
+class Host {
+ public:
+  using Function = void (*)(void* user, double x, double y, std::uint64_t sample, double rgb[3]);
+
+  /// The program's function, and its first argument.
+  Host(Function called, void* argument);
+  ~Host();
+  Host(const Host&) = delete;
+  Host& operator=(const Host&) = delete;
+
+  /// What calls the program's function with the program's own arithmetic, and its first argument. From any thread.
+  Function function() const;
+  void* user();
+
+ private:
+  Function called_;
+  void* argument_;
+  bool differs_ = false;  ///< in arithmetic
+  std::fenv_t arithmetic_{};
+  std::string character_type_;
+};
+
+Host::Host(Function called, void* argument)
+    : called_(called), argument_(argument), differs_(std::fegetround() != FE_TONEAREST || flushes_to_zero()) {
+  const char* name = std::setlocale(LC_CTYPE, nullptr);
+  character_type_ = name ? name : "C";
+  std::fegetenv(&arithmetic_);
+  std::fesetenv(FE_DFL_ENV);
+}
+
+Host::~Host() {
+  std::fesetenv(&arithmetic_);
+  std::setlocale(LC_CTYPE, character_type_.c_str());
+}
+
+void* Host::user() { return differs_ ? this : argument_; }
+
+Host::Function Host::function() const {
+  if (!differs_) return called_;
+  return [](void* user, double x, double y, std::uint64_t sample, double rgb[3]) {
+    struct Back {
+      ~Back() { std::fesetenv(FE_DFL_ENV); }
+    } back;
+    const Host& host = *static_cast<const Host*>(user);
+    std::fesetenv(&host.arithmetic_);
+    host.called_(host.argument_, x, y, sample, rgb);
+  };
+}
 
 /// What the caller wants, checked and complete.
 struct Order {

@@ -2,8 +2,8 @@
 
 #include "core/image/image_io_file.h"
 #include "core/system/files.h"
-#include "core/system/mounts.h"
 #include "core/system/open_file.h"
+#include "core/system/process.h"
 
 #include <cerrno>
 #include <system_error>

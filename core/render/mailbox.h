@@ -1,7 +1,7 @@
 #pragma once
-#include "core/base/stoppable.h"
 #include "core/render/prepare.h"
 #include "core/render/render_request.h"
+#include "core/system/locks.h"
 
 #include <atomic>
 #include <chrono>

@@ -216,13 +216,13 @@ class Child {
 
   /// Until it has ended, or is to be ended.
   void follow(ChildEnd& end) {
-    const Clock::time_point deadline = in(plan_.seconds);
+    const Clock::time_point start = Clock::now();
     int waits = 0;  // how often in a row it was seen to wait for input
     while (!collect(end)) {
       take(end, 20);
       waits = awaits_input(program_) ? waits + 1 : 0;
       end.given_up = plan_.go_on && !plan_.go_on();
-      end.timed_out = Clock::now() > deadline;
+      end.timed_out = std::chrono::duration<double>(Clock::now() - start).count() > plan_.seconds;
       end.awaited_input = waits > 5;
       if (end.ended()) return;
     }
@@ -238,9 +238,6 @@ class Child {
   }
 
  private:
-  static Clock::time_point in(double seconds) {
-    return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-  }
   bool collect(ChildEnd& end) {
     int status = 0;
     if (waitpid(supervisor_, &status, WNOHANG) != supervisor_) return false;

@@ -5,8 +5,8 @@
 
 #include <chrono>
 #include <mutex>
+#include <optional>
 #include <system_error>
-#include <thread>
 #include <utility>
 
 namespace tyndall {
@@ -31,16 +31,14 @@ struct FileWatch::State {
   std::function<void()> on_change;
   std::vector<FileTrace> seen;
   Mutex mutex;
-  Condition wake;
-  bool leaves = false;  ///< guarded by the mutex
-  std::thread thread;
+  StoppableCondition wake;
+  std::optional<StoppableThread> thread;  // declared last, because it uses the others
 
-  void look_on() {
+  void look_on(const StopToken& stop) {
     int moments = 0;  // since a change that was not told of yet; 0: there is none
-    for (std::unique_lock lock(mutex); !leaves;) {
-      wake.wait_for(lock, moments > 0 ? settling : look_interval, [this] { return leaves; });
-      if (leaves) return;
-      lock.unlock();
+    for (std::unique_lock lock(mutex);;) {
+      wake.wait_for(lock, stop, moments > 0 ? settling : look_interval, [] { return false; });
+      if (stop.stop_requested()) return;
       std::vector<FileTrace> now = traces_of(files);
       const bool changed = now != std::exchange(seen, now);
       if (moments > 0 && (!changed || moments >= longest_patience)) {
@@ -49,7 +47,6 @@ struct FileWatch::State {
       } else if (changed) {
         ++moments;
       }
-      lock.lock();
     }
   }
 };
@@ -60,16 +57,9 @@ FileWatch::FileWatch(const std::vector<fs::path>& files, std::function<void()> o
   for (const fs::path& file : files) state_->files.push_back(fs::absolute(file, error));
   state_->on_change = std::move(on_change);
   state_->seen = traces_of(state_->files);
-  state_->thread = std::thread([state = state_.get()] { state->look_on(); });
+  state_->thread.emplace([state = state_.get()](const StopToken& stop) { state->look_on(stop); });
 }
 
-FileWatch::~FileWatch() {
-  {
-    const std::lock_guard lock(state_->mutex);
-    state_->leaves = true;
-  }
-  state_->wake.notify_all();
-  state_->thread.join();
-}
+FileWatch::~FileWatch() = default;
 
 }  // namespace tyndall

@@ -27,7 +27,6 @@ class Guard {
  public:
   /// folder: a whole path without links. What needs memory is done here, before fork().
   Guard(const GuardLayers& layers, std::string folder);
-  bool acts() const { return layers_.any(); }
   /// Enters the namespaces, if that layer acts. All processes that this process starts from then on end when it ends,
   /// or closes `life`. It keeps the rights over the namespaces itself, so it must not run foreign code.
   int enter_namespaces(int& life) const;

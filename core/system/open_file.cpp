@@ -53,11 +53,6 @@ std::string error_text(int number) { return std::generic_category().message(numb
 OpenFile::OpenFile(const std::filesystem::path& file, OpenFor purpose, unsigned mode)
     : descriptor_(open(file.c_str(), flags_of(purpose) | O_CLOEXEC, mode)), error_(descriptor_ < 0 ? errno : 0) {}
 
-OpenFile& OpenFile::operator=(OpenFile&& other) noexcept {
-  std::swap(descriptor_, other.descriptor_), std::swap(error_, other.error_);
-  return *this;
-}
-
 OpenFile OpenFile::copy_of_standard_output() {
   OpenFile file(fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3));
   if (!file) file.error_ = errno;
@@ -159,12 +154,6 @@ Bell::Bell() {
 void Bell::ring() const {
   constexpr char byte = 0;
   [[maybe_unused]] const auto written = write(rung_.descriptor(), &byte, 1);
-}
-
-void Bell::wait() const {
-  char byte = 0;
-  std::size_t got = 0;
-  heard_.read(&byte, 1, got);
 }
 
 Bell::Woken Bell::wait_for(int file, double seconds) const {

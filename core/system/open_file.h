@@ -36,7 +36,10 @@ class OpenFile {
   /// error() says whether it could be opened. mode: of a file that is made.
   OpenFile(const std::filesystem::path& file, OpenFor purpose, unsigned mode = 0666);
   OpenFile(OpenFile&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)), error_(other.error_) {}
-  OpenFile& operator=(OpenFile&& other) noexcept;
+  OpenFile& operator=(OpenFile&& other) noexcept {
+    std::swap(descriptor_, other.descriptor_), std::swap(error_, other.error_);
+    return *this;
+  }
   ~OpenFile() { close(); }
 
   /// Standard output under a number of its own, and a temporary file without a name.
@@ -80,7 +83,11 @@ class Bell {
   bool ready() const { return static_cast<bool>(heard_); }
   void ring() const;
   /// Until it rings.
-  void wait() const;
+  void wait() const {
+    char byte = 0;
+    std::size_t got = 0;
+    heard_.read(&byte, 1, got);
+  }
   /// What ends the waiting for a file's next bytes.
   enum class Woken { by_bytes, by_bell, by_time };
   /// seconds: that it waits at most; < 0: as long as it takes.

@@ -96,11 +96,6 @@ OpenFile::OpenFile(const std::filesystem::path& file, OpenFor purpose, unsigned)
   descriptor_ = open_for_all(file, access_of(purpose), disposition, attributes, flags, error_);
 }
 
-OpenFile& OpenFile::operator=(OpenFile&& other) noexcept {
-  std::swap(descriptor_, other.descriptor_), std::swap(error_, other.error_);
-  return *this;
-}
-
 OpenFile OpenFile::copy_of_standard_output() {
   OpenFile file(_dup(standard_output));
   if (!file) file.error_ = errno;
@@ -186,12 +181,6 @@ Bell::Bell() {
 void Bell::ring() const {
   constexpr char byte = 0;
   [[maybe_unused]] const auto written = _write(rung_.descriptor(), &byte, 1);
-}
-
-void Bell::wait() const {
-  char byte = 0;
-  std::size_t got = 0;
-  heard_.read(&byte, 1, got);
 }
 
 Bell::Woken Bell::wait_for(int file, double seconds) const {

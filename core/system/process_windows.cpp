@@ -79,6 +79,10 @@ void ask_for_large_pages(void*, std::size_t) {}  // only for accounts with a pri
 
 std::uint64_t limit_of(Limit) { return no_limit; }
 
+std::vector<Mount> mounts(const std::filesystem::path&) { return {}; }
+bool is_mount_point(const std::filesystem::path&) { return false; }
+std::vector<std::filesystem::path> cgroup_folders(const std::string&, const std::filesystem::path&) { return {}; }
+
 /// What may still be committed: more than that is refused at once, not when it is touched.
 FreeMemory free_memory(const std::filesystem::path&) {
   MEMORYSTATUSEX status{};

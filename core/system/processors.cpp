@@ -1,6 +1,6 @@
 #include "core/system/processors.h"
 
-#include "core/system/mounts.h"
+#include "core/system/process.h"
 
 #ifdef __linux__
 #include <sched.h>

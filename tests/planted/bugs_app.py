@@ -6,7 +6,7 @@ APP = [
     ("a line end in CSV without quotes", "app/text/markup.cpp", "if (text.find_first_of(«\",\\\"\\r\\n\" → \",\\\"\\r\"»)", "app/text/markup"),
     ("an empty range of samples is taken", "app/text/values.cpp", "«range.first >= range.last → range.first > range.last»)\n"
      "    refuse(text, \"A:B with whole numbers 0 <= A < B, such as 0:64\")", "app/text/values"),
-    ("a value with a slash names a folder", "app/text/name_pattern.cpp", "«std::replace(value.begin(), value.end(), '/', '_'); → »", "app/text/name_pattern"),
+    ("a value with a slash names a folder", "app/text/values.cpp", "«std::replace(value.begin(), value.end(), '/', '_'); → »", "app/text/name_pattern"),
     ("minutes above an hour are counted again", "app/text/progress.cpp", "whole / 3600, «whole / 60 % 60 → whole / 60», whole % 60", "app/text/progress"),
 
     ("last words that end in empty lines are lost", "app/book/load_program.cpp",
@@ -22,7 +22,7 @@ APP = [
 
     ("a checkpoint forgets its first sample", "app/files/checkpoint.cpp", ".first_sample = «film.first_sample → 0u»,", "app/files/checkpoint"),
     ("a problem of checkpoints is told each time", "app/files/checkpoint.cpp", "«if (problem == last_problem_) return; → »", "app/files/checkpoint"),
-    ("steps between values that miss the last one by one", "app/files/sweep_values.cpp", "static_cast<double>(i) / («steps - 1 → steps»);", "app/files/sweep_values"),
+    ("steps between values that miss the last one by one", "app/text/values.cpp", "static_cast<double>(i) / («steps - 1 → steps»);", "app/text/sweep_values"),
     ("a byte order mark hides a scene", "app/files/arriving_picture.cpp",
      "«if (rest.starts_with(mark)) rest.remove_prefix(mark.size()); → »", "app/files/arriving_picture"),
     ("one file is written twice", "app/files/outputs.cpp", "if («twin != output → false») throw UsageError", "app/files/outputs commands/refusals"),
@@ -193,7 +193,7 @@ APP = [
     ("variances pass as errors", "app/comparison/pair.cpp", "if («squared → false»)\n", "app/max_z.sh"),
 
     ("failed samples are no failure", "app/watch/watch.cpp", "return tell_failures(*order.function) ? «1 → 0» : 0;", "app/watch.sh"),
-    ("the caller's rounding is lost", "app/watch/host.cpp", "Host::~Host() {\n  «std::fesetenv(&arithmetic_); → »", "app/watch.sh"),
+    ("the caller's rounding is lost", "app/watch/watch.cpp", "Host::~Host() {\n  «std::fesetenv(&arithmetic_); → »", "app/watch.sh"),
     ("a seed is not handed on", "app/watch/watch.cpp", "«scene.render.seed = options.seed; → »", "app/watch.sh"),
     ("more samples than there can be are taken", "app/watch/watch.cpp",
      "«if (options.spp > max_samples) refuse(fmt::format(\"spp: found {}, expected at most {}\", options.spp, max_samples)); → »", "app/watch.sh"),

@@ -192,6 +192,6 @@ CORE = [
     ("a quota of one and a half processors is one", "core/system/processors.cpp", "time / period + «(time % period > 0) → 0»;", "system/processors"),
     ("the widest quota counts", "core/system/processors.cpp", "minimum = «std::min(*quota, minimum.value_or(*quota)) → "
      "std::max(*quota, minimum.value_or(*quota))»;", "system/processors"),
-    ("places with spaces are not found", "core/system/mounts.cpp", "«if (code) i += 3; → »", "system/processors"),
+    ("places with spaces are not found", "core/system/process.cpp", "«if (code) i += 3; → »", "system/processors"),
     ("a change of a file is not told of", "core/system/file_watch.cpp", "moments = 0;\n        «on_change(); → »", "system/file_watch"),
 ]

@@ -1,6 +1,6 @@
 #include "core/system/processors.h"
 #include "core/base/thread_pool.h"
-#include "core/system/mounts.h"
+#include "core/system/process.h"
 #include "tests/support/scratch.h"
 
 #include <doctest/doctest.h>

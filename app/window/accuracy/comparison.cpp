@@ -1,7 +1,6 @@
 #include "app/window/accuracy/comparison.h"
 
 #include "app/comparison/comparison.h"
-#include "app/comparison/pair.h"
 #include "app/report/heat_map.h"
 #include "app/text/numbers.h"
 #include "app/window/picture/display.h"

@@ -2,6 +2,7 @@
 #include "app/window/document/document.h"
 #include "app/window/document/job_queue.h"
 #include "core/scene/load.h"
+#include "core/system/locks.h"
 #include "core/system/open_file.h"
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/base/stoppable.h"
+#include "core/system/locks.h"
 
 #include <chrono>
 #include <deque>

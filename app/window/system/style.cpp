@@ -1,6 +1,6 @@
 #include "app/window/system/style.h"
 
-#include "app/text/fonts.h"
+#include "app/report/lettering.h"
 #include "core/system/files.h"
 
 #include <filesystem>

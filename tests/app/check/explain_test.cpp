@@ -18,7 +18,7 @@ BookProgramPlan planted(Plant plant, int samples = 40) {
 }
 
 bool has_choice(const Findings& verdict, const std::string& name) {
-  for (const Explanation& choice : verdict.choices)
+  for (const Difference& choice : verdict.choices)
     if (choice.name == name) return true;
   return false;
 }
@@ -95,7 +95,7 @@ TEST_CASE("check: no mistake is named where there was no time to try them all, a
   const PictureNumbers picture = numbers_of_bytes(scene.width, scene.height, book_picture(scene, plan));
   LinearImage light{picture.width, picture.height, picture.numbers};
   for (float& value : light.rgb) value *= value;
-  const Reference reference = render_reference(scene, light, {0, 64}, [] { return true; });
+  const Reference reference = render_reference(scene, light, 0, 64, [] { return true; });
   const Findings verdict = explain(picture, scene, reference, {5, 8}, [] { return false; });
   CHECK_FALSE(verdict.agrees);
   CHECK_FALSE(verdict.mistake);

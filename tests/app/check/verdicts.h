@@ -29,7 +29,7 @@ inline Findings verdict_of(const Scene& scene, const PictureNumbers& picture, st
   const auto always = [] { return true; };
   LinearImage light{picture.width, picture.height, picture.numbers};
   for (float& value : light.rgb) value *= value;
-  const Reference reference = render_reference(scene, light, {endless, spp}, always);
+  const Reference reference = render_reference(scene, light, endless, spp, always);
   return explain(picture, scene, reference, {endless, 24}, always);
 }
 inline Findings verdict_of(const Scene& scene, const BookProgramPlan& plan, std::uint32_t spp) {

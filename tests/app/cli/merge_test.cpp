@@ -1,4 +1,4 @@
-#include "app/cli/commands.h"
+#include "app/cli/requests.h"
 #include "core/image/image_io.h"
 #include "core/scene/json.h"
 #include "tests/support/scratch.h"

@@ -51,8 +51,8 @@ TEST_CASE("programs: more source files and folders of headers, and leave to comp
       read_command({"render", "main.cc", "-I", "a", "b.cpp", "c.cxx", "-Id", "--include", "e", "-o", "x.png"}));
   const ProgramParts& parts = render.scene.program;
   CHECK(render.scene.what == "main.cc");
-  CHECK(parts.more_files == std::vector<std::filesystem::path>{"b.cpp", "c.cxx"});
-  CHECK(parts.include_folders == std::vector<std::filesystem::path>{"a", "d", "e"});
+  CHECK(parts.sources.files == std::vector<std::filesystem::path>{"b.cpp", "c.cxx"});
+  CHECK(parts.sources.include_folders == std::vector<std::filesystem::path>{"a", "d", "e"});
   CHECK(parts.allowed);
   CHECK(std::get<CommandRequest>(read_command({"main.cc"})).scene.program.allowed);
   CHECK_FALSE(std::get<CommandRequest>(read_command({})).scene.program.allowed);

@@ -1,7 +1,5 @@
 #ifdef TYNDALL_OPENEXR
 
-#include "app/comparison/pair.h"
-
 #include "app/comparison/baseline.h"
 #include "app/text/values.h"
 #include "core/image/image_io.h"

@@ -1,4 +1,4 @@
-#include "app/curves/measure.h"
+#include "app/curves/chart.h"
 #include "core/scene/load.h"
 
 #include <doctest/doctest.h>

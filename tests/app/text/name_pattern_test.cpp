@@ -1,4 +1,4 @@
-#include "app/text/name_pattern.h"
+#include "app/text/values.h"
 
 #include "core/base/error.h"
 

@@ -1,4 +1,4 @@
-#include "app/text/templates.h"
+#include "app/text/markup.h"
 #include "core/base/error.h"
 
 #include <doctest/doctest.h>

@@ -1,4 +1,4 @@
-#include "app/files/sweep_values.h"
+#include "app/text/values.h"
 
 #include "core/base/error.h"
 
