@@ -11,11 +11,6 @@
 #include <string_view>
 
 namespace tyndall {
-
-std::uint32_t get_u32(std::span<const std::uint8_t> from) {
-  return std::uint32_t{from[0]} << 24 | std::uint32_t{from[1]} << 16 | std::uint32_t{from[2]} << 8 | from[3];
-}
-
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -66,12 +61,12 @@ struct Chunk {
 /// The chunk that begins at `at`, which then is where the next one begins; nothing if the file ends within it.
 std::optional<Chunk> take_chunk(std::span<const std::uint8_t> png, std::size_t& at) {
   if (png.size() - at < 12) return {};
-  const std::size_t length = get_u32(png.subspan(at));
+  const std::size_t length = high_first(png, at, 4);
   if (length > png.size() - at - 12) return {};
   const auto checked = png.subspan(at + 4, length + 4);
   at += length + 12;
   return Chunk{
-      {reinterpret_cast<const char*>(checked.data()), 4}, checked, checked.subspan(4), get_u32(png.subspan(at - 4))};
+      {reinterpret_cast<const char*>(checked.data()), 4}, checked, checked.subspan(4), high_first(png, at - 4, 4)};
 }
 
 /// The text in the data of an iTXt chunk, if the chunk has that keyword.
@@ -118,10 +113,7 @@ void write_png(const std::filesystem::path& file, const LinearImage& image, doub
 }
 
 void check_png(const std::filesystem::path& file, std::span<const std::uint8_t> png) {
-  std::size_t at = signature_size;
-  while (const auto chunk = take_chunk(png, at))
-    if (chunk->type == "IEND") return;
-  cannot_read(file, "damaged: the PNG ends in the middle");
+  if (!png_chunk(png, "IEND")) cannot_read(file, "damaged: the PNG ends in the middle");
 }
 
 std::optional<std::span<const std::uint8_t>> png_chunk(std::span<const std::uint8_t> png, std::string_view type) {

@@ -3,7 +3,6 @@
 // decoder does not look at checksums, its JPEG decoder writes past a damaged Huffman table, and its HDR decoder loops
 // forever on a file that is cut off.
 #include "core/image/image_io_file.h"
-#include "core/image/picture_file.h"
 
 #include <cstddef>
 #include <cstdlib>

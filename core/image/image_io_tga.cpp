@@ -1,5 +1,4 @@
 #include "core/image/image_io_file.h"
-#include "core/image/picture_file.h"
 
 #include <cmath>
 #include <string_view>
