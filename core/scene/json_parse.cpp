@@ -1,5 +1,4 @@
 #include "core/base/text.h"
-#include "core/scene/check.h"
 #include "core/scene/json.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/place.h"

@@ -39,10 +39,6 @@ Transform read_transform(const JsonObject& object, const Place& at) {
   return transform;
 }
 
-void read_name_of(const JsonObject& object, const Place& at, std::string& name) {
-  if (const JsonValue* json = find(object, "name")) name = string_at(*json, {at, "name"}, "a text (the object's name)");
-}
-
 bool read_solid(const JsonObject& json, const Place& at, std::string_view type, const NameTables& references,
                 Object& object) {
   Solid3d solid;
@@ -62,12 +58,9 @@ void read_boundary(const JsonObject& medium, const Place& at, Volume& volume) {
   const JsonObject& object = object_at(member_at(medium, at, "boundary", expected), here, expected);
   if (find(object, "material"))
     fail({here, "material"}, "a material", "none: a boundary has no surface (add an object of the same shape for one)");
-  using Kinds = decltype(volume.boundary);
-  const std::string_view type = type_at(object, here, type_names<Kinds>);
-  const bool known = read_kind(type, volume.boundary, [&]<class T>(T& shape) {
+  read_kind(object, here, volume.boundary, [&]<class T>(T& shape) {
     read_fields(object, here, fields_of<T>(), {"type", "transform"}, shape);
   });
-  if (!known) fail_type(here, type, type_names<Kinds>());
   volume.boundary_transform = read_transform(object, here);
 }
 
@@ -101,7 +94,8 @@ void read_object(const JsonValue& json, const Place& at, const NameTables& refer
   } else if (!read_solid(members, at, type, references, object)) {
     fail_type(at, type, object_types());
   }
-  read_name_of(members, at, object.name);
+  if (const JsonValue* name = find(members, "name"))
+    object.name = string_at(*name, {at, "name"}, "a text (the object's name)");
   object.transform = read_transform(members, at);
 }
 
