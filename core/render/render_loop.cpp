@@ -216,8 +216,9 @@ void RenderLoop::publish() {
   const Clock::time_point start = Clock::now();
   const View view = request_.wanted.view;
   frame->clean = clean_.latest();
+  if (view != View::beauty && picture_.taken() > 0)
+    views_.draw(View::beauty, picture_, nullptr, engine(), mail_.give_up(), frame->beauty);
   frame->grid = views_.draw(view, picture_, frame->clean.get(), engine(), mail_.give_up(), frame->rgba);
-  if (view != View::beauty && picture_.taken() > 0) beauty_rgba(picture_.film(), *thread_pool_, frame->beauty);
   const Clock::time_point drawn = Clock::now();
   first_pictures_.note_drawing(seconds_between(start, drawn));
   if (!first_picture_ms_) first_picture_ms_ = 1000 * seconds_between(shown_.submitted, drawn);
