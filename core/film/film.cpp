@@ -30,15 +30,9 @@ Film make_film(int width, int height, Region region, std::uint32_t first_sample,
   assert(0 <= region.x0 && region.x0 < region.x1 && region.x1 <= width);
   assert(0 <= region.y0 && region.y0 < region.y1 && region.y1 <= height);
   assert(quantum > 0);
-  Film film{.width = width,
-            .height = height,
-            .region = region,
-            .first_sample = first_sample,
-            .quantum = quantum,
-            .cut_throughput = {},
-            .pixels = {},
-            .emission = {},
-            .planned = {}};
+  Film film;
+  film.width = width, film.height = height, film.region = region;
+  film.first_sample = first_sample, film.quantum = quantum;
   film.pixels.resize(static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height()));
   if (emission) film.emission.resize(film.pixels.size());
   return film;

@@ -43,14 +43,6 @@ void put_text(Bytes& to, std::string_view keyword, const std::string& text) {
   put_chunk(to, "iTXt", {keyword, std::string_view("\0\0\0\0\0", 5), text});
 }
 
-Bytes checked_png(const std::filesystem::path& file, const LinearImage& image, const Bytes& rgb) {
-  const std::int64_t row = std::int64_t{3} * image.width;
-  if ((row + 1) * image.height > std::numeric_limits<int>::max() / 2) cannot_write(file, "too many pixels for PNG");
-  Bytes png = encode_png(image.width, image.height, rgb.data());
-  if (png.size() < header_end) throw std::bad_alloc();
-  return png;
-}
-
 /// A chunk of a PNG.
 struct Chunk {
   std::string_view type;
@@ -92,9 +84,12 @@ std::optional<std::string> text_of(const std::filesystem::path& file, const Chun
 Bytes png_bytes(const std::filesystem::path& name, const LinearImage& image, double exposure, ToneMap curve,
                 const Embedded& embedded, std::optional<DitherOrigin> dither) {
   check_writable(name, image);
-  Bytes png = checked_png(name, image,
-                          dither ? tone_map_dithered(image.rgb, exposure, curve, image.width, *dither)
-                                 : tone_map(image.rgb, exposure, curve));
+  const std::int64_t row = std::int64_t{3} * image.width;
+  if ((row + 1) * image.height > std::numeric_limits<int>::max() / 2) cannot_write(name, "too many pixels for PNG");
+  const Bytes rgb = dither ? tone_map_dithered(image.rgb, exposure, curve, image.width, *dither)
+                           : tone_map(image.rgb, exposure, curve);
+  Bytes png = encode_png(image.width, image.height, rgb.data());
+  if (png.size() < header_end) throw std::bad_alloc();
   Bytes extra;
   put_chunk(extra, "sRGB", {std::string_view("\0", 1)});  // rendering intent: perceptual
   put_text(extra, "tyndall:scene", embedded.scene);

@@ -52,7 +52,8 @@ void RenderLoop::go_on() {
   if (stalled_) return;
   const std::uint32_t limit = request_.limit();
   if (unfinished(limit) && run_pass(limit)) finish_pass();
-  if (clean_is_due() && !mail_.give_up()) make_clean();
+  // An urgent request interrupts the filter; it is tried again later.
+  if (clean_is_due() && !mail_.give_up() && clean_.make(picture_, engine(), mail_.give_up())) publish();
 }
 
 /// Returns whether a pass is complete. With a source of samples, which may be slow, it breaks off a pass now and then
@@ -178,7 +179,8 @@ void RenderLoop::finish_pass() {
   report_pixel();
   publish();
   if (!first) return;
-  yield();
+  // Until the first picture of an edit is on the screen, the processors are left to it.
+  if (const auto seconds = mail_.wait_until_shown(frames_)) first_pictures_.note_showing(*seconds);
   make_coarse_clean();
 }
 
@@ -192,11 +194,6 @@ void RenderLoop::report_pixel() {
   if (on_frame_) on_frame_();
 }
 
-/// Waits for the first picture of an edit to reach the screen: until then the processors are left to it.
-void RenderLoop::yield() {
-  if (const auto seconds = mail_.wait_until_shown(frames_)) first_pictures_.note_showing(*seconds);
-}
-
 /// Shows what the picture will look like once it has samples to filter. A request that cannot wait interrupts this.
 /// The samples for it are taken through a camera of larger pixels, which a source of samples has not.
 void RenderLoop::make_coarse_clean() {
@@ -204,11 +201,6 @@ void RenderLoop::make_coarse_clean() {
   if (!clean_.make_coarse(picture_.film(), first_pictures_.paths_per_second(), engine(), mail_.give_up())) return;
   publish();
   mail_.wait_until_shown(frames_);
-}
-
-/// Filters the present picture. An urgent request interrupts this; it is tried again later.
-void RenderLoop::make_clean() {
-  if (clean_.make(picture_, engine(), mail_.give_up())) publish();
 }
 
 void RenderLoop::publish() {
