@@ -196,15 +196,15 @@ void check_objects(const Place& at, const std::vector<Object>& objects, const Sc
 }
 
 void check_key(const Place& at, const KeyFrame& key, const KeyedValue& keyed, const Animation& animation) {
-  const std::string place = pointer(at) + "/" + std::to_string(key.frame);
+  const std::string frame = std::to_string(key.frame);
+  const Place here{at, frame};
   if (key.frame < 0 || key.frame >= animation.frames)
-    throw ParseError{place, "frame " + std::to_string(key.frame),
-                     "a frame from 0 to " + std::to_string(animation.frames - 1)};
+    fail(here, "frame " + frame, "a frame from 0 to " + std::to_string(animation.frames - 1));
   if (key.value.empty() || key.value.size() != keyed.keys[0].value.size())
-    throw ParseError{place, std::to_string(key.value.size()) + " values",
-                     "as many as at the first key, " + std::to_string(keyed.keys[0].value.size())};
+    fail(here, std::to_string(key.value.size()) + " values",
+         "as many as at the first key, " + std::to_string(keyed.keys[0].value.size()));
   for (const double value : key.value)
-    if (!std::isfinite(value)) throw ParseError{place, number_text(value), "a finite number"};
+    if (!std::isfinite(value)) fail(here, number_text(value), "a finite number");
 }
 
 /// Looks at the keys alone: whether each has its place in the scene is found by check_keys().

@@ -73,11 +73,6 @@ Volume read_volume(const JsonObject& json, const Place& at, const NameTables& re
   return volume;
 }
 
-Group read_group(const JsonObject& json, const Place& at, const NameTables& references) {
-  allow_keys(json, at, {"name", "type", "transform", "objects"});
-  return {read_objects(member_at(json, at, "objects", "a list of objects"), {at, "objects"}, references)};
-}
-
 std::vector<std::string_view> object_types() {
   auto types = type_names<decltype(Solid3d::shape)>();
   types.insert(types.end(), {Medium<>::type, "group"});
@@ -90,7 +85,9 @@ void read_object(const JsonValue& json, const Place& at, const NameTables& refer
   if (type == Medium<>::type) {
     object.kind = read_volume(members, at, references);
   } else if (type == "group") {
-    object.kind = read_group(members, at, references);
+    allow_keys(members, at, {"name", "type", "transform", "objects"});
+    const JsonValue& objects = member_at(members, at, "objects", "a list of objects");
+    object.kind = Group{read_objects(objects, {at, "objects"}, references)};
   } else if (!read_solid(members, at, type, references, object)) {
     fail_type(at, type, object_types());
   }
