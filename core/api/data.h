@@ -99,7 +99,11 @@ struct TYNDALL_HIDDEN Picture::Data {
 /// Opens the handles to the functions of this room.
 struct Access {
   static const Scene::Data& of(const Scene& scene) { return *scene.data_; }
-  static Scene scene(std::shared_ptr<const Scene::Data> data);
+  static Scene scene(std::shared_ptr<const Scene::Data> data) {
+    Scene made;
+    made.data_ = std::move(data);
+    return made;
+  }
   static const std::shared_ptr<const Film::Data>& of(const Film& film) { return film.data_.pointer(); }
   static Film film(std::shared_ptr<const Film::Data> data) { return Film(std::move(data)); }
   static Picture picture(std::shared_ptr<const Picture::Data> data) { return Picture(std::move(data)); }

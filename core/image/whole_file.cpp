@@ -208,12 +208,6 @@ void WholeFile::seek(std::uint64_t position) {
   position_ = position;
 }
 
-void WholeFile::sync_folder() const {
-  const OpenFile folder(place_.folder, OpenFor::folder);
-  if (folder.error() == EACCES) return;  // a folder into which one may write, but not look
-  check(folder ? folder.synchronise() : folder.error());
-}
-
 /// Copies all that was written to an open file.
 void WholeFile::copy_to(const OpenFile& to) const {
   check(bytes_.seek(0));
@@ -257,7 +251,9 @@ void WholeFile::commit() {
   check(bytes_.synchronise());
   check(replace_file(temporary_, place_.target));
   temporary_.clear();
-  sync_folder();
+  const OpenFile folder(place_.folder, OpenFor::folder);
+  if (folder.error() != EACCES)  // a folder into which one may write, but not look
+    check(folder ? folder.synchronise() : folder.error());
   if (const int problem = bytes_.close(); problem != EINTR) check(problem);  // last, as closing unlocks
 }
 

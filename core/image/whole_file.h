@@ -79,7 +79,6 @@ class WholeFile {
   bool create(const std::filesystem::path& temporary);
   void put(const void* data, std::size_t size);
   void flush();
-  void sync_folder() const;
   void open_beside();
   void check_in_place();
   void send() const;

@@ -2,7 +2,6 @@
 
 #include "core/image/image_io.h"
 #include "core/scene/check.h"
-#include "core/scene/pointer_values.h"
 
 #include <algorithm>
 #include <charconv>

@@ -24,6 +24,10 @@ int read_reference(const JsonValue& json, const Place& at, const NameTable& tabl
 ColourOrTexture read_colour(const JsonObject& object, const Place& at, const char* colour_name,
                             const NameTable& textures);
 
+/// After an override of a material's type: leaves out values that other types have and the new one lacks; its colour
+/// stays, under the name that the new type has for it.
+void fit_to_type(JsonValue& root, const Override& override_);
+
 /// The scene of a document whose image files were read before: they are taken from a scene that has the same ones.
 Scene scene_with_pictures(const JsonValue& root, const Scene& pictures);
 

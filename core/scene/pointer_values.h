@@ -19,8 +19,5 @@ std::optional<JsonValue> unwritten_value(const Scene& scene, JsonValue& root, st
 std::optional<JsonValue> value_at_pointer(const Scene& scene, const std::string& pointer);
 /// The scene with another value there. Throws ParseError if it has no place, or the scene is then not valid.
 Scene with_value(const Scene& scene, const std::string& pointer, JsonValue value);
-/// After an override of a material's type: leaves out values that other types have and the new one lacks; its colour
-/// stays, under the name that the new type has for it.
-void fit_to_type(JsonValue& root, const Override& override_);
 
 }  // namespace tyndall
