@@ -156,9 +156,9 @@ bool may_have_keys(const std::vector<std::string>& steps) {
 
 int read_frame(const std::string& text, const Place& at) {
   int frame = -1;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), frame);
-  const bool whole = error == std::errc() && end == text.data() + text.size() && text == std::to_string(frame);
-  if (!whole || frame < 0) fail({at, text}, in_quotes(text), "a frame: a whole number from 0 on, as text");
+  std::from_chars(text.data(), text.data() + text.size(), frame);
+  if (frame < 0 || text != std::to_string(frame))
+    fail({at, text}, in_quotes(text), "a frame: a whole number from 0 on, as text");
   return frame;
 }
 
