@@ -1,8 +1,8 @@
 #pragma once
 #include "core/files/film_files.h"
 #include "core/files/picture_files.h"
-#include "core/image/file_place.h"
 #include "core/image/image_io.h"
+#include "core/image/whole_file.h"
 
 #include <filesystem>
 #include <functional>

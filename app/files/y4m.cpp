@@ -1,8 +1,8 @@
 #include "app/files/y4m.h"
 
 #include "core/base/error.h"
-#include "core/image/file_place.h"
 #include "core/image/tonemap.h"
+#include "core/image/whole_file.h"
 
 #include <cmath>
 

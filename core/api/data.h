@@ -1,8 +1,56 @@
 #pragma once
-#include "core/api/guarded.h"
+#include "core/api/inside.h"
 #include "core/system/locks.h"
 
+#include <tyndall/tyndall.h>
+
+#include <cfenv>
 #include <mutex>
+#include <new>
+
+/// What every call of the library does first and last.
+namespace tyndall::inner {
+
+/// The environment of floating point in which pictures are computed: rounding to nearest, numbers next to zero kept.
+/// Threads that are started meanwhile inherit it. At its end the caller has its own one again.
+class PlainFloatingPoint {
+ public:
+  PlainFloatingPoint() {
+    std::fegetenv(&callers_);
+    std::fesetenv(FE_DFL_ENV);
+  }
+  ~PlainFloatingPoint() { std::fesetenv(&callers_); }
+  PlainFloatingPoint(const PlainFloatingPoint&) = delete;
+  PlainFloatingPoint& operator=(const PlainFloatingPoint&) = delete;
+
+ private:
+  std::fenv_t callers_{};
+};
+
+/// A fault at a place of the scene of that name.
+inline v0::Error error_of(const std::string& name, const ParseError& fault) {
+  const SceneError error(name, fault.where, fault.found, fault.expected);
+  return {error.what(), error.file, error.where, error.found, error.expected};
+}
+
+/// Calls work(), and turns what it throws into the library's errors.
+template <class Work>
+decltype(auto) guarded(const Work& work) {
+  const PlainFloatingPoint environment;
+  try {
+    return work();
+  } catch (const v0::Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const SceneError& error) {
+    throw v0::Error(error.what(), error.file, error.where, error.found, error.expected);
+  } catch (const std::exception& error) {
+    throw v0::Error(all_printable(error.what()));
+  }
+}
+
+}  // namespace tyndall::inner
 
 /// What the library's handles point to. Nothing in it changes but what is computed when it is first asked for.
 namespace tyndall {
@@ -51,11 +99,14 @@ struct TYNDALL_HIDDEN Picture::Data {
 /// Opens the handles to the functions of this room.
 struct Access {
   static const Scene::Data& of(const Scene& scene) { return *scene.data_; }
-  static Scene scene(std::shared_ptr<const Scene::Data> data);
+  static Scene scene(std::shared_ptr<const Scene::Data> data) {
+    Scene made;
+    made.data_ = std::move(data);
+    return made;
+  }
   static const std::shared_ptr<const Film::Data>& of(const Film& film) { return film.data_.pointer(); }
   static Film film(std::shared_ptr<const Film::Data> data) { return Film(std::move(data)); }
   static Picture picture(std::shared_ptr<const Picture::Data> data) { return Picture(std::move(data)); }
-  static const Picture::Data& of(const Picture& picture) { return *picture.data_; }
 };
 
 }  // namespace v0

@@ -26,9 +26,7 @@ namespace tyndall::inner {
 using CoreFilm = tyndall::Film;
 using CoreRegion = tyndall::Region;
 using CoreScene = tyndall::Scene;
-using CoreMedium = tyndall::Medium<>;
 using CoreOptions = tyndall::RenderOptions;
-using CoreProgress = tyndall::RenderProgress;
 
 inline RenderResult render_film(const PreparedScene& scene, const CoreOptions& options,
                                 const ProgressCallback& progress, CoreFilm film) {

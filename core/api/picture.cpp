@@ -82,7 +82,7 @@ inner::CoreFilm begun(const Scene::Data& scene, const RenderOptions& options, co
 /// thrown: gets what the caller's function throws, which stops the render.
 ProgressCallback progress_of(const RenderOptions& options, std::exception_ptr& thrown) {
   if (!options.progress) return {};
-  return [&](const inner::CoreProgress& now) {
+  return [&](const RenderProgress& now) {
     try {
       return options.progress(Progress{now.spp, now.seconds, now.relative_error, now.mrays_per_s});
     } catch (...) {

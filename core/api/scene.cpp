@@ -48,12 +48,6 @@ std::shared_ptr<const PreparedScene> Scene::Data::prepared_already() const {
   return prepared_ ? prepared_ : before;
 }
 
-Scene Access::scene(std::shared_ptr<const Scene::Data> data) {
-  Scene made;
-  made.data_ = std::move(data);
-  return made;
-}
-
 Error::Error(const std::string& sentence, std::string file_, std::string place_, std::string found_,
              std::string expected_)
     : runtime_error(sentence),

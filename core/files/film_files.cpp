@@ -31,8 +31,6 @@ Scene stripped(Scene scene) {
   return scene;
 }
 
-constexpr const char *caustics_pointer = "/render/caustics", *sharing_pointer = "/render/sharing";
-
 /// Whether the text that a film carries has a render setting. Films from before there was a choice do not: they left
 /// caustics to chance, and shared nothing.
 bool says(const std::string& text, const char* setting) {
@@ -162,8 +160,8 @@ std::string embedded_scene(Scene scene, const std::filesystem::path& textures, c
   scene.render.spp = static_cast<int>(std::clamp(labelled_spp(film), 1u, max_samples));
   const std::string caustics = name_of(scene.render.caustics), sharing = scene.render.sharing ? "true" : "false";
   JsonValue json = scene_json(move_textures(std::move(scene), textures, image.parent_path()));
-  apply_override(json, {caustics_pointer, caustics});
-  apply_override(json, {sharing_pointer, sharing});
+  apply_override(json, {"/render/caustics", caustics});
+  apply_override(json, {"/render/sharing", sharing});
   return print_json(json);
 }
 

@@ -6,13 +6,6 @@
 namespace tyndall {
 namespace {
 
-std::string ending(const std::filesystem::path& file) { return lower_case(file.extension().string()); }
-
-/// The file's name, or for standard output one that ends in its format.
-std::filesystem::path name_with_ending(const std::filesystem::path& file, const ImageForm& form) {
-  return file == "-" ? std::filesystem::path("standard-output." + form.format) : file;
-}
-
 /// Layers of an EXR: those of the scene and, if there is one, the clean view with its error.
 std::vector<Layer> all_layers(const Picture& picture) {
   std::vector<Layer> layers;
@@ -28,12 +21,6 @@ std::vector<Layer> all_layers(const Picture& picture) {
   return layers;
 }
 
-Embedded embedded_in_exr(const Picture& picture, const std::filesystem::path& file) {
-  Embedded embedded = picture.embedded(file);
-  embedded.film = picture.form.exr_film;
-  return embedded;
-}
-
 /// What files of one picture show.
 LinearImage shown(const Picture& picture) {
   if (!picture.clean) return picture.image;
@@ -42,19 +29,21 @@ LinearImage shown(const Picture& picture) {
 
 }  // namespace
 
-bool is_exr(const std::filesystem::path& file) { return ending(file) == ".exr"; }
+bool is_exr(const std::filesystem::path& file) { return image_ending(file, {}) == ".exr"; }
 
 std::string image_ending(const std::filesystem::path& file, const ImageForm& form) {
-  return ending(name_with_ending(file, form));
+  return lower_case(file == "-" ? "." + form.format : file.extension().string());
 }
 
 void write_picture(const Picture& picture, const std::string& kind, const std::filesystem::path& file) {
   const Display& display = picture.display;
   const Region& region = picture.film.region;
   const auto dither = display.dither ? std::optional(DitherOrigin{region.x0, region.y0}) : std::nullopt;
-  if (kind == ".exr")
-    write_exr(file, picture.film, all_layers(picture), embedded_in_exr(picture, file), &picture.image);
-  else if (kind == ".png")
+  if (kind == ".exr") {
+    Embedded embedded = picture.embedded(file);
+    embedded.film = picture.form.exr_film;
+    write_exr(file, picture.film, all_layers(picture), embedded, &picture.image);
+  } else if (kind == ".png")
     write_png(file, shown(picture), display.exposure, display.tone_map, picture.embedded(file), dither);
   else if (kind == ".ppm")
     write_ppm(file, shown(picture), display.exposure, display.tone_map, picture.form.ppm, dither);

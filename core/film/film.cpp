@@ -4,7 +4,6 @@
 #include "core/base/fnv1a.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -13,8 +12,13 @@
 namespace tyndall {
 namespace {
 
-float mean_of(const ExactSum& sum, double quantum, std::uint64_t count) {
-  return static_cast<float>(sum.value() * quantum / static_cast<double>(count));
+/// The means of three channels, from their sums.
+Vec3f means_of(const ExactSum (&sums)[3], double quantum, std::uint64_t count) {
+  if (count == 0) return {};
+  const auto of = [&](const ExactSum& sum) {
+    return static_cast<float>(sum.value() * quantum / static_cast<double>(count));
+  };
+  return {of(sums[0]), of(sums[1]), of(sums[2])};
 }
 
 /// Hashes 4 bytes, lowest first.
@@ -30,15 +34,9 @@ Film make_film(int width, int height, Region region, std::uint32_t first_sample,
   assert(0 <= region.x0 && region.x0 < region.x1 && region.x1 <= width);
   assert(0 <= region.y0 && region.y0 < region.y1 && region.y1 <= height);
   assert(quantum > 0);
-  Film film{.width = width,
-            .height = height,
-            .region = region,
-            .first_sample = first_sample,
-            .quantum = quantum,
-            .cut_throughput = {},
-            .pixels = {},
-            .emission = {},
-            .planned = {}};
+  Film film;
+  film.width = width, film.height = height, film.region = region;
+  film.first_sample = first_sample, film.quantum = quantum;
   film.pixels.resize(static_cast<std::size_t>(region.width()) * static_cast<std::size_t>(region.height()));
   if (emission) film.emission.resize(film.pixels.size());
   return film;
@@ -54,23 +52,13 @@ double film_quantum(double brightest) {
 }
 
 Vec3f mean(const Film& film, const FilmPixel& pixel) {
-  const std::uint64_t count = std::uint64_t{counted(film, pixel, 0)} + counted(film, pixel, 1);
-  if (count == 0) return {};
-  std::array<ExactSum, 3> both;
-  for (std::size_t channel = 0; channel < 3; ++channel) {
-    both[channel] = pixel.sum[0][channel];
-    both[channel].add(pixel.sum[1][channel]);
-  }
-  return {mean_of(both[0], film.quantum, count), mean_of(both[1], film.quantum, count),
-          mean_of(both[2], film.quantum, count)};
+  ExactSum both[3] = {pixel.sum[0][0], pixel.sum[0][1], pixel.sum[0][2]};
+  for (std::size_t channel = 0; channel < 3; ++channel) both[channel].add(pixel.sum[1][channel]);
+  return means_of(both, film.quantum, std::uint64_t{counted(film, pixel, 0)} + counted(film, pixel, 1));
 }
 
 Vec3f half_mean(const Film& film, const FilmPixel& pixel, int half) {
-  const std::uint32_t count = counted(film, pixel, half);
-  if (count == 0) return {};
-  const ExactSum* sum = pixel.sum[half];
-  return {mean_of(sum[0], film.quantum, count), mean_of(sum[1], film.quantum, count),
-          mean_of(sum[2], film.quantum, count)};
+  return means_of(pixel.sum[half], film.quantum, counted(film, pixel, half));
 }
 
 Vec3f half_emission(const Film& film, std::size_t pixel, int half) {

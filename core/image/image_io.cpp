@@ -3,30 +3,19 @@
 #include "core/base/text.h"
 #include "core/image/image_io_file.h"
 
+#include <utility>
+
 namespace tyndall {
 namespace {
 
 PictureFile read_by_kind(const std::filesystem::path& file, ImageKind kind, std::span<const std::uint8_t> bytes,
                          PpmCurve ppm) {
-  switch (kind) {
-    case ImageKind::png:
-      return read_png(file, bytes);
-    case ImageKind::jpeg:
-      return read_jpeg(file, bytes);
-    case ImageKind::bmp:
-      return read_bmp(file, bytes);
-    case ImageKind::tga:
-      return read_tga(file, bytes);
-    case ImageKind::ppm:
-      return read_ppm(file, bytes, ppm);
-    case ImageKind::pfm:
-      return read_pfm(file, bytes);
-    case ImageKind::hdr:
-      return read_hdr(file, bytes);
-    case ImageKind::exr:
-    case ImageKind::unknown:
-      break;
-  }
+  if (kind == ImageKind::ppm) return read_ppm(file, bytes, ppm);
+  constexpr std::pair<ImageKind, decltype(&read_png)> readers[] = {
+      {ImageKind::png, read_png}, {ImageKind::jpeg, read_jpeg}, {ImageKind::bmp, read_bmp},
+      {ImageKind::tga, read_tga}, {ImageKind::pfm, read_pfm},   {ImageKind::hdr, read_hdr}};
+  for (const auto& [its_kind, read] : readers)
+    if (kind == its_kind) return read(file, bytes);
   cannot_read(file, "found no image, expected PNG, PPM, JPEG, BMP, TGA, PFM, HDR or EXR");
 }
 

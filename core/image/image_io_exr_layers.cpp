@@ -143,9 +143,7 @@ template <class Error>
 ExrLayer checked(const std::filesystem::path& file, const ChannelGroup& group, const std::string& name) {
   if (group.deep) refuse<ImageFileError>(file, "layer " + in_quotes(name) + ": " + deep_data);
   if (group.shown()) return group.layer;
-  std::vector<std::string> channels;
-  for (const std::string& ending : group.endings) channels.push_back(joined(group.names[0], ending));
-  refuse<NoSuchLayer>(file, "found layer " + in_quotes(name) + " with the channels " + quoted(channels) +
+  refuse<NoSuchLayer>(file, "found layer " + in_quotes(name) + " with the channels " + quoted(channel_names({group})) +
                                 ", expected R, G and B, or X, Y and Z, or Y; a single channel is taken by its name");
 }
 

@@ -2,7 +2,6 @@
 
 #include "core/base/text.h"
 #include "core/image/image_io_file.h"
-#include "core/image/picture_file.h"
 #include "core/image/whole_file.h"
 
 #include <algorithm>
@@ -82,13 +81,6 @@ struct HdrReader {
 std::uint64_t min_hdr_bytes(int width, int height) {
   const auto columns = static_cast<std::uint64_t>(width), rows = static_cast<std::uint64_t>(height);
   return rows * (width < 8 || width >= 32768 ? 4 * columns : 4 + 8 * (columns / 127));
-}
-
-void put_row(std::vector<float>& rgb, const std::vector<std::uint8_t>& row) {
-  for (std::size_t x = 0; x < row.size(); x += 4) {
-    for (std::size_t i = 0; i < 3; ++i)
-      rgb.push_back(row[x + 3] == 0 ? 0 : std::ldexp(static_cast<float>(row[x + i]), row[x + 3] - 136));
-  }
 }
 
 /// What a header says of the pixels. Lines that begin with white space are those of pictures that this one was made of.
@@ -201,7 +193,9 @@ PictureFile read_hdr(const std::filesystem::path& file, std::span<const std::uin
   std::vector<std::uint8_t> row(4 * static_cast<std::size_t>(size.columns));
   for (int y = 0; y < size.rows; ++y) {
     reader.take_row(row, static_cast<std::size_t>(size.columns));
-    put_row(stored.rgb, row);
+    for (std::size_t x = 0; x < row.size(); x += 4)
+      for (std::size_t i = x; i < x + 3; ++i)
+        stored.rgb.push_back(row[x + 3] == 0 ? 0 : std::ldexp(static_cast<float>(row[i]), row[x + 3] - 136));
   }
   divide(stored.rgb, header.factors);
   PictureFile picture;

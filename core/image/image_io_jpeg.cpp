@@ -1,5 +1,4 @@
 #include "core/image/image_io_file.h"
-#include "core/image/picture_file.h"
 
 #include <csetjmp>
 #include <cstdio>
@@ -100,14 +99,6 @@ std::span<const std::uint8_t> marker_data(const jpeg_decompress_struct& info, in
   return {};
 }
 
-Samples read_samples(const std::filesystem::path& file, JpegDecoder& decoder) {
-  const jpeg_decompress_struct& info = decoder.info;
-  Samples samples{static_cast<int>(info.image_width), static_cast<int>(info.image_height), 3, 255, {}};
-  samples.bytes.resize(std::size_t{3} * info.image_width * info.image_height);
-  if (!read_jpeg_rows(decoder, samples.bytes.data())) cannot_read(file, std::string("damaged: ") + decoder.problem);
-  return samples;
-}
-
 }  // namespace
 
 PictureFile read_jpeg(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
@@ -123,7 +114,10 @@ PictureFile read_jpeg(const std::filesystem::path& file, std::span<const std::ui
   // The markers are gone once the rows are read.
   const bool profile = !marker_data(info, profile_marker, "ICC_PROFILE").empty();
   const Orientation orientation = exif_orientation(marker_data(info, exif_marker, std::string_view("Exif\0\0", 6)));
-  PictureFile picture = picture_of(read_samples(file, decoder), srgb_curve);
+  Samples samples{static_cast<int>(info.image_width), static_cast<int>(info.image_height), 3, 255, {}};
+  samples.bytes.resize(std::size_t{3} * info.image_width * info.image_height);
+  if (!read_jpeg_rows(decoder, samples.bytes.data())) cannot_read(file, std::string("damaged: ") + decoder.problem);
+  PictureFile picture = picture_of(samples, srgb_curve);
   if (profile && !is_srgb_profile({decoder.profile, decoder.profile_size})) add_remark(picture, file, other_profile);
   picture.image = oriented(std::move(picture.image), orientation);
   return picture;

@@ -11,11 +11,6 @@
 #include <string_view>
 
 namespace tyndall {
-
-std::uint32_t get_u32(std::span<const std::uint8_t> from) {
-  return std::uint32_t{from[0]} << 24 | std::uint32_t{from[1]} << 16 | std::uint32_t{from[2]} << 8 | from[3];
-}
-
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -48,14 +43,6 @@ void put_text(Bytes& to, std::string_view keyword, const std::string& text) {
   put_chunk(to, "iTXt", {keyword, std::string_view("\0\0\0\0\0", 5), text});
 }
 
-Bytes checked_png(const std::filesystem::path& file, const LinearImage& image, const Bytes& rgb) {
-  const std::int64_t row = std::int64_t{3} * image.width;
-  if ((row + 1) * image.height > std::numeric_limits<int>::max() / 2) cannot_write(file, "too many pixels for PNG");
-  Bytes png = encode_png(image.width, image.height, rgb.data());
-  if (png.size() < header_end) throw std::bad_alloc();
-  return png;
-}
-
 /// A chunk of a PNG.
 struct Chunk {
   std::string_view type;
@@ -66,12 +53,12 @@ struct Chunk {
 /// The chunk that begins at `at`, which then is where the next one begins; nothing if the file ends within it.
 std::optional<Chunk> take_chunk(std::span<const std::uint8_t> png, std::size_t& at) {
   if (png.size() - at < 12) return {};
-  const std::size_t length = get_u32(png.subspan(at));
+  const std::size_t length = high_first(png, at, 4);
   if (length > png.size() - at - 12) return {};
   const auto checked = png.subspan(at + 4, length + 4);
   at += length + 12;
   return Chunk{
-      {reinterpret_cast<const char*>(checked.data()), 4}, checked, checked.subspan(4), get_u32(png.subspan(at - 4))};
+      {reinterpret_cast<const char*>(checked.data()), 4}, checked, checked.subspan(4), high_first(png, at - 4, 4)};
 }
 
 /// The text in the data of an iTXt chunk, if the chunk has that keyword.
@@ -97,9 +84,12 @@ std::optional<std::string> text_of(const std::filesystem::path& file, const Chun
 Bytes png_bytes(const std::filesystem::path& name, const LinearImage& image, double exposure, ToneMap curve,
                 const Embedded& embedded, std::optional<DitherOrigin> dither) {
   check_writable(name, image);
-  Bytes png = checked_png(name, image,
-                          dither ? tone_map_dithered(image.rgb, exposure, curve, image.width, *dither)
-                                 : tone_map(image.rgb, exposure, curve));
+  const std::int64_t row = std::int64_t{3} * image.width;
+  if ((row + 1) * image.height > std::numeric_limits<int>::max() / 2) cannot_write(name, "too many pixels for PNG");
+  const Bytes rgb = dither ? tone_map_dithered(image.rgb, exposure, curve, image.width, *dither)
+                           : tone_map(image.rgb, exposure, curve);
+  Bytes png = encode_png(image.width, image.height, rgb.data());
+  if (png.size() < header_end) throw std::bad_alloc();
   Bytes extra;
   put_chunk(extra, "sRGB", {std::string_view("\0", 1)});  // rendering intent: perceptual
   put_text(extra, "tyndall:scene", embedded.scene);
@@ -118,10 +108,7 @@ void write_png(const std::filesystem::path& file, const LinearImage& image, doub
 }
 
 void check_png(const std::filesystem::path& file, std::span<const std::uint8_t> png) {
-  std::size_t at = signature_size;
-  while (const auto chunk = take_chunk(png, at))
-    if (chunk->type == "IEND") return;
-  cannot_read(file, "damaged: the PNG ends in the middle");
+  if (!png_chunk(png, "IEND")) cannot_read(file, "damaged: the PNG ends in the middle");
 }
 
 std::optional<std::span<const std::uint8_t>> png_chunk(std::span<const std::uint8_t> png, std::string_view type) {

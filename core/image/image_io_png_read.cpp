@@ -2,7 +2,6 @@
 // are made of and the colour profile, which is compressed; the small ones that say what pixels mean are read here, so
 // that no version of libpng passes one over.
 #include "core/image/image_io_file.h"
-#include "core/image/picture_file.h"
 
 #include <png.h>
 
@@ -108,7 +107,7 @@ bool read_png_rows(PngDecoder& decoder, int passes, const PngRows& rows) {
 std::uint64_t min_png_bytes(std::span<const std::uint8_t> png) {
   constexpr std::uint64_t channels_of[8] = {1, 1, 3, 1, 2, 1, 4, 1};  // by colour type
   const std::uint64_t bits = png[24] * channels_of[png[25] & 7u];
-  return (1 + get_u32(png.subspan(16)) * bits / 8) * get_u32(png.subspan(20)) / 1032;
+  return (1 + high_first(png, 16, 4) * bits / 8) * high_first(png, 20, 4) / 1032;
 }
 
 Samples read_samples(const std::filesystem::path& file, PngDecoder& decoder) {
@@ -166,7 +165,7 @@ struct PngColour {
     constexpr int srgb[8] = {31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000};
     const auto primaries = chunk("cHRM", 32);
     for (std::size_t i = 0; primaries && i < 8; ++i) {
-      if (std::abs(static_cast<double>(get_u32(primaries->subspan(4 * i))) - srgb[i]) <= 1000) continue;
+      if (std::abs(static_cast<double>(high_first(*primaries, 4 * i, 4)) - srgb[i]) <= 1000) continue;
       remarks.push_back("its primaries (cHRM) are not those of sRGB; its pixels are read as sRGB's");
       return;
     }
@@ -176,7 +175,7 @@ struct PngColour {
   double power_of_gamma() {
     const auto gamma = chunk("gAMA", 4);
     if (!gamma) return srgb_curve;
-    const std::uint32_t exponent = get_u32(*gamma);
+    const std::uint32_t exponent = high_first(*gamma, 0, 4);
     if (exponent == 0) cannot_read(file, "found the exponent (gAMA) 0, expected a number above 0");
     return power_of_exponent(exponent / 1e5);
   }
@@ -204,7 +203,7 @@ struct PngColour {
 PictureFile read_png(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
   // What the header asks for is believed only where the file is long enough for it.
   if (bytes.size() >= 26) {
-    check_readable(file, get_u32(bytes.subspan(16)), get_u32(bytes.subspan(20)));
+    check_readable(file, high_first(bytes, 16, 4), high_first(bytes, 20, 4));
     check_enough(file, bytes.size(), min_png_bytes(bytes));
   }
   check_png(file, bytes);

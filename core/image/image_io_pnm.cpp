@@ -1,7 +1,6 @@
 #include "core/base/text.h"
 #include "core/image/image_io.h"
 #include "core/image/image_io_file.h"
-#include "core/image/picture_file.h"
 #include "core/image/pnm_reader.h"
 #include "core/image/whole_file.h"
 
@@ -69,6 +68,25 @@ float read_float(const std::uint8_t* bytes, bool swap) {
   std::uint32_t word = 0;
   std::memcpy(&word, bytes, sizeof word);
   return std::bit_cast<float>(swap ? __builtin_bswap32(word) : word);
+}
+
+/// Where the pixels begin after a header in text, whose last word ends at `end`: behind one character of white space,
+/// or two where a program wrote CR LF and the file is long enough for it. pixels: how many bytes the pixels have.
+std::size_t pixels_after(std::span<const std::uint8_t> bytes, std::size_t end, std::size_t pixels) {
+  const bool two = end + 1 < bytes.size() && bytes[end] == '\r' && bytes[end + 1] == '\n';
+  const std::size_t start = std::min(end + 1, bytes.size());
+  return two && bytes.size() - start > pixels ? start + 1 : start;
+}
+
+/// Throws unless nothing but white space follows a picture: a further picture or bytes that nobody asked for mean that
+/// the file is not what its header says. after: what follows; magic: how a further picture would begin.
+void check_end(const std::filesystem::path& file, std::span<const std::uint8_t> after, std::string_view magic) {
+  const std::string_view text(reinterpret_cast<const char*>(after.data()), after.size());
+  const auto first = std::find_if_not(text.begin(), text.end(), is_space);
+  if (first == text.end()) return;
+  if (text.substr(static_cast<std::size_t>(first - text.begin())).starts_with(magic))
+    cannot_read(file, "found several pictures in one file, expected one");
+  cannot_read(file, "found " + std::to_string(after.size()) + " bytes after the last pixel, expected none");
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 // decoder does not look at checksums, its JPEG decoder writes past a damaged Huffman table, and its HDR decoder loops
 // forever on a file that is cut off.
 #include "core/image/image_io_file.h"
-#include "core/image/picture_file.h"
 
 #include <cstddef>
 #include <cstdlib>
@@ -94,10 +93,6 @@ std::vector<std::uint8_t> encoded(Encode encode) {
   }
 }
 
-struct Release {
-  void operator()(void* pixels) const { stbi_image_free(pixels); }
-};
-
 /// What stb_image says of its failure. Without memory it says so, or nothing at all.
 std::string why_it_failed() {
   const char* reason = stbi_failure_reason();
@@ -113,7 +108,7 @@ Samples decode_stb(const std::filesystem::path& file, std::span<const std::uint8
   int channels = 0;
   const bool known = stbi_info_from_memory(bytes.data(), size, &samples.width, &samples.height, &channels) != 0;
   samples.channels = channels == 2 || channels == 4 ? 4 : 3;
-  std::unique_ptr<stbi_uc, Release> pixels;
+  std::unique_ptr<stbi_uc, void (*)(void*)> pixels(nullptr, &stbi_image_free);
   if (known)
     pixels.reset(stbi_load_from_memory(bytes.data(), size, &samples.width, &samples.height, &channels,
                                        static_cast<int>(samples.channels)));

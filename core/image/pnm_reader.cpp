@@ -2,34 +2,18 @@
 
 #include "core/base/text.h"
 #include "core/image/image_io_file.h"
-#include "core/image/picture_file.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace tyndall {
-namespace {
-
-constexpr std::size_t longest_shown = 24;  // characters of what was found in a number's place
-
-}  // namespace
-
 PnmReader::PnmReader(std::filesystem::path name, PpmCurve curve, std::optional<std::size_t> size)
     : name_(std::move(name)), power_(curve == PpmCurve::gamma2 ? 2 : srgb_curve), size_(size) {}
 
 const char* PnmReader::expected() const {
-  switch (part_) {
-    case Part::mark:
-      return "P3 or P6 (colours), or P2 or P5 (greys)";
-    case Part::width:
-      return "the width";
-    case Part::height:
-      return "the height";
-    case Part::largest:
-      return "the largest number of a colour";
-    default:
-      return "a colour";
-  }
+  constexpr const char* of_header[] = {"P3 or P6 (colours), or P2 or P5 (greys)", "the width", "the height",
+                                       "the largest number of a colour"};
+  return part_ <= Part::largest ? of_header[static_cast<int>(part_)] : "a colour";
 }
 
 /// Goes on behind white space and remarks. Whether that uses up the bytes.
@@ -50,6 +34,7 @@ bool PnmReader::skip_gap(std::span<const std::uint8_t> bytes, std::size_t& at) {
 /// that. Nothing: the bytes are used up.
 std::optional<std::int64_t> PnmReader::take_number(std::span<const std::uint8_t> bytes, std::size_t& at) {
   constexpr std::int64_t largest = 100'000'000'000'000'000;
+  constexpr std::size_t longest_shown = 24;  // characters of what was found in a number's place
   if (digits_.text.empty() && skip_gap(bytes, at)) return {};
   for (; at < bytes.size(); ++at) {
     const char c = static_cast<char>(bytes[at]);

@@ -12,20 +12,6 @@ namespace {
 
 float power(float base, float exponent) { return static_cast<float>(to_the_power(base, exponent)); }
 
-}  // namespace
-
-float srgb_encode(float linear) {
-  if (linear <= 0.0031308f) return 12.92f * linear;
-  return 1.055f * power(linear, 1 / 2.4f) - 0.055f;
-}
-
-float srgb_decode(float encoded) {
-  if (encoded <= 0.04045f) return encoded / 12.92f;
-  return power((encoded + 0.055f) / 1.055f, 2.4f);
-}
-
-namespace {
-
 /// The curve's value in [0, 1]. The fit is 1 from x = 7.25 on; x is cut at 10 only so that infinity is not divided by
 /// infinity.
 float aces(float x) {
@@ -197,6 +183,16 @@ void map_by(ToneMap curve, const std::vector<float>& light, double exposure, con
 }
 
 }  // namespace
+
+float srgb_encode(float linear) {
+  if (linear <= 0.0031308f) return 12.92f * linear;
+  return 1.055f * power(linear, 1 / 2.4f) - 0.055f;
+}
+
+float srgb_decode(float encoded) {
+  if (encoded <= 0.04045f) return encoded / 12.92f;
+  return power((encoded + 0.055f) / 1.055f, 2.4f);
+}
 
 float agx_contrast(float x) {
   constexpr float pivot = 20.0f / 33, toe = 59.507875f, shoulder = 69.862789f;

@@ -1,31 +1,50 @@
 #include "core/image/whole_file.h"
 
 #include "core/base/fnv1a.h"
+#include "core/base/text.h"
 #include "core/image/image_io_file.h"
 #include "core/system/files.h"
+#include "core/system/process.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
-#include <cstdio>
 #include <string>
-#include <string_view>
+#include <system_error>
 
 namespace tyndall {
 namespace {
 
 namespace fs = std::filesystem;
 
+fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
+
+/// Follows symbolic links to a name that is none, or to one that stands for an open file.
+fs::path end_of_links(const fs::path& file) {
+  fs::path target = file;
+  std::error_code error;
+  for (int links = 0; fs::is_symlink(target, error) && !is_open_file(target); ++links) {
+    if (links == 40) cannot_write(file, error_text(ELOOP));
+    target = target.parent_path() / fs::read_symlink(target, error);
+    if (error) cannot_write(file, error.message());
+  }
+  return target;
+}
+
+/// What keeps the ordinary file at place.target from being replaced; "": nothing that is known beforehand.
+std::string obstacle_of(const FilePlace& place) {
+  if (is_mount_point(place.target)) return "it is a mount point";
+  if (const std::string only = protection_of(place.target); !only.empty()) return "it may " + only;
+  if (!place.folder_problem.empty()) return place.folder_problem;
+  return is_kept_by_sticky_folder(place.target, place.folder)
+             ? "it is another user's file in a folder with the sticky bit"
+             : "";
+}
+
 constexpr std::size_t buffer_size = std::size_t{1} << 20;
 constexpr const char* temporary_mark = ".tmp-";
 constexpr std::size_t digits_of_number = 16;
-
-std::string hexadecimal(std::uint64_t number) {
-  char text[digits_of_number + 1];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(number));
-  return text;
-}
 
 /// A number that another writer of the same file hardly has, too. If it has, O_EXCL tells, and the next one is taken.
 std::uint64_t likely_unique() {
@@ -39,9 +58,8 @@ std::uint64_t likely_unique() {
 std::string temporary_prefix(const fs::path& folder, const std::string& name) {
   const std::size_t room = longest_name(folder) - std::string(temporary_mark).size() - digits_of_number;
   if (name.size() <= room) return name + temporary_mark;
-  std::size_t cut = room - 1 - digits_of_number;
-  while (cut > 0 && (static_cast<unsigned char>(name[cut]) & 0xc0) == 0x80) --cut;  // no half letters of UTF-8
-  return name.substr(0, cut) + '~' + hexadecimal(fnv1a(name)) + temporary_mark;
+  const std::string beginning = name.substr(0, size_of_letters(name, room - 1 - digits_of_number));
+  return beginning + '~' + hash_text(fnv1a(name)) + temporary_mark;
 }
 
 /// Removes what killed writers of the same file have left: their locks are free. What cannot be read or removed is left
@@ -57,6 +75,51 @@ void remove_dead(const fs::path& folder, const std::string& prefix) {
 
 }  // namespace
 
+FilePlace find_place(const fs::path& file) {
+  FilePlace place;
+  place.method = file == "-" ? WriteMethod::stream : WriteMethod::replace;
+  place.target = file;
+  if (file == "-") return place;
+  if (const std::string problem = problem_of_name(file); !problem.empty()) cannot_write(file, problem);
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  const bool there = !error;
+  if (!there && error != std::errc::no_such_file_or_directory) cannot_write(file, error.message());
+  place.target = end_of_links(file);
+  place.folder = folder_of(place.target);
+  if (!place.target.has_filename()) cannot_write(file, error_text(EISDIR));
+  if (const std::string only = protection_of(place.folder); !only.empty())
+    place.folder_problem = "its folder may " + only;
+  if (!there && !place.folder_problem.empty()) cannot_write(file, place.folder_problem);
+  if (!there) return place;
+  place.exists = true;
+  place.mode = static_cast<unsigned>(status.permissions()), place.owner = owner_of(file);
+  if (fs::is_directory(status)) cannot_write(file, error_text(EISDIR));
+  const bool once = fs::is_fifo(status) || fs::is_character_file(status) || fs::is_symlink(place.target, error);
+  if (!once && !fs::is_regular_file(status)) cannot_write(file, "not an ordinary file");
+  if (const int problem = once ? writing_error(file) : 0) cannot_write(file, error_text(problem));
+  if (once) place.method = WriteMethod::stream;
+  if (!once) place.obstacle = obstacle_of(place);
+  if (!place.obstacle.empty()) place.method = WriteMethod::in_place;
+  return place;
+}
+
+bool is_stream(const fs::path& file) {
+  if (file == "-") return true;
+  std::error_code error;
+  const fs::file_type type = fs::status(file, error).type();
+  if (type == fs::file_type::fifo || type == fs::file_type::character) return true;
+  try {
+    return type == fs::file_type::regular && find_place(file).method == WriteMethod::stream;
+  } catch (const ImageFileError&) {
+    return false;  // writing it says why
+  }
+}
+
+fs::path beside(const fs::path& file, const std::string& mark) {
+  return file.parent_path() / (file.stem().string() + "." + mark + file.extension().string());
+}
+
 void WholeFile::fail(int number) const { cannot_write(file_, error_text(number)); }
 
 void WholeFile::check(int error) const {
@@ -69,7 +132,8 @@ WholeFile::WholeFile(const fs::path& file) : file_(file), place_(find_place(file
   if (place_.method != WriteMethod::stream && place_.folder_problem.empty()) open_beside();
   if (bytes_) return;
   if (place_.method == WriteMethod::in_place) check_in_place();  // as open_beside() may have found
-  open_unnamed();
+  bytes_ = OpenFile::unnamed();
+  check(bytes_.error());
 }
 
 /// Leaves bytes_ closed where the folder takes no new files, but the file may be written into.
@@ -77,7 +141,7 @@ void WholeFile::open_beside() {
   const std::string prefix = temporary_prefix(place_.folder, place_.target.filename().string());
   remove_dead(place_.folder, prefix);
   for (int attempt = 0; attempt < 1000; ++attempt)
-    if (create(place_.folder / (prefix + hexadecimal(likely_unique())))) return;
+    if (create(place_.folder / (prefix + hash_text(likely_unique())))) return;
   if (place_.method == WriteMethod::replace) fail(EEXIST);
 }
 
@@ -144,17 +208,6 @@ void WholeFile::seek(std::uint64_t position) {
   position_ = position;
 }
 
-void WholeFile::sync_folder() const {
-  const OpenFile folder(place_.folder, OpenFor::folder);
-  if (folder.error() == EACCES) return;  // a folder into which one may write, but not look
-  check(folder ? folder.synchronise() : folder.error());
-}
-
-void WholeFile::open_unnamed() {
-  bytes_ = OpenFile::unnamed();
-  check(bytes_.error());
-}
-
 /// Copies all that was written to an open file.
 void WholeFile::copy_to(const OpenFile& to) const {
   check(bytes_.seek(0));
@@ -198,7 +251,9 @@ void WholeFile::commit() {
   check(bytes_.synchronise());
   check(replace_file(temporary_, place_.target));
   temporary_.clear();
-  sync_folder();
+  const OpenFile folder(place_.folder, OpenFor::folder);
+  if (folder.error() != EACCES)  // a folder into which one may write, but not look
+    check(folder ? folder.synchronise() : folder.error());
   if (const int problem = bytes_.close(); problem != EINTR) check(problem);  // last, as closing unlocks
 }
 

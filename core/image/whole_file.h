@@ -1,15 +1,47 @@
 #pragma once
-#include "core/image/file_place.h"
 #include "core/image/image.h"
+#include "core/system/files.h"
 #include "core/system/open_file.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 /// The one way in which the program writes files that are to stay: images, films, scenes, figures and charts.
 namespace tyndall {
+
+enum class WriteMethod {
+  replace,   ///< a whole new file takes its place
+  in_place,  ///< nothing can take its place; the new bytes are written into it
+  stream     ///< standard output, a named pipe or a device, which takes bytes once
+};
+
+/// Where a file is, and how it is written.
+struct FilePlace {
+  WriteMethod method = WriteMethod::replace;
+  std::filesystem::path target;  ///< where the chain of symbolic links ends
+  std::filesystem::path folder;  ///< of the target
+  std::string obstacle;          ///< what keeps it from being replaced: "it is a mount point"; "": nothing does
+  /// Why the folder takes no new files, which is known for certain when a WholeFile was made there; "": it does.
+  std::string folder_problem{};
+  bool exists = false;
+  unsigned mode = 0;  ///< of the file that exists
+  FileOwner owner;
+};
+
+/// Looks at a file, which need not exist. "-" is standard output. Nothing is written. Ordinary files are replaced,
+/// unless something is mounted at them or the rules of their folder forbid it to this user (the sticky bit of shared
+/// folders, files and folders that may not be changed or only be appended to). Throws ImageFileError "FILE: cannot
+/// write: WHY" for folders, block devices, sockets, and what may not be written.
+FilePlace find_place(const std::filesystem::path& file);
+
+/// True for standard output ("-"), named pipes and devices, and for links to open files such as /dev/stdout.
+bool is_stream(const std::filesystem::path& file);
+
+/// "pictures/a.MARK.png" for "pictures/a.png": the name of a file beside another one.
+std::filesystem::path beside(const std::filesystem::path& file, const std::string& mark);
 
 /// A file that appears under its name, replacing what was there, only when it is whole and on the disk: whatever ends
 /// the program or the machine meanwhile, the old file or the new one is there. All functions throw ImageFileError
@@ -47,9 +79,7 @@ class WholeFile {
   bool create(const std::filesystem::path& temporary);
   void put(const void* data, std::size_t size);
   void flush();
-  void sync_folder() const;
   void open_beside();
-  void open_unnamed();
   void check_in_place();
   void send() const;
   void overwrite() const;

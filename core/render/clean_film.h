@@ -1,8 +1,8 @@
 #pragma once
 #include "core/clean/clean.h"
-#include "core/render/pictures.h"
 #include "core/render/prepare.h"
 #include "core/render/progression.h"
+#include "core/render/views.h"
 
 #include <cstdint>
 #include <memory>

@@ -131,18 +131,14 @@ struct FirstSeenFinder {
     for (int line = top; line < top + parts; ++line) {
       engine.kernels.first_hits(scene, {left, line, left + parts * count, line + 1}, hits);
       for (int i = 0; i < count; ++i) {
-        FirstSeen all{{sum[i][0], sum[i][1], sum[i][2]}, {sum[i][3], sum[i][4], sum[i][5]}, sum[i][depth_plane]};
-        float sharp = sum[i][sharp_plane];
+        float* const all = sum[i];
         const FirstHit* const first = hits + static_cast<std::ptrdiff_t>(i) * parts;
         for (const FirstHit* hit = first; hit < first + parts; ++hit) {
-          all.albedo.x += hit->albedo.x, all.albedo.y += hit->albedo.y, all.albedo.z += hit->albedo.z;
-          all.normal.x += hit->normal.x, all.normal.y += hit->normal.y, all.normal.z += hit->normal.z;
-          all.nearness += hit->element < 0 ? 0 : 1 / (1 + hit->depth * per_depth);
-          sharp += sharpness.of(hit->element) ? 1.0f : 0.0f;
+          all[0] += hit->albedo.x, all[1] += hit->albedo.y, all[2] += hit->albedo.z;
+          all[3] += hit->normal.x, all[4] += hit->normal.y, all[5] += hit->normal.z;
+          all[depth_plane] += hit->element < 0 ? 0 : 1 / (1 + hit->depth * per_depth);
+          all[sharp_plane] += sharpness.of(hit->element) ? 1.0f : 0.0f;
         }
-        const float values[planes] = {all.albedo.x, all.albedo.y, all.albedo.z, all.normal.x,
-                                      all.normal.y, all.normal.z, all.nearness, sharp};
-        std::copy_n(values, planes, sum[i]);
       }
     }
     const float fraction = 1.0f / static_cast<float>(parts * parts);  // a power of two

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 
 namespace tyndall {
@@ -88,6 +89,11 @@ bool list_lacking(const Film& film, const std::vector<std::uint32_t>& wanted, co
 }
 
 }  // namespace
+
+Kernels kernels_of(const std::string& isa) {
+  if (const auto kernels = choose_kernels(isa)) return *kernels;
+  throw std::invalid_argument("no kernel for instruction set \"" + isa + "\"");
+}
 
 Pass::Pass(Region region, std::uint32_t first, std::uint32_t last, int step, int skip_step, Tiling tiling)
     : region_(region), first_(first), last_(last), step_(step), skip_step_(skip_step) {

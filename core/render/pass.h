@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 /// Takes samples with all threads; an interrupt takes effect within 2 ms and loses no samples.
@@ -30,6 +31,10 @@ struct RenderEngine {
     return true;
   }
 };
+
+/// The kernels of an instruction set; "": the best. Throws std::invalid_argument for one that this build or processor
+/// has not.
+Kernels kernels_of(const std::string& isa);
 
 /// How a pass is cut into tile jobs.
 struct Tiling {

@@ -183,22 +183,6 @@ double chance_of_caustics(const Scene& scene, const RenderScene& compiled, const
   });
 }
 
-namespace {
-
-/// The guide of `before` if its light paths are those of the scene; else null.
-std::shared_ptr<const Guide> kept_guide(const Scene& scene, const PreparedScene* before) {
-  if (!before || before->guide().light_paths == 0) return nullptr;
-  return change_between(before->scene(), scene).light ? nullptr : before->shared_guide();
-}
-
-/// The kernel set of a scene with a guide. minimum: without one.
-KernelSet guided_kernel(KernelSet minimum) {
-  const bool plain = minimum == KernelSet::specular_paths_only || minimum == KernelSet::no_media_no_textures;
-  return plain ? KernelSet::guided_paths_only : KernelSet::everything;
-}
-
-}  // namespace
-
 PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, RenderScene columns,
                              std::shared_ptr<const Guide> guide)
     : scene_(std::move(scene)),
@@ -208,7 +192,11 @@ PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, RenderScene col
   if (!guide) guide = std::make_shared<const Guide>(columns_.may_guide_paths ? find_guide(view_) : Guide{});
   guide_ = std::move(guide);
   view_.guide = guide_->view();
-  if (guide_->lobes() > 0) columns_.kernel = view_.kernel = guided_kernel(columns_.kernel);
+  if (guide_->lobes() > 0) {
+    const bool plain =
+        columns_.kernel == KernelSet::specular_paths_only || columns_.kernel == KernelSet::no_media_no_textures;
+    columns_.kernel = view_.kernel = plain ? KernelSet::guided_paths_only : KernelSet::everything;
+  }
   subpixel_lights_ = find_subpixel_lights(view_, find_camera_images(view_));
   view_.subpixel_light_count = static_cast<int>(subpixel_lights_.size());
   view_.subpixel_lights = subpixel_lights_.data();
@@ -228,7 +216,9 @@ double PreparedScene::caustic_chance() const {
 
 std::shared_ptr<const PreparedScene> prepare(std::shared_ptr<const Scene> scene, const PreparedScene* before) {
   RenderScene columns = compile(*scene, before ? &before->columns() : nullptr);
-  std::shared_ptr<const Guide> guide = kept_guide(*scene, before);
+  std::shared_ptr<const Guide> guide;
+  if (before && before->guide().light_paths > 0 && !change_between(before->scene(), *scene).light)
+    guide = before->shared_guide();  // its light paths are those of the scene
   return std::make_shared<const PreparedScene>(std::move(scene), std::move(columns), std::move(guide));
 }
 

@@ -176,11 +176,6 @@ void Progression::begin(PassSchedule schedule, const ProgressionOptions& options
   next_estimate_ = options.estimates.seconds;
 }
 
-void Progression::set_first(const Region& first) {
-  options_.first = first;
-  schedule_.set_first(first);
-}
-
 void Progression::estimate_now(const RenderEngine& engine, const std::atomic<bool>& give_up) {
   if (taken() < 2) return;
   estimate_ = estimate_error(film_, engine, levels_, give_up);

@@ -148,7 +148,7 @@ class Progression {
   /// Samples of the pixels that were refined first; taken() where there are none.
   std::uint32_t max_taken() const { return schedule_.maximum(); }
   /// See ProgressionOptions; from the next pass on.
-  void set_first(const Region& first);
+  void set_first(const Region& first) { schedule_.set_first(first); }
   /// Whether there is a picture to show.
   bool has_picture() const { return taken() > 0 || schedule_.coarse_done() > 0; }
   /// 1, or larger after a coarse pass and before the first one: only every step-th pixel in x and y has samples then.

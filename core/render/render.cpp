@@ -5,7 +5,6 @@
 #include "core/render/plan.h"
 #include "core/render/progression.h"
 
-#include <stdexcept>
 #include <utility>
 
 namespace tyndall {
@@ -26,11 +25,6 @@ ProgressionOptions progression_options(const RenderOptions& options, bool report
   made.length.min_seconds = looks ? 0 : 0.1;
   if (reports) made.estimates = {.seconds = 0.5, .growth = 0.5};
   return made;
-}
-
-Kernels kernels_of(const RenderOptions& options) {
-  if (const auto kernels = choose_kernels(options.isa)) return *kernels;
-  throw std::invalid_argument("no kernel for instruction set \"" + options.isa + "\"");
 }
 
 /// The clean view of a render. It is made of the finished film; if its error decides when to stop, also now and then
@@ -86,7 +80,7 @@ class Rendering {
   Rendering(const PreparedScene& scene, const RenderOptions& options, const ProgressCallback& progress, Film film)
       : options_(options),
         progress_(progress),
-        kernels_(kernels_of(options)),
+        kernels_(kernels_of(options.isa)),
         limits_{options.spp, options.time_limit, options.clean ? 0 : options.target_error},
         view_(scene.view()) {
     const ProgressionOptions how = progression_options(options, progress != nullptr);

@@ -52,7 +52,8 @@ void RenderLoop::go_on() {
   if (stalled_) return;
   const std::uint32_t limit = request_.limit();
   if (unfinished(limit) && run_pass(limit)) finish_pass();
-  if (clean_is_due() && !mail_.give_up()) make_clean();
+  // An urgent request interrupts the filter; it is tried again later.
+  if (clean_is_due() && !mail_.give_up() && clean_.make(picture_, engine(), mail_.give_up())) publish();
 }
 
 /// Returns whether a pass is complete. With a source of samples, which may be slow, it breaks off a pass now and then
@@ -178,7 +179,8 @@ void RenderLoop::finish_pass() {
   report_pixel();
   publish();
   if (!first) return;
-  yield();
+  // Until the first picture of an edit is on the screen, the processors are left to it.
+  if (const auto seconds = mail_.wait_until_shown(frames_)) first_pictures_.note_showing(*seconds);
   make_coarse_clean();
 }
 
@@ -192,11 +194,6 @@ void RenderLoop::report_pixel() {
   if (on_frame_) on_frame_();
 }
 
-/// Waits for the first picture of an edit to reach the screen: until then the processors are left to it.
-void RenderLoop::yield() {
-  if (const auto seconds = mail_.wait_until_shown(frames_)) first_pictures_.note_showing(*seconds);
-}
-
 /// Shows what the picture will look like once it has samples to filter. A request that cannot wait interrupts this.
 /// The samples for it are taken through a camera of larger pixels, which a source of samples has not.
 void RenderLoop::make_coarse_clean() {
@@ -206,18 +203,14 @@ void RenderLoop::make_coarse_clean() {
   mail_.wait_until_shown(frames_);
 }
 
-/// Filters the present picture. An urgent request interrupts this; it is tried again later.
-void RenderLoop::make_clean() {
-  if (clean_.make(picture_, engine(), mail_.give_up())) publish();
-}
-
 void RenderLoop::publish() {
   const std::shared_ptr<Frame> frame = frame_memory_.take(picture_.film().pixels.size());
   const Clock::time_point start = Clock::now();
   const View view = request_.wanted.view;
   frame->clean = clean_.latest();
+  if (view != View::beauty && picture_.taken() > 0)
+    views_.draw(View::beauty, picture_, nullptr, engine(), mail_.give_up(), frame->beauty);
   frame->grid = views_.draw(view, picture_, frame->clean.get(), engine(), mail_.give_up(), frame->rgba);
-  if (view != View::beauty && picture_.taken() > 0) beauty_rgba(picture_.film(), *thread_pool_, frame->beauty);
   const Clock::time_point drawn = Clock::now();
   first_pictures_.note_drawing(seconds_between(start, drawn));
   if (!first_picture_ms_) first_picture_ms_ = 1000 * seconds_between(shown_.submitted, drawn);

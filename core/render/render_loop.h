@@ -40,10 +40,8 @@ class RenderLoop {
   void begin_picture();
   void answer_films();
   void finish_pass();
-  void yield();
   void report_pixel();
   void publish();
-  void make_clean();
   void make_coarse_clean();
   bool clean_is_due() const { return shown_.prepared && clean_.is_due(picture_, !unfinished(request_.limit())); }
   bool unfinished(std::uint32_t limit) const { return shown_.prepared && picture_.taken() < limit; }

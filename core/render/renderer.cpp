@@ -2,19 +2,9 @@
 
 #include "core/render/render_loop.h"
 
-#include <stdexcept>
 #include <utility>
 
 namespace tyndall {
-namespace {
-
-Kernels kernels_or_throw(const std::string& isa) {
-  const auto kernels = choose_kernels(isa);
-  if (!kernels) throw std::invalid_argument("no kernel for instruction set \"" + isa + "\"");
-  return *kernels;
-}
-
-}  // namespace
 
 struct Renderer::State {
   Mailbox mail;
@@ -22,7 +12,7 @@ struct Renderer::State {
   StoppableThread thread;  // declared last, so that it ends before the members that it uses
 
   State(const Options& options, std::function<void()> on_frame)
-      : loop(mail, kernels_or_throw(options.isa), options.threads, std::move(on_frame)),
+      : loop(mail, kernels_of(options.isa), options.threads, std::move(on_frame)),
         thread([this](const StopToken& stop) { loop.run(stop); }) {}
 };
 

@@ -1,14 +1,56 @@
 #pragma once
-#include "core/render/pictures.h"
+#include "core/render/frame.h"
 #include "core/render/prepare.h"
 #include "core/render/progression.h"
+#include "core/system/locks.h"
 
 #include <atomic>
 #include <memory>
+#include <mutex>
+#include <utility>
 #include <vector>
 
-/// What the frames show: the beauty image or one of the other views.
+/// What the frames show: the beauty image or one of the other views, as pictures made of a film, first hits or costs.
+/// Values are linear: exposure and tone mapping are applied when a picture is shown.
 namespace tyndall {
+
+/// Keeps the memory of released objects for new ones: fresh memory from the system takes longer than drawing a picture
+/// into it. kept: the members whose memory is kept.
+template <class T, std::vector<float> T::*... kept>
+class MemoryOf {
+ public:
+  /// A new object whose kept members may hold an old picture. When its last owner drops it, its memory comes back here.
+  /// pixels: of the film; memory of pictures of another film size is not kept.
+  std::shared_ptr<T> take(std::size_t pixels) {
+    if (std::exchange(pixels_, pixels) != pixels) spare_ = std::make_shared<Spare>();
+    auto made = std::make_unique<T>();
+    {
+      const std::lock_guard lock(spare_->mutex);
+      if (!spare_->left.empty()) move_kept(spare_->left.back(), *made), spare_->left.pop_back();
+    }
+    return {made.release(), [spare = spare_](T* done) {
+              const std::unique_ptr<T> owner(done);
+              const std::lock_guard lock(spare->mutex);
+              if (spare->left.size() < max_spare) move_kept(*done, spare->left.emplace_back());
+            }};
+  }
+
+ private:
+  static constexpr std::size_t max_spare = 2;
+  struct Spare {
+    Spare() { left.reserve(max_spare); }  // so that returning memory, which must not fail, allocates nothing
+    Mutex mutex;
+    std::vector<T> left;  ///< empty except for the kept members
+  };
+  static void move_kept(T& from, T& to) { ((to.*kept = std::move(from.*kept)), ...); }
+  std::shared_ptr<Spare> spare_ = std::make_shared<Spare>();
+  std::size_t pixels_ = 0;
+};
+using FrameMemory = MemoryOf<Frame, &Frame::rgba>;
+using CleanFrameMemory = MemoryOf<CleanFrame, &CleanFrame::rgba, &CleanFrame::pixel_error>;
+
+/// Fills in what the film holds of the pixel (report.x, report.y); outside the film it leaves the report unchanged.
+void look_at_pixel(const Film& film, PixelReport& report);
 
 /// Draws the views of a scene. First hits and costs, which need rays of their own, are computed when a view first needs
 /// them, and kept until the scene changes.

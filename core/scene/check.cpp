@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <unordered_set>
 
 namespace tyndall {
@@ -20,10 +21,8 @@ void check_value(const Place& at, const Meaning& meaning, double value) {
   const std::string rounded = good ? " (" + number_text(static_cast<double>(single)) + " in single precision)" : "";
   fail(at, number_text(value) + rounded, expected_text(meaning, Form::number));
 }
-void check_value(const Place& at, const Meaning& meaning, int value) {
-  if (!meaning.valid.contains(value)) fail(at, std::to_string(value), expected_text(meaning, Form::whole));
-}
-void check_value(const Place& at, const Meaning& meaning, std::uint32_t value) {
+template <std::integral Whole>
+void check_value(const Place& at, const Meaning& meaning, Whole value) {
   if (!meaning.valid.contains(value)) fail(at, std::to_string(value), expected_text(meaning, Form::whole));
 }
 void check_value(const Place&, const Meaning&, bool) {}
@@ -132,28 +131,18 @@ void check_names(const Place& at, const std::vector<T>& things) {
 }
 
 void check_shape(const Place& at, const Sphere<>& sphere) { check_fields(at, sphere); }
-void check_shape(const Place& at, const Quad<>& quad) {
-  check_fields(at, quad);
-  if (parallel(quad.u, quad.v))
-    fail(at, quad.u == Vec3d{} || quad.v == Vec3d{} ? "a quad with an edge of length 0" : "a quad with parallel edges",
-         "edges u and v that span an area");
+/// A shape of two sides. side, sides: what messages call one and both.
+template <class Flat>
+void check_flat(const Place& at, const Flat& shape, const std::string& side, const std::string& sides) {
+  check_fields(at, shape);
+  if (!parallel(shape.u, shape.v)) return;
+  const bool no_length = shape.u == Vec3d{} || shape.v == Vec3d{};
+  fail(at, std::string("a ") + Flat::type + " with " + (no_length ? side + " of length 0" : "parallel " + sides),
+       sides + " u and v that span an area");
 }
-void check_shape(const Place& at, const Triangle<>& triangle) {
-  check_fields(at, triangle);
-  if (parallel(triangle.u, triangle.v))
-    fail(at,
-         triangle.u == Vec3d{} || triangle.v == Vec3d{} ? "a triangle with an edge of length 0"
-                                                        : "a triangle with parallel edges",
-         "edges u and v that span an area");
-}
-void check_shape(const Place& at, const Disk<>& disk) {
-  check_fields(at, disk);
-  if (parallel(disk.u, disk.v))
-    fail(at,
-         disk.u == Vec3d{} || disk.v == Vec3d{} ? "a disk with a half axis of length 0"
-                                                : "a disk with parallel half axes",
-         "half axes u and v that span an area");
-}
+void check_shape(const Place& at, const Quad<>& quad) { check_flat(at, quad, "an edge", "edges"); }
+void check_shape(const Place& at, const Triangle<>& triangle) { check_flat(at, triangle, "an edge", "edges"); }
+void check_shape(const Place& at, const Disk<>& disk) { check_flat(at, disk, "a half axis", "half axes"); }
 void check_shape(const Place& at, const Box<>& box) {
   check_fields(at, box);
   const double low[3] = {box.min.x, box.min.y, box.min.z}, high[3] = {box.max.x, box.max.y, box.max.z};
@@ -207,15 +196,15 @@ void check_objects(const Place& at, const std::vector<Object>& objects, const Sc
 }
 
 void check_key(const Place& at, const KeyFrame& key, const KeyedValue& keyed, const Animation& animation) {
-  const std::string place = pointer(at) + "/" + std::to_string(key.frame);
+  const std::string frame = std::to_string(key.frame);
+  const Place here{at, frame};
   if (key.frame < 0 || key.frame >= animation.frames)
-    throw ParseError{place, "frame " + std::to_string(key.frame),
-                     "a frame from 0 to " + std::to_string(animation.frames - 1)};
+    fail(here, "frame " + frame, "a frame from 0 to " + std::to_string(animation.frames - 1));
   if (key.value.empty() || key.value.size() != keyed.keys[0].value.size())
-    throw ParseError{place, std::to_string(key.value.size()) + " values",
-                     "as many as at the first key, " + std::to_string(keyed.keys[0].value.size())};
+    fail(here, std::to_string(key.value.size()) + " values",
+         "as many as at the first key, " + std::to_string(keyed.keys[0].value.size()));
   for (const double value : key.value)
-    if (!std::isfinite(value)) throw ParseError{place, number_text(value), "a finite number"};
+    if (!std::isfinite(value)) fail(here, number_text(value), "a finite number");
 }
 
 /// Looks at the keys alone: whether each has its place in the scene is found by check_keys().
@@ -254,6 +243,11 @@ std::optional<ParseError> check(const Scene& scene) {
     return std::move(error);
   }
   return std::nullopt;
+}
+
+Scene checked(Scene scene) {
+  if (const auto error = check(scene)) throw *error;
+  return scene;
 }
 
 }  // namespace tyndall

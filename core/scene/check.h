@@ -13,5 +13,7 @@ namespace tyndall {
 /// the camera has a direction that is not parallel to vup, the shutter does not close before it opens. It needs no
 /// file: a scene that was edited in memory is checked like one that was read.
 std::optional<ParseError> check(const Scene& scene);
+/// The scene if it breaks none; else throws that ParseError.
+Scene checked(Scene scene);
 
 }  // namespace tyndall

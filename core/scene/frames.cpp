@@ -103,11 +103,6 @@ void blur_motion(JsonValue& root, const Scene& scene, double time) {
   }
 }
 
-Scene checked(Scene scene) {
-  if (const auto error = check(scene)) throw *error;
-  return scene;
-}
-
 }  // namespace
 
 Scene scene_at(const Scene& scene, double time) {

@@ -1,5 +1,4 @@
 #include "core/base/text.h"
-#include "core/scene/check.h"
 #include "core/scene/json.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/place.h"
@@ -212,8 +211,6 @@ class TreeBuilder {
   }
 };
 
-bool is_blank(std::string_view text) { return text.find_first_not_of(" \t\r\n") == text.npos; }
-
 constexpr std::string_view blanks = " \t\r\n";
 
 std::string_view trimmed(std::string_view text) {
@@ -226,7 +223,7 @@ std::string_view trimmed(std::string_view text) {
 
 JsonDocument parse_json(std::string_view text) {
   if (text.size() > max_scene_bytes) throw ParseError{"/", "more than 256 MiB of text", "a scene of at most 256 MiB"};
-  if (is_blank(text)) throw ParseError{"/", "an empty file", "a scene: { \"tyndall\": 1, … }"};
+  if (trimmed(text).empty()) throw ParseError{"/", "an empty file", "a scene: { \"tyndall\": 1, … }"};
   // The parser would take it for the end of the text, and what follows would not be looked at.
   if (const std::size_t zero = text.find('\0'); zero != text.npos) throw syntax_error(text, zero + 1, "zero byte");
   auto memory = std::make_unique<JsonMemory>();

@@ -4,6 +4,7 @@
 #include "core/scene/check.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <system_error>
@@ -21,22 +22,18 @@ void read_version(const JsonObject& root, const Place& at) {
     fail({at, "tyndall"}, describe(json), "1 (the version of the scene format that this program reads)");
 }
 
-void read_shutter(const JsonObject& object, const Place& at, Camera& camera) {
-  const JsonValue* json = find(object, "shutter");
-  if (!json) return;
-  const Place here{at, "shutter"};
-  const char* expected = "an array of 2 numbers (times at which the shutter opens and closes)";
-  const JsonArray& array = array_at(*json, here, expected);
-  if (array.size() != 2) fail(here, describe(*json), expected);
-  const Meaning time{any_number(), "", "time; things that move do so from 0 to 1"};
-  read_value(array[0], {here, std::size_t{0}}, time, camera.shutter_open);
-  read_value(array[1], {here, std::size_t{1}}, time, camera.shutter_close);
-}
-
 void read_camera(const JsonValue& json, const Place& at, Camera& camera) {
   const JsonObject& object = object_at(json, at, "an object with the camera's values");
   read_fields(object, at, fields_of<Camera>(), {"shutter"}, camera);
-  read_shutter(object, at, camera);
+  const JsonValue* shutter = find(object, "shutter");
+  if (!shutter) return;
+  const Place here{at, "shutter"};
+  const char* expected = "an array of 2 numbers (times at which the shutter opens and closes)";
+  const JsonArray& array = array_at(*shutter, here, expected);
+  if (array.size() != 2) fail(here, describe(*shutter), expected);
+  const Meaning time{any_number(), "", "time; things that move do so from 0 to 1"};
+  read_value(array[0], {here, std::size_t{0}}, time, camera.shutter_open);
+  read_value(array[1], {here, std::size_t{1}}, time, camera.shutter_close);
 }
 
 /// Refuses a sky with a pixel that is no radiance.
@@ -96,13 +93,23 @@ class PictureShelf {
   std::map<std::pair<std::filesystem::path, bool>, std::shared_ptr<const Image::Pixels>> shelf_;
 };
 
-/// Reads the file of an Image or of a SkyPicture.
-template <class Picture>
-void read_file(const JsonObject& object, const Place& at, PictureShelf& shelf, Picture& picture) {
-  const std::string expected = "the path of an image, relative to the scene file";
-  picture.file = string_at(member_at(object, at, "file", expected), {at, "file"}, expected);
-  if (picture.file.empty()) fail({at, "file"}, "\"\"", expected);
-  picture.pixels = shelf.get(picture.file, {at, "file"}, std::is_same_v<Picture, SkyPicture>);
+/// Reads a texture or sky of any kind, and the file of one that is a picture.
+template <class Kinds>
+void read_texture_or_sky(const JsonObject& object, const Place& at, PictureShelf& shelf, Kinds& out) {
+  read_kind(object, at, out, [&]<class Kind>(Kind& kind) {
+    if constexpr (std::is_same_v<Kind, Image>)
+      allow_keys(object, at, {"type", "file"});
+    else if constexpr (std::is_same_v<Kind, SkyPicture>)
+      read_fields(object, at, fields_of<Kind>(), {"type", "file"}, kind);
+    else
+      read_fields(object, at, fields_of<Kind>(), {"type"}, kind);
+    if constexpr (requires { kind.file; }) {
+      const std::string expected = "the path of an image, relative to the scene file";
+      kind.file = string_at(member_at(object, at, "file", expected), {at, "file"}, expected);
+      if (kind.file.empty()) fail({at, "file"}, "\"\"", expected);
+      kind.pixels = shelf.get(kind.file, {at, "file"}, std::is_same_v<Kind, SkyPicture>);
+    }
+  });
 }
 
 /// The kinds of background but the plain colour.
@@ -113,16 +120,7 @@ using Sky = decltype(without_colour(static_cast<const Background*>(nullptr)));
 void read_background(const JsonValue& json, const Place& at, PictureShelf& shelf, Background& background) {
   if (const auto* object = std::get_if<JsonObject>(&json.value)) {
     Sky sky;
-    const std::string_view type = type_at(*object, at, type_names<Sky>);
-    const bool known = read_kind(type, sky, [&]<class Kind>(Kind& kind) {
-      if constexpr (std::is_same_v<Kind, SkyPicture>) {
-        read_fields(*object, at, fields_of<Kind>(), {"type", "file"}, kind);
-        read_file(*object, at, shelf, kind);
-      } else {
-        read_fields(*object, at, fields_of<Kind>(), {"type"}, kind);
-      }
-    });
-    if (!known) fail_type(at, type, type_names<Sky>());
+    read_texture_or_sky(*object, at, shelf, sky);
     std::visit([&](const auto& kind) { background = kind; }, sky);
   } else if (std::holds_alternative<JsonArray>(json.value)) {
     read_value(json, at, colour_meaning("radiance"), background.emplace<Vec3d>());
@@ -134,23 +132,12 @@ void read_background(const JsonValue& json, const Place& at, PictureShelf& shelf
 }
 
 void read_texture(const JsonValue& json, const Place& at, PictureShelf& shelf, Texture& texture) {
-  const JsonObject& object = object_at(json, at, "an object that describes a texture");
-  const std::string_view type = type_at(object, at, type_names<TextureKinds<double>>);
-  const bool known = read_kind(type, texture.kind, [&]<class T>(T& kind) {
-    if constexpr (std::is_same_v<T, Image>) {
-      allow_keys(object, at, {"type", "file"});
-      read_file(object, at, shelf, kind);
-    } else {
-      read_fields(object, at, fields_of<T>(), {"type"}, kind);
-    }
-  });
-  if (!known) fail_type(at, type, type_names<TextureKinds<double>>());
+  read_texture_or_sky(object_at(json, at, "an object that describes a texture"), at, shelf, texture.kind);
 }
 
 void read_material(const JsonValue& json, const Place& at, const NameTable& textures, Material& material) {
   const JsonObject& object = object_at(json, at, "an object that describes a material");
-  const std::string_view type = type_at(object, at, type_names<MaterialKinds<double>>);
-  const bool known = read_kind(type, material.kind, [&]<class T>(T& kind) {
+  read_kind(object, at, material.kind, [&]<class T>(T& kind) {
     if constexpr (T::colour_name != nullptr) {
       allow_keys(object, at, fields_of<T>(), {"type", T::colour_name});
       material.colour = read_colour(object, at, T::colour_name, textures);
@@ -159,7 +146,58 @@ void read_material(const JsonValue& json, const Place& at, const NameTable& text
     }
     read_fields(object, at, fields_of<T>(), kind);
   });
-  if (!known) fail_type(at, type, type_names<MaterialKinds<double>>());
+}
+
+/// All frames of a film have one size.
+bool may_have_keys(const std::vector<std::string>& steps) {
+  constexpr std::string_view refused[] = {"tyndall", "name", "image", "animation"};
+  return std::find(std::begin(refused), std::end(refused), steps[0]) == std::end(refused);
+}
+
+int read_frame(const std::string& text, const Place& at) {
+  int frame = -1;
+  std::from_chars(text.data(), text.data() + text.size(), frame);
+  if (frame < 0 || text != std::to_string(frame))
+    fail({at, text}, in_quotes(text), "a frame: a whole number from 0 on, as text");
+  return frame;
+}
+
+std::vector<double> read_numbers(const JsonValue& json, const Place& at) {
+  constexpr const char* expected = "a number or an array of numbers";
+  if (const auto* number = std::get_if<double>(&json.value)) return {*number};
+  std::vector<double> numbers;
+  for (const JsonValue& item : array_at(json, at, expected)) {
+    const auto* number = std::get_if<double>(&item.value);
+    if (!number) fail({at, numbers.size()}, describe(item), "a number");
+    numbers.push_back(*number);
+  }
+  if (numbers.size() < 2) fail(at, describe(json), expected);
+  return numbers;
+}
+
+KeyedValue read_keyed_value(const JsonMember& member, const Place& at) {
+  const auto steps = pointer_steps(member.key);
+  if (!steps) fail(at, in_quotes(member.key), "a JSON pointer to a value of the scene, such as /camera/vfov");
+  if (!may_have_keys(*steps)) fail(at, in_quotes(member.key), "a value of the camera, a material, an object, …");
+  KeyedValue keyed{member.key, {}};
+  const JsonObject& keys = object_at(member.value, at, "an object of values by frame, such as { \"0\": 1, \"47\": 2 }");
+  for (const JsonMember& key : keys)
+    keyed.keys.push_back({read_frame(key.key, at), read_numbers(key.value, {at, key.key})});
+  std::sort(keyed.keys.begin(), keyed.keys.end(),
+            [](const KeyFrame& a, const KeyFrame& b) { return a.frame < b.frame; });
+  return keyed;
+}
+
+Animation read_animation(const JsonValue& json, const Place& at) {
+  Animation animation;
+  const JsonObject& object = object_at(json, at, "an object with \"frames\" and \"keys\"");
+  read_fields(object, at, fields_of<Animation>(), {"keys"}, animation);
+  const JsonValue* keys = find(object, "keys");
+  if (!keys) return animation;
+  const Place here{at, "keys"};
+  for (const JsonMember& member : object_at(*keys, here, "an object of keys by JSON pointer"))
+    animation.keyed.push_back(read_keyed_value(member, {here, member.key}));
+  return animation;
 }
 
 /// Reads each member of an object of named things into `out` with `read(json, place, thing)`; returns their indices.
@@ -188,9 +226,6 @@ Scene scene_from(const JsonValue& json, PictureShelf shelf) {
              {"tyndall", "name", "image", "camera", "background", "render", "display", "animation", "textures",
               "materials", "objects"});
   Scene scene;
-  const auto section = [&](const char* key, const auto& read, auto& out) {
-    if (const JsonValue* value = find(root, key)) read(*value, Place{at, key}, out);
-  };
   const auto part = [&](const char* key, const char* expected, const auto& list, auto& out) {
     const Place here{at, key};
     if (const JsonValue* value = find(root, key)) read_fields(object_at(*value, here, expected), here, list, {}, out);
@@ -198,7 +233,7 @@ Scene scene_from(const JsonValue& json, PictureShelf shelf) {
   if (const JsonValue* name = find(root, "name"))
     scene.name = string_at(*name, {at, "name"}, "a text (the scene's name)");
   part("image", "an object with \"width\" and \"height\"", image_fields(), scene);
-  section("camera", read_camera, scene.camera);
+  if (const JsonValue* camera = find(root, "camera")) read_camera(*camera, {at, "camera"}, scene.camera);
   if (const JsonValue* background = find(root, "background"))
     read_background(*background, {at, "background"}, shelf, scene.background);
   part("render", "an object with the render settings", fields_of<RenderSettings>(), scene.render);
@@ -235,9 +270,7 @@ Scene read_scene(std::string_view text, const std::string& name, const std::file
     JsonDocument document = parse_json(text);
     JsonValue& root = document.root;
     for (const Override& one : overrides) apply_override(root, one), fit_to_type(root, one);
-    Scene scene = scene_from(root, PictureShelf(folder));
-    if (const auto error = check(scene)) throw *error;
-    return scene;
+    return checked(scene_from(root, PictureShelf(folder)));
   } catch (const ParseError& error) {
     throw SceneError(name, error.where, error.found, error.expected);
   }

@@ -1,5 +1,4 @@
 #pragma once
-#include "core/scene/animation.h"
 #include "core/scene/json_values.h"
 
 #include <filesystem>
@@ -28,8 +27,6 @@ ColourOrTexture read_colour(const JsonObject& object, const Place& at, const cha
 /// After an override of a material's type: leaves out values that other types have and the new one lacks; its colour
 /// stays, under the name that the new type has for it.
 void fit_to_type(JsonValue& root, const Override& override_);
-
-Animation read_animation(const JsonValue& json, const Place& at);
 
 /// The scene of a document whose image files were read before: they are taken from a scene that has the same ones.
 Scene scene_with_pictures(const JsonValue& root, const Scene& pictures);

@@ -1,6 +1,7 @@
 #include "core/scene/json_read.h"
 
 #include <algorithm>
+#include <set>
 
 namespace tyndall {
 namespace {
@@ -39,10 +40,6 @@ Transform read_transform(const JsonObject& object, const Place& at) {
   return transform;
 }
 
-void read_name_of(const JsonObject& object, const Place& at, std::string& name) {
-  if (const JsonValue* json = find(object, "name")) name = string_at(*json, {at, "name"}, "a text (the object's name)");
-}
-
 bool read_solid(const JsonObject& json, const Place& at, std::string_view type, const NameTables& references,
                 Object& object) {
   Solid3d solid;
@@ -62,12 +59,9 @@ void read_boundary(const JsonObject& medium, const Place& at, Volume& volume) {
   const JsonObject& object = object_at(member_at(medium, at, "boundary", expected), here, expected);
   if (find(object, "material"))
     fail({here, "material"}, "a material", "none: a boundary has no surface (add an object of the same shape for one)");
-  using Kinds = decltype(volume.boundary);
-  const std::string_view type = type_at(object, here, type_names<Kinds>);
-  const bool known = read_kind(type, volume.boundary, [&]<class T>(T& shape) {
+  read_kind(object, here, volume.boundary, [&]<class T>(T& shape) {
     read_fields(object, here, fields_of<T>(), {"type", "transform"}, shape);
   });
-  if (!known) fail_type(here, type, type_names<Kinds>());
   volume.boundary_transform = read_transform(object, here);
 }
 
@@ -78,11 +72,6 @@ Volume read_volume(const JsonObject& json, const Place& at, const NameTables& re
   read_fields(json, at, fields_of<Medium<>>(), volume.medium);
   volume.albedo = read_colour(json, at, "albedo", references.textures);
   return volume;
-}
-
-Group read_group(const JsonObject& json, const Place& at, const NameTables& references) {
-  allow_keys(json, at, {"name", "type", "transform", "objects"});
-  return {read_objects(member_at(json, at, "objects", "a list of objects"), {at, "objects"}, references)};
 }
 
 std::vector<std::string_view> object_types() {
@@ -97,12 +86,38 @@ void read_object(const JsonValue& json, const Place& at, const NameTables& refer
   if (type == Medium<>::type) {
     object.kind = read_volume(members, at, references);
   } else if (type == "group") {
-    object.kind = read_group(members, at, references);
+    allow_keys(members, at, {"name", "type", "transform", "objects"});
+    const JsonValue& objects = member_at(members, at, "objects", "a list of objects");
+    object.kind = Group{read_objects(objects, {at, "objects"}, references)};
   } else if (!read_solid(members, at, type, references, object)) {
     fail_type(at, type, object_types());
   }
-  read_name_of(members, at, object.name);
+  if (const JsonValue* name = find(members, "name"))
+    object.name = string_at(*name, {at, "name"}, "a text (the object's name)");
   object.transform = read_transform(members, at);
+}
+
+/// The keys of a material of that kind but its type.
+template <class Kind>
+std::set<std::string_view> keys_of(const Kind*) {
+  std::set<std::string_view> keys;
+  for_each_field(fields_of<Kind>(), [&](const auto& field) { keys.insert(field.name); });
+  if constexpr (Kind::colour_name != nullptr) keys.insert(Kind::colour_name);
+  return keys;
+}
+
+template <class... Kinds>
+std::set<std::string_view> keys_of_all(const std::variant<Kinds...>*) {
+  std::set<std::string_view> keys;
+  (keys.merge(keys_of(static_cast<const Kinds*>(nullptr))), ...);
+  return keys;
+}
+
+/// The colour that a material has under any name; grey if it has none.
+JsonValue colour_of(const JsonObject& material) {
+  for (const char* name : {"albedo", "radiance"})
+    if (const JsonValue* colour = find(material, name)) return *colour;
+  return to_json(std::get<Vec3d>(Material().colour));
 }
 
 }  // namespace
@@ -140,6 +155,26 @@ std::vector<Object> read_objects(const JsonValue& json, const Place& at, const N
   std::vector<Object> objects(array.size());
   for (std::size_t i = 0; i < array.size(); ++i) read_object(array[i], {at, i}, references, objects[i]);
   return objects;
+}
+
+void fit_to_type(JsonValue& root, const Override& override_) {
+  const auto steps = pointer_steps(override_.pointer);
+  if (!steps || steps->size() != 3 || steps->front() != "materials" || steps->back() != "type") return;
+  JsonValue* value = find_value(root, {steps->begin(), steps->end() - 1});
+  auto* material = value ? std::get_if<JsonObject>(&value->value) : nullptr;
+  if (!material) return;
+  MaterialKinds<double> kind;
+  read_kind(text_of(find(*material, "type")), kind, [&]<class T>(T&) {
+    const JsonValue colour = colour_of(*material);
+    const std::set<std::string_view> own = keys_of(static_cast<const T*>(nullptr));
+    const std::set<std::string_view> all = keys_of_all(static_cast<const MaterialKinds<double>*>(nullptr));
+    std::erase_if(*material, [&](const JsonMember& m) { return all.contains(m.key) && !own.contains(m.key); });
+    if constexpr (T::colour_name != nullptr)
+      if (!find(*material, T::colour_name)) put(*material, T::colour_name, colour);
+    for_each_field(fields_of<T>(), [&](const auto& field) {
+      if (field.required && !find(*material, field.name)) put(*material, field.name, T().*field.value);
+    });
+  });
 }
 
 }  // namespace tyndall

@@ -50,23 +50,16 @@ std::size_t depth_of(const JsonValue& json) {
   return deepest + 1;
 }
 
-/// A copy of what a text holds, whose memory is its own.
-JsonValue root_of(const std::string& text) {
-  const JsonDocument document = parse_json(text);
-  return document.root;
-}
-
 /// The value as JSON. Text that is not JSON stands for a string of that text.
 JsonValue override_value(const std::string& text, const std::string& where) {
-  try {
-    return root_of(text);
-  } catch (const ParseError&) {
+  for (const std::string& json : {text, in_quotes(text)}) {
+    try {
+      const JsonDocument document = parse_json(json);
+      return document.root;  // a copy, whose memory is its own
+    } catch (const ParseError&) {
+    }
   }
-  try {
-    return root_of(in_quotes(text));
-  } catch (const ParseError&) {
-    throw ParseError{where, "a value that is not UTF-8", "JSON or text"};
-  }
+  throw ParseError{where, "a value that is not UTF-8", "JSON or text"};
 }
 
 /// The place for a new or existing member of `holder`.

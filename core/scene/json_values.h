@@ -112,5 +112,11 @@ template <class... Kinds, class Read>
 bool read_kind(std::string_view type, std::variant<Kinds...>& out, const Read& read) {
   return ((type == Kinds::type && (read(out.template emplace<Kinds>()), true)) || ...);
 }
+/// The same by the "type" of an object. Refuses one that names no kind.
+template <class Variant, class Read>
+void read_kind(const JsonObject& object, const Place& at, Variant& out, const Read& read) {
+  const std::string_view type = type_at(object, at, type_names<Variant>);
+  if (!read_kind(type, out, read)) fail_type(at, type, type_names<Variant>());
+}
 
 }  // namespace tyndall

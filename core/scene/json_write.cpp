@@ -28,9 +28,23 @@ void put_part(JsonObject& out, const char* key, JsonObject part) {
   if (!part.empty()) put(out, key, JsonValue{std::move(part)});
 }
 
-JsonObject camera_json(const Camera& camera) {
+template <class Owner>
+JsonObject fields_json(const Owner& owner) {
   JsonObject out;
-  put_fields(out, camera);
+  put_fields(out, owner);
+  return out;
+}
+
+/// What a thing of one of several kinds says: its type, the file of a picture, and its fields.
+template <class Kind>
+void put_kind(JsonObject& out, const Kind& kind) {
+  put(out, "type", Kind::type);
+  if constexpr (requires { kind.file; }) put(out, "file", kind.file);
+  if constexpr (requires { fields(&kind); }) put_fields(out, kind);
+}
+
+JsonObject camera_json(const Camera& camera) {
+  JsonObject out = fields_json(camera);
   if (camera.shutter_open != 0 || camera.shutter_close != 0)
     put(out, "shutter", std::vector{camera.shutter_open, camera.shutter_close});
   return out;
@@ -38,19 +52,16 @@ JsonObject camera_json(const Camera& camera) {
 
 JsonValue background_json(const Background& background) {
   return std::visit(Overloaded{[](const Vec3d& radiance) { return to_json(radiance); },
-                               []<class Sky>(const Sky& sky) {
+                               [](const auto& sky) {
                                  JsonObject out;
-                                 put(out, "type", Sky::type);
-                                 if constexpr (std::is_same_v<Sky, SkyPicture>) put(out, "file", sky.file);
-                                 put_fields(out, sky);
+                                 put_kind(out, sky);
                                  return JsonValue{std::move(out)};
                                }},
                     background);
 }
 
 JsonObject animation_json(const Animation& animation) {
-  JsonObject out, keyed;
-  put_fields(out, animation);
+  JsonObject out = fields_json(animation), keyed;
   for (const KeyedValue& value : animation.keyed) {
     JsonObject keys;
     for (const KeyFrame& key : value.keys)
@@ -61,25 +72,9 @@ JsonObject animation_json(const Animation& animation) {
   return out;
 }
 
-template <class Owner>
-JsonObject fields_json(const Owner& owner) {
-  JsonObject out;
-  put_fields(out, owner);
-  return out;
-}
-
 JsonValue texture_json(const Texture& texture) {
   JsonObject out;
-  std::visit(
-      [&]<class T>(const T& kind) {
-        put(out, "type", T::type);
-        if constexpr (std::is_same_v<T, Image>) {
-          put(out, "file", kind.file);
-        } else {
-          put_fields(out, kind);
-        }
-      },
-      texture.kind);
+  std::visit([&](const auto& kind) { put_kind(out, kind); }, texture.kind);
   return {std::move(out)};
 }
 
@@ -105,23 +100,14 @@ JsonValue material_json(const Material& material, const Scene& scene) {
 void put_transform(JsonObject& out, const Transform& transform) {
   if (transform.empty()) return;
   JsonArray steps;
-  for (const auto& move : transform)
-    std::visit(
-        [&](const auto& m) { put_fields(std::get<JsonObject>(steps.emplace_back(JsonValue{JsonObject()}).value), m); },
-        move);
+  for (const auto& move : transform) std::visit([&](const auto& m) { steps.push_back({fields_json(m)}); }, move);
   put(out, "transform", JsonValue{std::move(steps)});
-}
-
-template <class Shape>
-void put_shape(JsonObject& out, const Shape& shape) {
-  put(out, "type", Shape::type);
-  put_fields(out, shape);
 }
 
 void put_volume(JsonObject& out, const Volume& volume, const Scene& scene) {
   put(out, "type", Medium<>::type);
   JsonObject boundary;
-  std::visit([&](const auto& shape) { put_shape(boundary, shape); }, volume.boundary);
+  std::visit([&](const auto& shape) { put_kind(boundary, shape); }, volume.boundary);
   put_transform(boundary, volume.boundary_transform);
   put(out, "boundary", JsonValue{std::move(boundary)});
   put_fields(out, volume.medium, Which::required);
@@ -136,7 +122,7 @@ JsonValue objects_json(const std::vector<Object>& objects, const Scene& scene) {
     JsonObject out;
     if (!object.name.empty()) put(out, "name", object.name);
     std::visit(Overloaded{[&](const Solid3d& solid) {
-                            std::visit([&](const auto& shape) { put_shape(out, shape); }, solid.shape);
+                            std::visit([&](const auto& shape) { put_kind(out, shape); }, solid.shape);
                             put(out, "material", scene.materials[static_cast<std::size_t>(solid.material)].name);
                           },
                           [&](const Volume& volume) { put_volume(out, volume, scene); },

@@ -119,15 +119,6 @@ void read_text_of(LoadedScene& loaded, const std::vector<Override>& overrides) {
                [&](const auto& picture) { loaded.files.push_back(picture_name(loaded.folder / picture.file).file); });
 }
 
-BuiltIn built_in(const std::string& name, const fs::path& path) {
-  const std::string text = read_file(path.string());
-  BuiltIn scene{name, name_of(text), "", path};
-  const auto comments = leading_comments(text);
-  for (const std::string& line : comments) scene.about += (scene.about.empty() ? "" : " ") + line;
-  if (scene.title.empty() && !comments.empty()) scene.title = comments[0];
-  return scene;
-}
-
 }  // namespace
 
 fs::path assets_folder() {
@@ -143,7 +134,14 @@ fs::path assets_folder() {
 
 std::vector<BuiltIn> built_in_scenes() {
   std::vector<BuiltIn> scenes;
-  for (const std::string& name : built_in_names()) scenes.push_back(built_in(name, scenes_folder() / (name + ".json")));
+  for (const std::string& name : built_in_names()) {
+    const fs::path path = scenes_folder() / (name + ".json");
+    const std::string text = read_file(path.string());
+    const std::vector<std::string> comments = leading_comments(text);
+    BuiltIn& scene = scenes.emplace_back(BuiltIn{name, name_of(text), "", path});
+    for (const std::string& line : comments) scene.about += (scene.about.empty() ? "" : " ") + line;
+    if (scene.title.empty() && !comments.empty()) scene.title = comments[0];
+  }
   return scenes;
 }
 

@@ -63,9 +63,7 @@ Scene with_value(const Scene& scene, const std::string& pointer, JsonValue value
   JsonValue root = scene_json(scene);
   add_sections(root);
   put_value(root, pointer_steps(pointer).value_or(std::vector<std::string>{""}), std::move(value), pointer);
-  Scene changed = scene_with_pictures(root, scene);
-  if (const auto error = check(changed)) throw *error;
-  return changed;
+  return checked(scene_with_pictures(root, scene));
 }
 
 }  // namespace tyndall

@@ -2,8 +2,8 @@
 
 #include "core/accuracy/error.h"
 #include "core/compile/compile.h"
-#include "core/render/pictures.h"
 #include "core/render/render.h"
+#include "core/render/views.h"
 #include "core/scene/load.h"
 #include "tests/support/hard_for_filters.h"
 #include "tests/support/pictures.h"

@@ -1,7 +1,7 @@
 #include "core/compile/compile.h"
-#include "core/render/pictures.h"
 #include "core/render/progression.h"
 #include "core/render/render.h"
+#include "core/render/views.h"
 #include "core/scene/load.h"
 #include "tests/support/prepared.h"
 #include "tests/support/watched_renderer.h"
