@@ -13,7 +13,7 @@
 namespace tyndall {
 namespace {
 
-constexpr int max_columns = 64, block = 4;  // of the small picture; of a block in pixels
+constexpr int max_columns = 64, block_edge = 4;  // of the small picture; of a block in pixels
 constexpr double seconds_of_program = 0.5;
 constexpr int fewest_samples = 4, most_samples = 200;  // a pixel
 constexpr double brightest_sample = 2;                 // of what a sample counts for: few of them would decide else
@@ -50,7 +50,7 @@ bool apart(const BlockLight& a, const BlockLight& b) {
 /// samples to those of its block.
 template <class AddPixel>
 std::vector<BlockLight> sums_of(const Lattice& lattice, const AddPixel& add_pixel) {
-  const Regions regions = blocks_of(lattice, block);
+  const Regions regions = blocks_of(lattice, block_edge);
   std::vector<BlockLight> blocks(static_cast<std::size_t>(regions.count));
   for (std::size_t pixel = 0; pixel < lattice.pixels(); ++pixel)
     add_pixel(pixel, blocks[static_cast<std::size_t>(regions.of_pixel[pixel])]);
@@ -114,7 +114,7 @@ std::string differs_from_own(const Scene& scene, const ProgramScene& program) {
   for (std::size_t k = 0; k < own.size(); ++k)
     if (apart(own[k], ours[k])) ++different, first = std::min(first, k);
   if (static_cast<double>(different) <= std::max(1.0, allowed * static_cast<double>(own.size()))) return "";
-  const int columns = (lattice.columns() + block - 1) / block, size = block * lattice.step;
+  const int columns = (lattice.columns() + block_edge - 1) / block_edge, size = block_edge * lattice.step;
   return fmt::format("what it computes differs from its scene in {} of {} blocks, first at pixel ({}, {})", different,
                      own.size(), static_cast<int>(first) % columns * size, static_cast<int>(first) / columns * size);
 }

@@ -14,7 +14,8 @@ std::vector<OptionGroup> rendering(std::vector<OptionGroup> own, const char* mac
 
 }  // namespace
 
-const std::vector<CommandRow>& command_rows() {
+// A table, which may be as long as it has rows.
+const std::vector<CommandRow>& command_rows() {  // NOLINT(readability-function-size)
   static const std::vector<CommandRow> rows{
       {"view", "open a scene in the window (also without this word; default: the showroom)", "view [SCENE] [options]",
        "Opens a scene in the window. 'tyndall' alone opens the showroom, 'tyndall SCENE' a scene.\n\n"

@@ -187,7 +187,8 @@ std::vector<OptionRow> output_rows() {
   };
 }
 
-std::vector<OptionRow> render_rows() {
+// A table, which may be as long as it has rows.
+std::vector<OptionRow> render_rows() {  // NOLINT(readability-function-size)
   return {
       {"--region", "X0,Y0,X1,Y1", to(&CommandRequest::region, read_region),
        "render the pixels X0 <= x < X1, Y0 <= y < Y1 only, y down;\n"

@@ -35,7 +35,7 @@ void check_own_samples(const CommandRequest& command, const std::string& name) {
   if (command.resume) refuse("--resume");
   if (command.replay) refuse("--replay");
   if (command.frame) refuse("--frame");
-  if (command.scene.render.given.size() > 0) refuse("an option of rendering");
+  if (!command.scene.render.given.empty()) refuse("an option of rendering");
 }
 
 /// Tells the user if an option asks for what the integrator does not do.

@@ -52,7 +52,8 @@ LinearImage square_sky(const SkyPicture& picture) {
     for (int x = 0; x < edge; ++x) {
       Vec3d sum;
       for (int k = 0; k < parts * parts; ++k) {
-        const double column = x + (k % parts + 0.5) / parts, row = y + (k / parts + 0.5) / parts;
+        const int across = k % parts, down = k / parts;
+        const double column = x + (across + 0.5) / parts, row = y + (down + 0.5) / parts;
         sum = sum + sky_towards<double>(sky, direction_of(column / edge, row / edge)).radiance;
       }
       for (const double c : {sum.x, sum.y, sum.z}) out.rgb.push_back(static_cast<float>(c / (parts * parts)));
@@ -106,7 +107,7 @@ LinearImage closed(const Image::Pixels& pixels) {
   for (int y = 0; y < out.height; ++y)
     for (int x = -1; x <= pixels.width; ++x) {
       const auto row = pixels.rgb.begin() + 3 * std::ptrdiff_t{y} * pixels.width;
-      const auto texel = row + 3 * ((x + pixels.width) % pixels.width);
+      const auto texel = row + 3 * std::ptrdiff_t{(x + pixels.width) % pixels.width};
       out.rgb.insert(out.rgb.end(), texel, texel + 3);
     }
   return out;

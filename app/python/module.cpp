@@ -71,7 +71,7 @@ void add_error(py::module_& module) {
       "tyndall.Error", "Why something cannot be done, in one line; its parts are file, place, found and expected.",
       PyExc_ValueError, nullptr);
   module.add_object("Error", py::reinterpret_borrow<py::object>(error));
-  py::register_exception_translator([](std::exception_ptr thrown) {
+  py::register_exception_translator([](std::exception_ptr thrown) {  // NOLINT: pybind11 wants it by value
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const tyndall::Error& why) {

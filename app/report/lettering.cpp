@@ -88,8 +88,8 @@ void write_plain(ScreenPicture& picture, int left, int top, const std::string& t
                                         static_cast<int>(corners.size() * sizeof(Corner)));
   const auto pixel = [scale](float v) { return static_cast<int>(std::lround(v * scale)); };
   for (int q = 0; q < quads; ++q) {
-    const Corner& low = corners[static_cast<std::size_t>(4 * q)];
-    const Corner& high = corners[static_cast<std::size_t>(4 * q + 2)];
+    const std::size_t first = 4 * static_cast<std::size_t>(q);
+    const Corner &low = corners[first], &high = corners[first + 2];
     for (int y = pixel(low.y); y < pixel(high.y); ++y)
       for (int x = pixel(low.x); x < pixel(high.x); ++x) blend(picture, left + x, top + y, colour, 255);
   }

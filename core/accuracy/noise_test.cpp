@@ -136,7 +136,8 @@ Score score_of(GroupSums sums, const Counts& counts) {
 }
 
 /// The groups of a block: spacing² in each half of 8 rows.
-using BlockGroups = std::array<std::array<GroupValue, 3>, group_spacing * group_spacing*(edge / block_height)>;
+using BlockGroups =
+    std::array<std::array<GroupValue, 3>, std::size_t{group_spacing} * group_spacing*(edge / block_height)>;
 
 std::size_t index_of(const Region& region, int x, int y) {
   return 3 * (static_cast<std::size_t>(y - region.y0) * static_cast<std::size_t>(region.width()) +
@@ -145,7 +146,8 @@ std::size_t index_of(const Region& region, int x, int y) {
 
 std::size_t group_of(int x, int y) {
   const int half = within(y, edge) / block_height, row = within(y, group_spacing), column = within(x, group_spacing);
-  return static_cast<std::size_t>((half * group_spacing + row) * group_spacing + column);
+  const int groups_above = half * group_spacing + row;
+  return static_cast<std::size_t>(groups_above) * group_spacing + static_cast<std::size_t>(column);
 }
 
 BlockGroups groups_of(const NoisyImage& image, const Region& block) {
@@ -223,16 +225,17 @@ int outliers_at(const Energies& energies, int width, int height, int x, int y) {
 /// exchanged; by how far they lie apart Hoeffding's inequality for bounded numbers says how much chance can make of it.
 double count_outliers(const NoisyImage& a, const NoisyImage& b, const Region& region, NoiseScores& scores) {
   const Energies energies = energies_of(a, b, region);
-  const int width = region.width(), height = region.height(), columns = width / block_width + 2;
-  std::vector<std::array<int, 3>> blocks(static_cast<std::size_t>(columns) *
-                                         static_cast<std::size_t>(height / block_height + 2));
+  const int width = region.width(), height = region.height();
+  const auto columns = static_cast<std::size_t>(width / block_width + 2);
+  std::vector<std::array<int, 3>> blocks(columns * static_cast<std::size_t>(height / block_height + 2));
   const int first_column = region.x0 / block_width, first_row = region.y0 / block_height;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const int found = outliers_at(energies, width, height, x, y);
       if (found == 0) continue;
       const int column = (region.x0 + x) / block_width - first_column, row = (region.y0 + y) / block_height - first_row;
-      for (std::size_t k = 0; k < 3; ++k) blocks[static_cast<std::size_t>(row * columns + column)][k] += found >> k & 1;
+      const std::size_t block = static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
+      for (std::size_t k = 0; k < 3; ++k) blocks[block][k] += found >> k & 1;
     }
   double excess = 0, ranges = 0, explained = 0;
   for (const auto& [d, e, f] : blocks) {

@@ -45,9 +45,9 @@ std::optional<JsonValue> unwritten_value(const Scene& scene, JsonValue& root, st
   if (steps == std::vector<std::string>{"render"}) return value_of(scene.render, key);
   if (steps == std::vector<std::string>{"display"}) return value_of(scene.display, key);
   const std::string type = text_of(find(find_value(root, steps), "type"));
-  if (const auto found = default_of(type, key, static_cast<const decltype(Material::kind)*>(nullptr))) return found;
-  if (const auto found = default_of(type, key, static_cast<const decltype(Texture::kind)*>(nullptr))) return found;
-  if (const auto found = default_of(type, key, static_cast<const decltype(Solid3d::shape)*>(nullptr))) return found;
+  if (auto found = default_of(type, key, static_cast<const decltype(Material::kind)*>(nullptr))) return found;
+  if (auto found = default_of(type, key, static_cast<const decltype(Texture::kind)*>(nullptr))) return found;
+  if (auto found = default_of(type, key, static_cast<const decltype(Solid3d::shape)*>(nullptr))) return found;
   return default_of(type, key, static_cast<const std::variant<Medium<>>*>(nullptr));
 }
 

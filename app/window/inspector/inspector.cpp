@@ -213,8 +213,12 @@ bool Inspector::collect(const RendererPair& renderers) {
 
 void Inspector::draw(Ui& ui, const Context& context, const Scene& scene, const RendererPair& renderers) {
   const std::shared_ptr<const Scene>& sent = context.wanted.scene;
-  const bool other = path_ && sent && sent != path_->scene && change_between(*path_->scene, *sent).others;
-  if (other) drop_path();  // while only the camera looks from elsewhere it stays
+  if (path_ && sent && sent != path_->scene) {
+    if (change_between(*path_->scene, *sent).others)
+      drop_path();
+    else
+      path_->scene = sent;  // the camera may look from elsewhere
+  }
   if (path_) draw_path(ui, scene, context.layout.image, context.visible, path_->eye, path_->stops);
   PixelReadout model;
   const bool pixel = on_ && at_ && context.frame;

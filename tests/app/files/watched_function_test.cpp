@@ -42,7 +42,7 @@ TEST_CASE("watched function: what has no value is rejected by films, and the fir
       },
       nullptr);
   watched.set_on_news([&] { ++news; });
-  for (const std::uint64_t sample : {1, 0, 2, 3, 4, 5}) CHECK(std::isnan(answer(watched, sample).x));
+  for (const std::uint64_t sample : {1u, 0u, 2u, 3u, 4u, 5u}) CHECK(std::isnan(answer(watched, sample).x));
   CHECK(answer(watched, 6).z == 1e12f);
   CHECK(watched.problems() == 6);
   CHECK(news == 1);

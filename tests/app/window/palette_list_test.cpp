@@ -117,9 +117,10 @@ TEST_CASE("the words of other programs lead to the action or row that is meant t
   VariedColumn column;
   const std::vector<PaletteItem> items = palette_items(column.rows({}), {"cover", "showroom"});
   for (const auto& [text, label] : meant) {
-    const std::vector<int> found = matching_items(items, text);
-    REQUIRE_MESSAGE(!found.empty(), text);
-    CHECK_MESSAGE(items[static_cast<std::size_t>(found[0])].label == label, text);  // Return carries it out
+    const std::string typed = text;
+    const std::vector<int> found = matching_items(items, typed);
+    REQUIRE_MESSAGE(!found.empty(), typed);
+    CHECK_MESSAGE(items[static_cast<std::size_t>(found[0])].label == label, typed);  // Return carries it out
   }
 }
 
@@ -151,9 +152,10 @@ TEST_CASE("each row is brought up and takes the keyboard, or it is said what to 
   for (std::size_t k = 0; k <= count; ++k) {
     column.state.selected = k < count ? ObjectPath{static_cast<int>(k)} : ObjectPath{};
     for (int drawing = 0; drawing < 3; ++drawing) column.draw();
-    for (const auto& [row, missing] : column.rows(column.state.selected)) {
+    for (const ListedRow& listed : column.rows(column.state.selected)) {
+      const RowEntry& row = listed.row;
       column.go(row);
-      const bool shown = missing.empty();
+      const bool shown = listed.missing.empty();
       CHECK_MESSAGE(shown == column.problem.empty(), k, ": ", row.part, ": ", row.label);
       if (shown && !row.label.empty()) {
         const bool has_keyboard = column.ui.edit.id != 0 || column.ui.sought.has_keys;

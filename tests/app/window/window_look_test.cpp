@@ -60,7 +60,7 @@ TEST_CASE("the window: legends tell what colours mean") {
                                                        {"cost", "rays of a path: 0 "}};
   for (const auto& [view, legend] : views) {
     driver.find(std::string("view ") + view);
-    driver.wait_until([&] { return says(driver, "legend", legend); });
+    driver.wait_until([&, expected = legend] { return says(driver, "legend", expected); });
   }
   driver.find("view object");
   CHECK(driver.value("image.view.object") == "on");
