@@ -31,9 +31,7 @@ Reference reference_image(const NamedScene& named, int spp, const std::filesyste
   double rel_mse = 0;
   if (std::ifstream(noise) >> rel_mse) return {read_image(file).rgb, rel_mse};
   const RenderScene compiled = compile(scene);
-  RenderOptions options;
-  options.spp = static_cast<std::uint32_t>(spp);
-  const Film film = render(compiled, options).film;
+  const Film film = render(compiled, {.spp = static_cast<std::uint32_t>(spp)}).film;
   const LinearImage image{compiled.width, compiled.height, resolve(film)};
   rel_mse = std::pow(estimated_relative_error(film), 2);
   write_pfm(file, image);

@@ -76,9 +76,7 @@ TEST_CASE("smoke: hides no light from a lamp in fog") {
   add(scene, sphere({0, 1.5, 1}, 0.02), lamp(3000));
   add_medium(scene, sphere({0, 1.5, 1}, 1.5), {0.5, 0}, 0.9);
   add_medium(scene, sphere({0.5, 1.5, 1}, 1.2), {0.6, 0}, 0);
-  scene.camera.look_from = {0, 3, 8};
-  scene.camera.look_at = {1, 1, 0};
-  scene.camera.vfov = 10;
+  scene.camera = {.look_from = {0, 3, 8}, .look_at = {1, 1, 0}, .vfov = 10};
   scene.render.integrator = Integrator::mis;
   CHECK(compile(scene).near.light.size() == 1);
   check_same_light(scene, 0.5);
@@ -90,9 +88,7 @@ TEST_CASE("smoke: hides no light that comes through a ball of glass") {
   add(scene, sphere({0, 1.2, 0}, 1), glass(1.5));
   add(scene, sphere({0.3, 1.3, 0}, 0.1), lamp(300));
   add_medium(scene, sphere({0, 1.2, 0}, 2.5), {0.5, 0}, 0);
-  scene.camera.look_from = {0, 4, 6};
-  scene.camera.look_at = {0, 0, 1};
-  scene.camera.vfov = 20;
+  scene.camera = {.look_from = {0, 4, 6}, .look_at = {0, 0, 1}, .vfov = 20};
   scene.render.integrator = Integrator::mis;
   CHECK(compile(scene).specular.sphere.size() == 1);
   check_same_light(scene, 0.5);

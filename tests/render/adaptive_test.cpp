@@ -25,11 +25,7 @@ const RenderScene& scene_of(const std::string& name) {
 }
 
 RenderOptions options_of(std::uint32_t spp) {
-  RenderOptions options;
-  options.threads = 2;
-  options.spp = spp;
-  options.adaptive = true;
-  return options;
+  return {.threads = 2, .spp = spp, .adaptive = true};
 }
 
 }  // namespace

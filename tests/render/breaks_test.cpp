@@ -20,10 +20,7 @@ TEST_CASE("breaks: films and results that are taken in between change no bit, al
   const RenderScene scene = small_scene();
   for (const bool adaptive : {false, true}) {
     CAPTURE(adaptive);
-    RenderOptions options;
-    options.threads = 2;
-    options.spp = 200;
-    options.adaptive = adaptive;
+    RenderOptions options{.threads = 2, .spp = 200, .adaptive = adaptive};
     const RenderResult plain = render(scene, options);
     int films = 0, results = 0;
     std::uint64_t last = 0;
@@ -49,9 +46,7 @@ TEST_CASE("breaks: films and results that are taken in between change no bit, al
 
 TEST_CASE("breaks: a time limit still ends a render between passes, so that all pixels have as many samples") {
   const RenderScene scene = small_scene();
-  RenderOptions options;
-  options.threads = 2;
-  options.time_limit = 0.3;
+  RenderOptions options{.threads = 2, .time_limit = 0.3};
   options.breaks.film_due = [] { return true; };
   options.breaks.take_film = [](const Film&, ThreadPool&) {};
   const FilmTotals sum = totals(render(scene, options).film);

@@ -27,11 +27,7 @@ Scene small(const char* name, int width, int height) {
 }
 
 RenderResult rendered(const Scene& scene, std::uint32_t spp, bool clean = false, int threads = 2) {
-  RenderOptions options;
-  options.spp = spp;
-  options.clean = clean;
-  options.threads = threads;
-  return render(compile(scene), options);
+  return render(compile(scene), {.threads = threads, .spp = spp, .clean = clean});
 }
 
 Vec3f emission(const Film& film, int x, int y) {
@@ -102,10 +98,7 @@ TEST_CASE("clean view: of regions, and the same for any number of threads and af
   const RenderScene compiled = compile(scene);
   const RenderResult one = rendered(scene, 4, true, 1), two = rendered(scene, 4, true, 3);
   CHECK(one.clean->rgb == two.clean->rgb);
-  RenderOptions options;
-  options.spp = 4;
-  options.clean = true;
-  options.region = Region{7, 3, 8, 20};
+  RenderOptions options{.region = Region{7, 3, 8, 20}, .spp = 4, .clean = true};
   CHECK(render(compiled, options).clean->rgb.size() == 3 * 17);
   options.region.reset();
   options.spp = 2;
@@ -116,10 +109,7 @@ TEST_CASE("clean view: of regions, and the same for any number of threads and af
 
 TEST_CASE("clean view: its error ends a render that asks for that, and one sample a pixel has none") {
   const Scene scene = small("cornell-box", 48, 48);
-  RenderOptions options;
-  options.clean = true;
-  options.target_error = 0.12;
-  const RenderResult result = render(compile(scene), options);
+  const RenderResult result = render(compile(scene), {.target_error = 0.12, .clean = true});
   REQUIRE(result.clean);
   CHECK(result.clean->relative_error <= 0.12);
   CHECK(result.seconds_clean > 0);

@@ -95,8 +95,7 @@ void measure(const std::string& name, Scene scene, std::uint32_t reference_spp, 
   const Reference reference = reference_of(scene, reference_spp);
   const RenderScene compiled = compile(scene);
   const double chance = chance_of_caustics(scene, compiled);
-  RenderOptions options;
-  options.clean = true;
+  RenderOptions options{.clean = true};
   Film film;
   for (const std::uint32_t spp : counts) {
     options.spp = spp;

@@ -107,9 +107,7 @@ TEST_CASE("depth and roulette: the same in every integrator, with every sampler"
 TEST_CASE("depth 0: lights and background alone") {
   Scene scene = white_room();
   scene.background = Vec3d{0.25, 0.5, 1};
-  scene.camera.look_from = {0, 0, 5};
-  scene.camera.look_at = {0, 0, 0};
-  scene.camera.vfov = 40;
+  scene.camera = {.look_from = {0, 0, 5}, .look_at = {0, 0, 0}, .vfov = 40};
   add(scene, sphere({-1, 0, 0}, 0.5), lamp(3));
   add(scene, sphere({1, 0, 0}, 0.5), lambertian(1));
   scene.render.max_depth = 0;

@@ -45,9 +45,7 @@ void add_cases(const std::string& name, const Scene& scene, std::uint32_t refere
   const Kernels kernels = choose_kernels("").value();
   Film film;
   for (const std::uint32_t spp : counts) {
-    RenderOptions options;
-    options.spp = spp;
-    film = render(compiled, options, {}, std::move(film)).film;
+    film = render(compiled, {.spp = spp}, {}, std::move(film)).film;
     const double truth = std::sqrt(std::max(true_relative_mse(film, reference), 1e-30));
     const ErrorEstimate estimate = estimate_error(compiled, kernels, film);
     const double estimated = estimate.relative_error;

@@ -80,10 +80,7 @@ TEST_CASE("spherical lights: from nearly touching to a hundred radii, and cut by
 TEST_CASE("all integrators and samplers agree: matt, fuzzy metal, glass, fog, four kinds of lights") {
   Scene scene = dark_room();
   scene.width = scene.height = 48;
-  scene.camera.look_from = {0, 2, 9};
-  scene.camera.look_at = {0, 1, 0};
-  scene.camera.vfov = 40;
-  scene.camera.shutter_close = 1;
+  scene.camera = {.look_from = {0, 2, 9}, .look_at = {0, 1, 0}, .vfov = 40, .shutter_close = 1};
   scene.render.max_depth = 8;
   add(scene, Quad<>{{-6, 0, -6}, {12, 0, 0}, {0, 0, 12}}, lambertian(0.7));
   add(scene, sphere({-1.5, 0.7, 0}, 0.7), metal(0.9, 0.3));
@@ -145,10 +142,7 @@ TEST_CASE("a thousand small lights, and a light around the eye") {
 TEST_CASE("image_hash is equal for any threads and tiles with light sampling, on every instruction set") {
   Scene scene = floor_room();
   scene.width = 61, scene.height = 47;
-  scene.camera = {};
-  scene.camera.look_from = {0, 2, 6};
-  scene.camera.look_at = {0, 0, 0};
-  scene.camera.vfov = 60;
+  scene.camera = {.look_from = {0, 2, 6}, .look_at = {0, 0, 0}, .vfov = 60};
   scene.render.max_depth = 20;
   scene.render.integrator = Integrator::mis;
   scene.render.sampler = SamplerKind::sobol;
@@ -158,12 +152,8 @@ TEST_CASE("image_hash is equal for any threads and tiles with light sampling, on
   const RenderScene compiled = compile(scene);
   for (const Kernels& kernels : available_kernels()) {
     const auto hash = [&](int threads, int tile) {
-      RenderOptions options;
-      options.isa = kernels.isa;
-      options.threads = threads;
-      options.tile = tile;
-      options.spp = 9;
-      return image_hash(61, 47, resolve(render(compiled, options).film));
+      return image_hash(
+          61, 47, resolve(render(compiled, {.threads = threads, .isa = kernels.isa, .spp = 9, .tile = tile}).film));
     };
     const std::uint64_t first = hash(1, 0);
     CHECK(hash(2, 8) == first);
@@ -184,9 +174,7 @@ TEST_CASE("light sampling without weights: no sample is out of a film's range, a
   add_medium(scene, sphere({0, 0, 0}, 4), {0.3, 0.95}, 0.9);
   const auto mean_of = [&](Integrator integrator, std::uint32_t spp) {
     scene.render.integrator = integrator;
-    RenderOptions options;
-    options.spp = spp;
-    const Film film = render(compile(scene), options).film;
+    const Film film = render(compile(scene), {.spp = spp}).film;
     CHECK(totals(film).rejected == 0);
     return film_mean(film);
   };

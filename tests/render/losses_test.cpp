@@ -19,9 +19,7 @@ namespace {
 RenderScene poisoned() {
   Scene scene = white_room();
   scene.width = 40, scene.height = 30;
-  scene.camera.look_from = {0, 0, 4};
-  scene.camera.look_at = {0, 0, 0};
-  scene.camera.vfov = 45;
+  scene.camera = {.look_from = {0, 0, 4}, .look_at = {0, 0, 0}, .vfov = 45};
   add_medium(scene, sphere({-0.5, 0, 0}, 0.5), {0.5, 0}, 0.9);
   add_medium(scene, sphere({0.7, 0.2, 0}, 0.4), {0.02, 0}, 0.9);
   RenderScene compiled = compile(scene);
@@ -31,13 +29,7 @@ RenderScene poisoned() {
 
 RenderResult result_of(const RenderScene& scene, const char* isa, int threads, int tile, std::uint32_t first = 0,
                        std::uint32_t spp = 16) {
-  RenderOptions options;
-  options.isa = isa;
-  options.threads = threads;
-  options.tile = tile;
-  options.first_sample = first;
-  options.spp = spp;
-  return render(scene, options);
+  return render(scene, {.threads = threads, .isa = isa, .first_sample = first, .spp = spp, .tile = tile});
 }
 
 /// The rejected samples of a film by trying all, one by one.

@@ -44,9 +44,7 @@ void check_integrators_agree(const Scene& scene) {
 
 Scene room() {
   Scene scene = dark_room();
-  scene.camera.look_from = {0, 2, 6};
-  scene.camera.look_at = {0, 0.5, 0};
-  scene.camera.vfov = 40;
+  scene.camera = {.look_from = {0, 2, 6}, .look_at = {0, 0.5, 0}, .vfov = 40};
   scene.render.max_depth = 6;
   add(scene, Quad<>{{-4, 0, -4}, {8, 0, 0}, {0, 0, 8}}, lambertian(0.7));
   return scene;
@@ -116,8 +114,7 @@ TEST_CASE("tree: with and without it every built-in scene's picture is the same,
     scene.width = 16, scene.height = 12;
     RenderScene compiled = compile(scene);
     if (!compiled.bvh) continue;
-    RenderOptions options;
-    options.spp = 2;
+    const RenderOptions options{.spp = 2};
     const Film film = render(compiled, options).film;
     compiled.bvh = nullptr;
     CAPTURE(built_in.name);

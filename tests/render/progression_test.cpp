@@ -22,11 +22,7 @@ RenderScene small_scene() {
 }
 
 Film film_of(const RenderScene& scene, std::uint32_t first, std::uint32_t spp, Film film = {}) {
-  RenderOptions options;
-  options.threads = 2;
-  options.first_sample = first;
-  options.spp = spp;
-  return render(scene, options, {}, std::move(film)).film;
+  return render(scene, {.threads = 2, .first_sample = first, .spp = spp}, {}, std::move(film)).film;
 }
 
 /// Some pixels of one film, the others of another with more samples: what an interrupted pass leaves.
@@ -95,9 +91,7 @@ TEST_CASE("progression: a coarse pass, the rest of the first sample, then growin
     CHECK(taken == std::vector<std::uint32_t>{0, 1, 2, 4, 8, 16, 21});
     CHECK(picture.step() == 1);
     CHECK(picture.film() == film_of(scene, 0, 21));
-    RenderOptions blocking;
-    blocking.spp = 21;
-    CHECK(picture.tally().rays == render(scene, blocking).rays);  // no path is followed twice
+    CHECK(picture.tally().rays == render(scene, {.spp = 21}).rays);  // no path is followed twice
   }
 }
 

@@ -33,9 +33,7 @@ TEST_CASE("a part that is refined first has prefixes of the same samples, and th
     const Kernels kernels = *choose_kernels("");
     const SceneViewOf view(scene);
     const RenderEngine engine{thread_pool, kernels, view.view()};
-    RenderOptions blocking;
-    blocking.spp = 40;
-    const Film whole = render(scene, blocking).film;
+    const Film whole = render(scene, {.spp = 40}).film;
     ProgressionOptions options;
     options.coarse_step = 4;
     options.first = {20, 10, 33, 21};
@@ -117,8 +115,7 @@ TEST_CASE("the standard error of a pixel is that of its mean: it agrees with oth
   Scene scene = load_scene("cornell-smoke").scene;
   scene.width = scene.height = 48;
   scene.render.sampler = SamplerKind::random;
-  RenderOptions options;
-  options.spp = 32;
+  const RenderOptions options{.spp = 32};
   double told = 0, squares = 0, sum = 0;
   constexpr int seeds = 40;
   for (int seed = 0; seed < seeds; ++seed) {

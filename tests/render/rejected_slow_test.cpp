@@ -14,10 +14,7 @@ TEST_CASE(
     const Scene scene = small_scene(built_in.name, 48, 36, 1024);
     const RenderScene compiled = compile(scene);
     for (const Kernels& kernels : {available_kernels().back(), scalar_kernels()}) {
-      RenderOptions options;
-      options.isa = kernels.isa;
-      options.spp = kernels.lanes == 1 ? 64 : 1024;
-      const FilmTotals sum = totals(render(compiled, options).film);
+      const FilmTotals sum = totals(render(compiled, {.isa = kernels.isa, .spp = kernels.lanes == 1 ? 64 : 1024}).film);
       CAPTURE(built_in.name);
       CAPTURE(std::string(kernels.isa));
       CHECK(sum.rejected == 0);

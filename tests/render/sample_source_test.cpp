@@ -208,8 +208,7 @@ TEST_CASE("sample source: is left after the present sample, and unfinished tiles
 
 TEST_CASE("sample source: bright and dark samples are kept, in a blocking render as well") {
   const Scene scene = empty_scene(16);
-  RenderOptions options;
-  options.spp = 16;
+  RenderOptions options{.spp = 16};
   options.samples = std::make_shared<const SampleSource>(SampleSource{[](double x, double, std::uint64_t) {
     return x < 1 ? Vec3f{1e10f, 1, 1e-9f} : Vec3f{-1, 0.1f, 0.25f};
   }});

@@ -23,10 +23,7 @@ Scene small(const char* name) {
 }
 
 Film film_of(const RenderScene& scene, Region region, std::uint32_t spp) {
-  RenderOptions options;
-  options.spp = spp;
-  options.region = region;
-  return render(scene, options).film;
+  return render(scene, {.region = region, .spp = spp}).film;
 }
 
 /// A scene, and what it takes to render it.

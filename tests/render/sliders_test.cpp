@@ -80,9 +80,7 @@ Scene stage() {
   Scene scene = white_room();
   scene.width = 24, scene.height = 18;
   scene.background = Gradient{{0.1, 0.1, 0.1}, {0.3, 0.4, 0.6}};
-  scene.camera.look_from = {0, 2, 7};
-  scene.camera.look_at = {0, 0.5, 0};
-  scene.camera.vfov = 40;
+  scene.camera = {.look_from = {0, 2, 7}, .look_at = {0, 0.5, 0}, .vfov = 40};
   scene.render.integrator = Integrator::mis;
   scene.render.sampler = SamplerKind::sobol;
   scene.render.max_depth = 1000000;

@@ -153,8 +153,7 @@ TEST_CASE("specular paths: no sample of a scene with flat mirrors is rejected, a
   const Scene scene = small_scene("stress-mirror-wall", 48, 36, 16);
   const RenderScene compiled = compile(scene);
   CHECK(compiled.specular.mirrors.size() > 0);
-  RenderOptions options;
-  options.spp = 16;
+  RenderOptions options{.spp = 16};
   const Film film = render(compiled, options).film;
   CHECK(totals(film).rejected == 0);
   options.tile = 5, options.threads = 1;

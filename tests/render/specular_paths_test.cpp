@@ -142,8 +142,7 @@ TEST_CASE("specular paths: no sample of the scenes that need them is rejected, a
     const Scene scene = small_scene(name, 48, 36, 16);
     const RenderScene compiled = compile(scene);
     CHECK(compiled.specular.sphere.size() == 1);
-    RenderOptions options;
-    options.spp = 16;
+    RenderOptions options{.spp = 16};
     const Film film = render(compiled, options).film;
     CHECK(totals(film).rejected == 0);
     options.tile = 5, options.threads = 1;

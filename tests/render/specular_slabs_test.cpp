@@ -150,8 +150,7 @@ TEST_CASE("specular paths: no sample of a scene with a slab is rejected, and til
   const Scene scene = small_scene("stress-pane", 48, 36, 16);
   const RenderScene compiled = compile(scene);
   CHECK(compiled.specular.slabs.size() == numbers_of_slab);
-  RenderOptions options;
-  options.spp = 16;
+  RenderOptions options{.spp = 16};
   const Film film = render(compiled, options).film;
   CHECK(totals(film).rejected == 0);
   options.tile = 5, options.threads = 1;

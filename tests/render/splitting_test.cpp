@@ -13,10 +13,7 @@ namespace tyndall::test::splitting_test {
 namespace {
 
 RenderResult rendered(const Scene& scene, std::uint32_t spp, const std::string& isa = "") {
-  RenderOptions options;
-  options.isa = isa;
-  options.spp = spp;
-  return render(*prepare(scene), options);
+  return render(*prepare(scene), {.isa = isa, .spp = spp});
 }
 
 /// Sum over the pixels of the squared difference of their halves: how noisy a picture is.
@@ -105,9 +102,7 @@ TEST_CASE("splitting: also where second vertices are shared, by every kernel") {
   REQUIRE(columns.kernel == KernelSet::specular_paths_only);
   for (const Kernels& kernels : available_kernels()) {
     CAPTURE(kernels.isa);
-    RenderOptions options;
-    options.isa = kernels.isa;
-    options.spp = 4;
+    const RenderOptions options{.isa = kernels.isa, .spp = 4};
     columns.kernel = KernelSet::specular_paths_only;
     const RenderResult small = render(columns, options);
     columns.kernel = KernelSet::everything;

@@ -41,9 +41,7 @@ Spread spread_of_seeds(Scene scene, std::uint32_t spp) {
   double means = 0, mean_squares = 0;
   for (int seed = 0; seed < seeds; ++seed) {
     scene.render.seed = static_cast<std::uint32_t>(seed + 1);
-    RenderOptions options;
-    options.spp = spp;
-    const Film film = render(*prepare(scene), options).film;
+    const Film film = render(*prepare(scene), {.spp = spp}).film;
     double whole = 0;
     for (std::size_t i = 0; i < pixels; ++i) {
       const auto value = static_cast<double>(mean(film, film.pixels[i]).x);

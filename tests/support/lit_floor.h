@@ -48,9 +48,7 @@ inline void check_point_of_floor(const std::string& name, Scene scene, Vec3d poi
 inline Scene furnace_with_floor() {
   Scene scene = white_room();
   scene.render.integrator = Integrator::mis;
-  scene.camera.look_from = {0, 3, 7};
-  scene.camera.look_at = {0, 1, 0};
-  scene.camera.vfov = 40;
+  scene.camera = {.look_from = {0, 3, 7}, .look_at = {0, 1, 0}, .vfov = 40};
   add(scene, Quad<>{{-6, 0, -6}, {12, 0, 0}, {0, 0, 12}}, lambertian(1));
   add(scene, sphere({1.5, 4.5, 0.5}, 0.1), lamp(1));
   return scene;

@@ -43,11 +43,9 @@ inline bool same_samples(const Scene& a, const Scene& b) { return !differing_sam
 
 /// The picture that every other way of rendering must reproduce: one thread, one go.
 inline std::vector<float> reference_picture(const Scene& scene, const std::string& isa = "") {
-  RenderOptions options;
-  options.threads = 1;
-  options.isa = isa;
-  options.spp = static_cast<std::uint32_t>(scene.render.spp.value());
-  return resolve(render(compile(scene), options).film);
+  return resolve(
+      render(compile(scene), {.threads = 1, .isa = isa, .spp = static_cast<std::uint32_t>(scene.render.spp.value())})
+          .film);
 }
 
 inline std::uint64_t hash_of(const Film& film) {

@@ -60,19 +60,12 @@ inline Object light_object(auto shape, Transform transform = {}) {
 
 /// Turns the camera into a probe: all its rays run from `from` towards `to`, within a hundred-thousandth of a degree.
 inline void aim(Scene& scene, Vec3d from, Vec3d to) {
-  scene.camera = {};
-  scene.camera.look_from = from;
-  scene.camera.look_at = to;
-  const Vec3d direction = normalize(to - from);
-  scene.camera.vup = std::abs(direction.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
-  scene.camera.vfov = 1e-5;
+  const Vec3d up = std::abs(normalize(to - from).y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
+  scene.camera = {.look_from = from, .look_at = to, .vup = up, .vfov = 1e-5};
 }
 
 inline Film film_of(const Scene& scene, int spp, const std::string& isa = "") {
-  RenderOptions options;
-  options.isa = isa;
-  options.spp = static_cast<std::uint32_t>(spp);
-  return render(compile(scene), options).film;
+  return render(compile(scene), {.isa = isa, .spp = static_cast<std::uint32_t>(spp)}).film;
 }
 
 /// Mean red radiance over the picture; every group of pixels is a batch, as their samples may be computed together. No
@@ -106,9 +99,7 @@ inline double common_value(const Scene& scene, const std::string& isa = "") {
 inline Scene medium_sphere() {
   Scene scene = white_room();
   scene.width = scene.height = 16;
-  scene.camera.look_from = {0, 0, 5};
-  scene.camera.look_at = {0, 0, 0};
-  scene.camera.vfov = 30;
+  scene.camera = {.look_from = {0, 0, 5}, .look_at = {0, 0, 0}, .vfov = 30};
   add_medium(scene, sphere({0, 0, 0}, 1), {2, 0.3}, 0.7);
   return scene;
 }

@@ -17,10 +17,7 @@ namespace {
 Scene slanted() {
   Scene scene;
   scene.width = 120, scene.height = 80;
-  scene.camera.look_from = {3, 2, 5};
-  scene.camera.look_at = {-1, 0.5, -2};
-  scene.camera.vup = {0.2, 1, 0};
-  scene.camera.vfov = 35;
+  scene.camera = {.look_from = {3, 2, 5}, .look_at = {-1, 0.5, -2}, .vup = {0.2, 1, 0}, .vfov = 35};
   return scene;
 }
 
