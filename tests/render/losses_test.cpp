@@ -92,13 +92,10 @@ TEST_CASE("rejected samples: shards find the ones of their own range") {
 }
 
 TEST_CASE("rejected samples: a pass counts those of both halves") {
-  const RenderScene scene = poisoned();
-  const SceneViewOf view(scene);
-  ThreadPool thread_pool(2);
-  const std::atomic<bool> no = false;
-  Film film = make_film(scene.width, scene.height, {0, 0, scene.width, scene.height}, 0, scene.film_quantum, false);
+  const Ready ready(poisoned());
+  Film film = make_film(40, 30, {0, 0, 40, 30}, 0, ready.scene.film_quantum, false);
   Pass pass(film.region, 0, 16);
-  REQUIRE(pass.run({thread_pool, scalar_kernels(), view.view()}, film, no));
+  REQUIRE(pass.run(ready.engine, film, false));
   std::uint64_t rejected[2] = {0, 0};
   for (const FilmPixel& pixel : film.pixels)
     for (int half = 0; half < 2; ++half) rejected[half] += pixel.rejected[half];

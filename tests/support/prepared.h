@@ -21,6 +21,17 @@ class SceneViewOf {
   PreparedScene prepared_;
 };
 
+/// A compiled scene, and what passes of it take.
+struct Ready {
+  RenderScene scene;
+  SceneViewOf view{scene};
+  Kernels kernels = *choose_kernels("");
+  ThreadPool thread_pool;
+  RenderEngine engine{thread_pool, kernels, view.view()};
+
+  explicit Ready(RenderScene columns, int threads = 2) : scene(std::move(columns)), thread_pool(threads) {}
+};
+
 inline RenderResult render(const RenderScene& columns, const RenderOptions& options,
                            const ProgressCallback& progress = {}, Film film = {}) {
   return tyndall::render(SceneViewOf(columns).prepared(), options, progress, std::move(film));
