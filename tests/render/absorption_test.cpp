@@ -25,28 +25,10 @@ int count_others(const Scene& scene, const std::vector<double>& values, const st
   }));
 }
 
-/// The picture's mean over seeds.
-Estimate over_seeds(Scene scene, Integrator integrator, int spp) {
-  scene.render.integrator = integrator;
-  std::vector<double> means;
-  for (scene.render.seed = 0; scene.render.seed < 16; ++scene.render.seed) {
-    const Film film = film_of(scene, spp);
-    CHECK(totals(film).rejected == 0);
-    double sum = 0;
-    for (const FilmPixel& pixel : film.pixels) sum += static_cast<double>(mean(film, pixel).x);
-    means.push_back(sum / static_cast<double>(film.pixels.size()));
-  }
-  return estimate(means);
-}
-
 /// mis finds the light that `nee` finds, where media ends paths by chance, and with this fraction of its noise.
 void check_same_light(const Scene& scene, double noise) {
   const Estimate mis = over_seeds(scene, Integrator::mis, 64), nee = over_seeds(scene, Integrator::nee, 256);
-  CAPTURE(mis.mean);
-  CAPTURE(mis.error);
-  CAPTURE(nee.mean);
-  CAPTURE(nee.error);
-  CHECK(std::abs(mis.mean - nee.mean) < 4 * std::hypot(mis.error, nee.error));
+  check_agree(mis, nee);
   CHECK(mis.error < noise * 2 * nee.error);
 }
 

@@ -8,13 +8,6 @@ namespace tyndall::test::media_test {
 
 namespace {
 
-/// Ray of impact parameter `impact` on a sphere of radius `scale`.
-Scene sphere_seen_at(double impact, double scale) {
-  Scene scene = white_room();
-  aim(scene, {impact * scale, 0, 5 * scale}, {impact * scale, 0, 0});
-  return scene;
-}
-
 /// The sphere fills a disc that touches the picture's edges, seen from so far that its rays are parallel.
 Scene sphere_in_square() {
   Scene scene = white_room();

@@ -137,7 +137,7 @@ TEST_CASE("sample source: shows what a long pass has so far, and gives it as a f
   scene.width = scene.height = 12;
   WatchedRenderer renderer(1);
   const std::uint64_t edit = show(renderer, scene, [&](double, double, std::uint64_t index) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(12));  // a pass takes 1.7 seconds
+    std::this_thread::sleep_for(std::chrono::milliseconds(index > 0 ? 12 : 3));  // the second pass takes 1.7 seconds
     return Vec3f{static_cast<float>(index), 0, 0};
   });
   const auto has_some = [&](const Frame& frame) { return frame.spp == 1 && frame.rgba[0] == 0.5f; };
@@ -174,7 +174,7 @@ TEST_CASE("sample source: one that becomes slow comes to its end, though no tile
   scene.width = scene.height = 12;
   WatchedRenderer renderer(1);
   const std::uint64_t edit = show(renderer, scene, [&](double, double, std::uint64_t index) {
-    if (index > 0) std::this_thread::sleep_for(std::chrono::milliseconds(8));  // one tile job of a second
+    if (index > 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));  // one tile job of 0.7 seconds
     return Vec3f{1, 1, 1};
   });
   CHECK(renderer.wait_finished(edit)->spp == 2);

@@ -26,6 +26,15 @@ inline Estimate estimate(const std::vector<double>& values) {
   return {mean, std::sqrt(squares / (n * (n - 1)))};
 }
 
+/// Checks that two independent measurements of one thing agree.
+inline void check_agree(const Estimate& a, const Estimate& b) {
+  CAPTURE(a.mean);
+  CAPTURE(a.error);
+  CAPTURE(b.mean);
+  CAPTURE(b.error);
+  CHECK(std::abs(a.mean - b.mean) <= 4 * std::hypot(a.error, b.error));
+}
+
 /// Running sums for means of very many values.
 struct Moments {
   double count = 0, sum = 0, squares = 0;
