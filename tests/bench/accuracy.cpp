@@ -1,6 +1,4 @@
 #include "core/accuracy/error.h"
-#include "core/compile/compile.h"
-#include "core/render/render.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/measure.h"

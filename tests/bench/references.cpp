@@ -1,9 +1,7 @@
 #include "tests/bench/references.h"
 
 #include "core/accuracy/estimate.h"
-#include "core/compile/compile.h"
 #include "core/image/image_io.h"
-#include "core/render/render.h"
 #include "core/scene/json.h"
 #include "tests/support/fingerprint.h"
 #include "tests/support/prepared.h"

@@ -1,6 +1,5 @@
 #include "core/compile/bvh.h"
 
-#include "core/compile/compile.h"
 #include "tests/support/mixed_scene.h"
 #include "tests/support/thorough.h"
 

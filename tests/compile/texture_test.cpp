@@ -1,5 +1,4 @@
 #include "core/base/math.h"
-#include "core/compile/compile.h"
 #include "core/compile/flatten.h"
 #include "core/image/tonemap.h"
 #include "core/targets/kernels.h"

@@ -1,5 +1,4 @@
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 #include "tests/support/statistics.h"
 
 #include <doctest/doctest.h>

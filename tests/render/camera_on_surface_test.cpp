@@ -2,7 +2,6 @@
 #include "core/compile/flatten.h"
 #include "tests/support/mixed_scene.h"
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,4 @@
 #include "core/trace/camera.h"
-#include "tests/support/prepared.h"
 
 #include "tests/support/probe.h"
 

@@ -1,8 +1,5 @@
 #include "core/accuracy/estimate.h"
-#include "core/render/prepare.h"
-#include "core/render/render.h"
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 #include "tests/support/random_room.h"
 #include "tests/support/references.h"
 

@@ -1,5 +1,3 @@
-#include "core/render/clean_film.h"
-
 #include "tests/support/pictures.h"
 
 #include <doctest/doctest.h>

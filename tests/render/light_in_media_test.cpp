@@ -1,4 +1,3 @@
-#include "core/scene/load.h"
 #include "core/trace/flight.h"
 #include "tests/support/pictures.h"
 #include "tests/support/probe.h"

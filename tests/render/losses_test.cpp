@@ -1,8 +1,6 @@
 #include "core/render/pass.h"
 #include "core/render/progression.h"
 #include "tests/support/merged.h"
-#include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 #include "tests/support/watched_renderer.h"
 

@@ -1,9 +1,6 @@
-#include "core/compile/compile.h"
 #include "core/image/image_io.h"
-#include "core/render/render.h"
 #include "core/scene/json.h"
 #include "tests/support/allocations.h"
-#include "tests/support/prepared.h"
 #include "tests/support/scratch.h"
 #include "tests/support/watched_renderer.h"
 

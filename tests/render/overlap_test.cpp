@@ -1,5 +1,4 @@
 #include "core/scene/load.h"
-#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 #include "tests/support/thorough.h"
 

@@ -2,7 +2,6 @@
 
 #include "core/accuracy/estimate.h"
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 

@@ -1,8 +1,5 @@
 #include "core/accuracy/estimate.h"
 
-#include "core/compile/compile.h"
-#include "core/render/prepare.h"
-#include "core/render/render.h"
 #include "core/scene/json.h"
 #include "core/scene/load.h"
 #include "tests/support/prepared.h"

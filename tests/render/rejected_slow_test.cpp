@@ -1,5 +1,4 @@
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,4 @@
-#include "core/compile/compile.h"
 #include "core/render/mailbox.h"
-#include "core/render/render.h"
 #include "core/render/sample_source.h"
 #include "tests/support/watched_renderer.h"
 

@@ -1,5 +1,3 @@
-#include "core/render/renderer.h"
-
 #include "core/scene/scene.h"
 #include "tests/support/allocations.h"
 #include "tests/support/thorough.h"

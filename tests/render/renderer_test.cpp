@@ -1,5 +1,4 @@
 #include "core/render/renderer.h"
-#include "tests/support/prepared.h"
 
 #include "tests/support/watched_renderer.h"
 

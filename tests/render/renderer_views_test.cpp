@@ -1,6 +1,3 @@
-#include "core/render/renderer.h"
-#include "tests/support/prepared.h"
-
 #include "tests/support/watched_renderer.h"
 
 #include <doctest/doctest.h>

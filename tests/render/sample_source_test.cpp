@@ -1,6 +1,5 @@
 #include "core/render/sample_source.h"
 
-#include "core/render/render.h"
 #include "tests/support/watched_renderer.h"
 
 #include <doctest/doctest.h>

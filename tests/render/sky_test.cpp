@@ -1,4 +1,3 @@
-#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 #include "tests/support/skies.h"
 

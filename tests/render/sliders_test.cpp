@@ -1,5 +1,4 @@
 #include "core/scene/check.h"
-#include "tests/support/mixed_scene.h"
 #include "tests/support/probe.h"
 #include "tests/support/skies.h"
 #include "tests/support/thorough.h"

@@ -1,8 +1,6 @@
-#include "core/render/render.h"
 #include "core/targets/kernels.h"
 #include "tests/support/capture.h"
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,5 @@
 #include "core/compile/sky.h"
 #include "core/compile/sun.h"
-#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 #include "tests/support/skies.h"
 #include "tests/support/thorough.h"

@@ -1,10 +1,8 @@
 #include "core/trace/subpixel_lights.h"
 
-#include "core/render/prepare.h"
 #include "core/targets/replay.h"
 #include "core/trace/scene_view.h"
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>

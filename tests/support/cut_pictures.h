@@ -1,7 +1,6 @@
 #pragma once
 #include "tests/support/merged.h"
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 #include "tests/support/random_glass.h"
 
 #include <doctest/doctest.h>

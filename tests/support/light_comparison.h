@@ -1,6 +1,4 @@
 #pragma once
-#include "core/compile/compile.h"
-#include "core/render/render.h"
 #include "tests/support/light_tracer.h"
 #include "tests/support/prepared.h"
 #include "tests/support/statistics.h"

@@ -1,5 +1,4 @@
 #pragma once
-#include "core/compile/compile.h"
 #include "core/targets/kernels.h"
 #include "tests/support/prepared.h"
 

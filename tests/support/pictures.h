@@ -1,8 +1,6 @@
 #pragma once
-#include "core/compile/compile.h"
 #include "core/files/film_files.h"
 #include "core/film/film.h"
-#include "core/render/render.h"
 #include "core/scene/load.h"
 #include "tests/support/prepared.h"
 

@@ -1,8 +1,6 @@
 #pragma once
 #include "core/accuracy/error.h"
-#include "core/compile/compile.h"
 #include "core/film/groups.h"
-#include "core/render/render.h"
 #include "tests/support/prepared.h"
 #include "tests/support/statistics.h"
 

@@ -1,8 +1,6 @@
 #include "tests/support/references.h"
 
-#include "core/compile/compile.h"
 #include "core/image/image_io.h"
-#include "core/render/render.h"
 #include "core/scene/json.h"
 #include "tests/support/fingerprint.h"
 #include "tests/support/paths.h"

@@ -1,6 +1,5 @@
 #pragma once
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 

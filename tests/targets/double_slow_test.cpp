@@ -1,4 +1,3 @@
-#include "core/compile/compile.h"
 #include "core/scene/load.h"
 #include "tests/support/double_kernels.h"
 #include "tests/support/prepared.h"

@@ -1,5 +1,3 @@
-#include "core/compile/compile.h"
-#include "core/render/prepare.h"
 #include "core/scene/load.h"
 #include "core/targets/kernels.h"
 #include "tests/support/prepared.h"

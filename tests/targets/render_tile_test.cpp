@@ -1,4 +1,3 @@
-#include "core/compile/compile.h"
 #include "core/targets/kernels.h"
 #include "tests/support/prepared.h"
 

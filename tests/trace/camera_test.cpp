@@ -1,8 +1,6 @@
 #include "core/trace/camera.h"
 
-#include "core/compile/compile.h"
 #include "tests/support/mixed_scene.h"
-#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 
