@@ -37,6 +37,15 @@ inline RenderResult render(const RenderScene& columns, const RenderOptions& opti
   return tyndall::render(SceneViewOf(columns).prepared(), options, progress, std::move(film));
 }
 
+/// What a kernel makes of samples first … last - 1 of a scene's whole picture.
+inline Film drawn_by(const Kernels& kernels, const RenderScene& scene, const SceneView& view, std::uint32_t first,
+                     std::uint32_t last) {
+  Film film = make_film(scene.width, scene.height, {0, 0, scene.width, scene.height}, first, scene.film_quantum);
+  TileCounts counts;
+  kernels.render_tile(view, {film.region, 1, 0, first, last}, film.quantum, film.pixels.data(), counts);
+  return film;
+}
+
 inline ErrorEstimate estimate_error(const RenderScene& columns, const Kernels& kernels, const Film& film,
                                     int threads = 0) {
   return tyndall::estimate_error(SceneViewOf(columns).prepared(), kernels, film, threads);
