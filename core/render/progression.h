@@ -58,10 +58,10 @@ struct ProgressionOptions {
   bool clear = false;  ///< the film is cleared first: see Progression::is_filling()
   /// The part of the picture that gets all further samples once each pixel has one, until it has the wanted number;
   /// then the rest follows. Empty: none. No effect with `adaptive`, which distributes the samples itself.
-  Region first;
+  Region first{};
   bool count_breaks = false;  ///< the time between passes counts as rendering time, as in blocking renders
-  PassLength length;
-  EstimateTimes estimates;
+  PassLength length{};
+  EstimateTimes estimates{};
 };
 
 /// Decides which samples of a film come next, in this order: the rest of an interrupted pass; a coarse pass; the pixels

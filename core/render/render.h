@@ -33,11 +33,11 @@ struct RenderBreaks {
 
 struct RenderOptions {
   int threads = 0;                 ///< 0: see thread_count()
-  std::string isa;                 ///< "": the best
-  std::optional<Region> region;    ///< absent: the whole image
+  std::string isa{};               ///< "": the best
+  std::optional<Region> region{};  ///< absent: the whole image
   std::uint32_t first_sample = 0;  ///< index of the first sample
   /// Samples a pixel at which to stop, those of a continued film included (see also `adaptive`); absent: no limit.
-  std::optional<std::uint32_t> spp;
+  std::optional<std::uint32_t> spp{};
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds at which to stop; checked between passes
   double target_error = 0;  ///< estimated relative error at which to stop, with `clean` that of the clean view; 0: none
   bool clean = false;       ///< make the clean view, too; needs 2 samples a pixel

@@ -1,6 +1,7 @@
 #include "core/base/random.h"
 
 #include "core/base/math.h"
+#include "tests/support/statistics.h"
 
 #include <doctest/doctest.h>
 
@@ -64,14 +65,6 @@ double largest_correlation(const std::vector<std::array<double, dimensions>>& a,
   return maximum;
 }
 
-/// Chi-square of counts against equal shares, as a normal deviate (Wilson and Hilferty's cube root).
-double chi_square_deviate(const std::vector<int>& counts, double expected) {
-  double chi = 0;
-  for (const int n : counts) chi += (n - expected) * (n - expected) / expected;
-  const double freedom = static_cast<double>(counts.size()) - 1, spread = 2 / (9 * freedom);
-  return (std::cbrt(chi / freedom) - (1 - spread)) / std::sqrt(spread);
-}
-
 }  // namespace
 
 TEST_CASE("dice: dimensions, neighbouring pixels, samples, events and seeds are uncorrelated") {
@@ -127,8 +120,8 @@ TEST_CASE("dice: every dimension is uniform over a picture, alone and in pairs")
       ++squares[static_cast<std::size_t>(u.x * 16) * 16 + static_cast<std::size_t>(u.y * 16)];
     }
     CAPTURE(k);
-    CHECK(std::abs(chi_square_deviate(bins, 256)) < 4);
-    CHECK(std::abs(chi_square_deviate(squares, 256)) < 4);
+    CHECK(std::abs(chi_square_deviate(bins)) < 4);
+    CHECK(std::abs(chi_square_deviate(squares)) < 4);
   }
 }
 

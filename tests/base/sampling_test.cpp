@@ -1,5 +1,7 @@
 #include "core/base/sampling.h"
 
+#include "tests/support/statistics.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -18,16 +20,6 @@ constexpr float edges[] = {0.0f, 0x1p-24f, 0.25f, 0.5f, 0.75f, largest};
 
 Pair<float> numbers(int i) {
   return Sampler<float>::of(3, static_cast<std::uint32_t>(i), 0, 0).next_2d(dimension::direction);
-}
-
-/// Chi-square of counts against equal shares, as a normal deviate (Wilson and Hilferty's cube root).
-double chi_square_deviate(const std::vector<int>& bins) {
-  double total = 0, chi = 0;
-  for (const int n : bins) total += n;
-  const double expected = total / static_cast<double>(bins.size());
-  for (const int n : bins) chi += (n - expected) * (n - expected) / expected;
-  const double freedom = static_cast<double>(bins.size()) - 1, spread = 2 / (9 * freedom);
-  return (std::cbrt(chi / freedom) - (1 - spread)) / std::sqrt(spread);
 }
 
 /// Bin of v in [low, high) out of n.

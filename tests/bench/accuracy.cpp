@@ -1,6 +1,4 @@
 #include "core/accuracy/error.h"
-#include "core/compile/compile.h"
-#include "core/render/render.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/measure.h"
@@ -43,10 +41,7 @@ class Contest {
 
   /// The film with spp samples a pixel, made anew or out of one with fewer.
   Film film(std::uint32_t spp, Film begun = {}) const {
-    RenderOptions options;
-    options.threads = threads();
-    options.spp = spp;
-    return render(compiled_, options, {}, std::move(begun)).film;
+    return render(compiled_, {.threads = threads(), .spp = spp}, {}, std::move(begun)).film;
   }
   /// The reference's own noise taken off.
   double rel_mse(const Film& film) const {

@@ -92,10 +92,7 @@ Shift shift_of_bytes(const Film& film) {
 /// The clean view of the scene with another seed.
 CleanPicture clean_of(Scene scene, std::uint32_t seeds_on) {
   scene.render.seed += seeds_on;
-  RenderOptions options;
-  options.spp = clean_spp;
-  options.clean = true;
-  return *render(*prepare(scene), options).clean;
+  return *render(*prepare(scene), {.spp = clean_spp, .clean = true}).clean;
 }
 
 /// What is wrong in the mean of clean views: of two, and of the halves of the exact film, all noise is independent.

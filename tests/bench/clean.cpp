@@ -1,5 +1,3 @@
-#include "core/render/clean_film.h"
-#include "core/render/render.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/measure.h"
 #include "tests/bench/scenes.h"
@@ -17,9 +15,7 @@ const std::atomic<bool> never = false;
 /// Milliseconds of each part of a clean picture of one film, in the middle of many.
 Json row_of(const std::string& name, std::uint32_t spp, int repeat) {
   const RenderScene scene = compile(built_in(name, 1280, 720));
-  RenderOptions options;
-  options.threads = 2;
-  options.spp = spp;
+  const RenderOptions options{.threads = 2, .spp = spp};
   const RenderResult result = render(scene, options);
   ThreadPool thread_pool(options.threads);
   const SceneViewOf view(scene);

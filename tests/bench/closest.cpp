@@ -1,4 +1,3 @@
-#include "core/compile/compile.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/embree.h"
 #include "tests/bench/measure.h"

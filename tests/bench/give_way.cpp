@@ -1,6 +1,5 @@
 #include "tests/bench/give_way.h"
 
-#include "core/compile/compile.h"
 #include "core/render/pass.h"
 #include "tests/bench/measure.h"
 #include "tests/support/prepared.h"

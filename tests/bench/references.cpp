@@ -1,9 +1,7 @@
 #include "tests/bench/references.h"
 
 #include "core/accuracy/estimate.h"
-#include "core/compile/compile.h"
 #include "core/image/image_io.h"
-#include "core/render/render.h"
 #include "core/scene/json.h"
 #include "tests/support/fingerprint.h"
 #include "tests/support/prepared.h"
@@ -31,9 +29,7 @@ Reference reference_image(const NamedScene& named, int spp, const std::filesyste
   double rel_mse = 0;
   if (std::ifstream(noise) >> rel_mse) return {read_image(file).rgb, rel_mse};
   const RenderScene compiled = compile(scene);
-  RenderOptions options;
-  options.spp = static_cast<std::uint32_t>(spp);
-  const Film film = render(compiled, options).film;
+  const Film film = render(compiled, {.spp = static_cast<std::uint32_t>(spp)}).film;
   const LinearImage image{compiled.width, compiled.height, resolve(film)};
   rel_mse = std::pow(estimated_relative_error(film), 2);
   write_pfm(file, image);

@@ -1,5 +1,3 @@
-#include "core/compile/compile.h"
-#include "core/render/render.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/measure.h"
 #include "tests/bench/scenes.h"

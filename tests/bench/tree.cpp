@@ -1,5 +1,3 @@
-#include "core/compile/compile.h"
-#include "core/render/render.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/measure.h"
 #include "tests/bench/rays.h"
@@ -13,12 +11,9 @@ namespace {
 
 /// Million rays a second of rendering, one thread, path and random.
 double render_speed(const RenderScene& scene, std::uint32_t spp, int repeat) {
-  RenderOptions options;
-  options.threads = 1;
-  options.spp = spp;
   std::vector<double> speeds;
   for (int i = 0; i < repeat; ++i) {
-    const RenderResult result = render(scene, options);
+    const RenderResult result = render(scene, {.threads = 1, .spp = spp});
     speeds.push_back(static_cast<double>(result.rays) / result.seconds * 1e-6);
   }
   return median(speeds);

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What is no scene is shown by samples that the program computes itself.
+# What is no scene is shown by samples that the program computes itself. Where a scene is needed: not_taken_slow.sh.
 . "$(dirname "$0")/_program.sh"
 
 program glow <<<"struct glowing : metal {
@@ -17,10 +17,5 @@ pixel() { # X Y, y upwards
 same 'the ball' "$(pixel 4 4)" ' 0.3125 0.125 0.25'
 same 'the sky' "$(pixel 0 0)" ' 0.125 0.25 0.5'
 grep -qa 'own_samples' glow.png || fail 'the picture does not say that it has own samples'
-
-# They are no scene, and no function of seed and index; more of that in not_taken_slow.sh.
-expect 2 "$tyndall" render glow.cc --samples 0:2 -o x.exr
-grep -q 'glow.cc: --samples' err || fail "--samples: $(cat err)"
-[ ! -e x.exr ] || fail 'something was written'
 
 finish

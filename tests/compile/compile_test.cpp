@@ -2,6 +2,7 @@
 
 #include "tests/support/mixed_scene.h"
 #include "tests/support/same_scene.h"
+#include "tests/support/scaled_scene.h"
 
 #include <doctest/doctest.h>
 
@@ -25,14 +26,6 @@ Scene one_material(std::vector<Object> objects) {
 Object ball(Vec3d center, double radius = 1) { return {"", Solid3d{Sphere<>{center, radius, {}}, 0}, {}}; }
 Object fog(std::variant<Sphere<>, Box<>> boundary, double density = 1, double g = 0) {
   return {"", Volume{boundary, {}, {density, g}, Vec3d{1, 1, 1}}, {}};
-}
-
-/// Everything moved by the same way.
-Scene moved(Scene scene, Vec3d direction) {
-  scene.objects = {{"", Group{scene.objects}, {Translate{direction}}}};
-  scene.camera.look_from = scene.camera.look_from + direction;
-  scene.camera.look_at = scene.camera.look_at + direction;
-  return scene;
 }
 
 /// Coordinates in steps of 1/1024, so that moves by powers of two are exact.

@@ -1,5 +1,4 @@
 #include "core/base/math.h"
-#include "core/compile/compile.h"
 #include "core/compile/flatten.h"
 #include "core/image/tonemap.h"
 #include "core/targets/kernels.h"
@@ -33,9 +32,7 @@ Scene textured_wall(const TextureKinds<double>& texture, Vec3d middle) {
   scene.width = scene.height = edge;
   scene.textures = {{"texture", texture}};
   scene.materials = {{"wall", TextureIndex{0}, Lambertian<>{}}, {"plain", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}};
-  scene.camera.look_from = middle + Vec3d{0, 0, 5};
-  scene.camera.look_at = middle;
-  scene.camera.vfov = 2 * std::atan(1.5 / 5) * 180 / pi;
+  scene.camera = {.look_from = middle + Vec3d{0, 0, 5}, .look_at = middle, .vfov = 2 * std::atan(1.5 / 5) * 180 / pi};
   scene.objects = {{"", Solid3d{Quad<>{middle - Vec3d{3, 3, 0}, {6, 0, 0}, {0, 6, 0}}, 0}, {}}};
   return scene;
 }
@@ -204,14 +201,14 @@ TEST_CASE("images: on each face of a box u runs to the right and v up, as seen f
       CHECK(cross(face.u, face.v) == face.normal);
       Scene scene = textured_wall(Image{"ramp", ramp()}, {});
       scene.width = scene.height = 1;
-      scene.camera.vfov = 0.001;
       scene.objects = {{"", Solid3d{Box<>{middle - half, middle + half}, 0}, {RotateY{degrees}, Translate{{3, 0, 0}}}}};
       const Placement placement{degrees, {3, 0, 0}};
       for (const Vec3d uv : {Vec3d{0.5, 0.5, 0}, Vec3d{0.1, 0.2, 0}, Vec3d{0.9, 0.3, 0}, Vec3d{0.2, 0.8, 0}}) {
         const Vec3d on = half * (face.normal + (2 * uv.x - 1) * face.u + (2 * uv.y - 1) * face.v);
-        scene.camera.look_at = place(placement, middle + on);
-        scene.camera.look_from = place(placement, middle + on + 4.0 * face.normal);
-        scene.camera.vup = {0.1, 0.9, 0.3};
+        scene.camera = {.look_from = place(placement, middle + on + 4.0 * face.normal),
+                        .look_at = place(placement, middle + on),
+                        .vup = {0.1, 0.9, 0.3},
+                        .vfov = 0.001};
         for (const Kernels& kernels : available_kernels()) {
           const FirstHit hit = seen(compile(scene), kernels)[0];
           CAPTURE(f);

@@ -1,4 +1,3 @@
-#include "core/compile/compile.h"
 #include "core/compile/overlap.h"
 #include "tests/support/lit_floor.h"
 

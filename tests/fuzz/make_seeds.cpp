@@ -3,12 +3,7 @@
 #include "tests/support/exr_files.h"
 #include "tests/support/jpeg_files.h"
 
-#include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
-#include <OpenEXR/ImfTiledOutputFile.h>
 
 #include <fstream>
 #include <iostream>
@@ -35,24 +30,16 @@ fs::path of(const fs::path& folder, const char* format) {
 /// One channel, tiled or in rows.
 void write_plain_exr(const fs::path& file, Imf::Compression compression, bool tiled) {
   const LinearImage image = ramp();
-  Imf::Header header(width, height);
+  Imf::Header header = test::exr_header(width, height);
   header.compression() = compression;
-  for (const char* name : {"R", "G", "B"}) header.channels().insert(name, Imf::Channel(Imf::HALF));
-  std::vector<half> values(image.rgb.begin(), image.rgb.end());
-  Imf::FrameBuffer pixels;
-  for (std::size_t i = 0; i < 3; ++i)
-    pixels.insert(std::string(1, "RGB"[i]),
-                  Imf::Slice::Make(Imf::HALF, values.data() + i, header.dataWindow(), 3 * sizeof(half)));
-  if (tiled) {
-    header.setTileDescription(Imf::TileDescription(8, 8));
-    Imf::TiledOutputFile out(file.c_str(), header);
-    out.setFrameBuffer(pixels);
-    out.writeTiles(0, out.numXTiles() - 1, 0, out.numYTiles() - 1);
-  } else {
-    Imf::OutputFile out(file.c_str(), header);
-    out.setFrameBuffer(pixels);
-    out.writePixels(height);
-  }
+  if (tiled) header.setTileDescription(Imf::TileDescription(8, 8));
+  std::vector<test::ExrSource> channels;
+  for (int c = 0; c < 3; ++c)
+    channels.push_back(
+        {std::string(1, "RGB"[c]),
+         [&image, c](int x, int y) { return image.rgb[static_cast<std::size_t>(3 * (y * width + x) + c)]; },
+         Imf::HALF});
+  test::write_exr_file(file, header, channels);
 }
 
 /// What other programs write: layers, several parts, views, luminance and chroma, pixels with many depths.

@@ -3,7 +3,6 @@
 #include "core/guide/light_paths.h"
 #include "core/guide/lobes.h"
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 

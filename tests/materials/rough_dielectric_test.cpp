@@ -1,7 +1,6 @@
 #include "tests/materials/rough_dielectric.h"
 
 #include "tests/support/directions.h"
-#include "tests/support/statistics.h"
 
 #include <doctest/doctest.h>
 

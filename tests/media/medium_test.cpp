@@ -3,7 +3,6 @@
 
 #include "tests/support/directions.h"
 #include "tests/support/event.h"
-#include "tests/support/statistics.h"
 
 #include <doctest/doctest.h>
 

@@ -25,28 +25,10 @@ int count_others(const Scene& scene, const std::vector<double>& values, const st
   }));
 }
 
-/// The picture's mean over seeds.
-Estimate over_seeds(Scene scene, Integrator integrator, int spp) {
-  scene.render.integrator = integrator;
-  std::vector<double> means;
-  for (scene.render.seed = 0; scene.render.seed < 16; ++scene.render.seed) {
-    const Film film = film_of(scene, spp);
-    CHECK(totals(film).rejected == 0);
-    double sum = 0;
-    for (const FilmPixel& pixel : film.pixels) sum += static_cast<double>(mean(film, pixel).x);
-    means.push_back(sum / static_cast<double>(film.pixels.size()));
-  }
-  return estimate(means);
-}
-
 /// mis finds the light that `nee` finds, where media ends paths by chance, and with this fraction of its noise.
 void check_same_light(const Scene& scene, double noise) {
   const Estimate mis = over_seeds(scene, Integrator::mis, 64), nee = over_seeds(scene, Integrator::nee, 256);
-  CAPTURE(mis.mean);
-  CAPTURE(mis.error);
-  CAPTURE(nee.mean);
-  CAPTURE(nee.error);
-  CHECK(std::abs(mis.mean - nee.mean) < 4 * std::hypot(mis.error, nee.error));
+  check_agree(mis, nee);
   CHECK(mis.error < noise * 2 * nee.error);
 }
 
@@ -76,9 +58,7 @@ TEST_CASE("smoke: hides no light from a lamp in fog") {
   add(scene, sphere({0, 1.5, 1}, 0.02), lamp(3000));
   add_medium(scene, sphere({0, 1.5, 1}, 1.5), {0.5, 0}, 0.9);
   add_medium(scene, sphere({0.5, 1.5, 1}, 1.2), {0.6, 0}, 0);
-  scene.camera.look_from = {0, 3, 8};
-  scene.camera.look_at = {1, 1, 0};
-  scene.camera.vfov = 10;
+  scene.camera = {.look_from = {0, 3, 8}, .look_at = {1, 1, 0}, .vfov = 10};
   scene.render.integrator = Integrator::mis;
   CHECK(compile(scene).near.light.size() == 1);
   check_same_light(scene, 0.5);
@@ -90,9 +70,7 @@ TEST_CASE("smoke: hides no light that comes through a ball of glass") {
   add(scene, sphere({0, 1.2, 0}, 1), glass(1.5));
   add(scene, sphere({0.3, 1.3, 0}, 0.1), lamp(300));
   add_medium(scene, sphere({0, 1.2, 0}, 2.5), {0.5, 0}, 0);
-  scene.camera.look_from = {0, 4, 6};
-  scene.camera.look_at = {0, 0, 1};
-  scene.camera.vfov = 20;
+  scene.camera = {.look_from = {0, 4, 6}, .look_at = {0, 0, 1}, .vfov = 20};
   scene.render.integrator = Integrator::mis;
   CHECK(compile(scene).specular.sphere.size() == 1);
   check_same_light(scene, 0.5);

@@ -1,5 +1,4 @@
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 #include "tests/support/statistics.h"
 
 #include <cmath>
@@ -15,9 +14,7 @@ TEST_CASE("adaptive: the mean over a picture is that of even samples, to 0.01 %,
       double mean[2] = {};
       for (const bool adaptive : {false, true}) {
         scene.render.seed = seed;
-        RenderOptions options;
-        options.spp = 64;
-        options.adaptive = adaptive;
+        const RenderOptions options{.spp = 64, .adaptive = adaptive};
         for (const float value : resolve(render(compile(scene), options).film))
           mean[adaptive ? 1 : 0] += static_cast<double>(value);
       }

@@ -1,6 +1,5 @@
 #include "core/render/pass.h"
 #include "core/render/plan.h"
-#include "tests/support/prepared.h"
 #include "tests/support/statistics.h"
 #include "tests/support/stopping.h"
 #include "tests/support/watched_renderer.h"
@@ -24,13 +23,7 @@ const RenderScene& scene_of(const std::string& name) {
   return all[name];
 }
 
-RenderOptions options_of(std::uint32_t spp) {
-  RenderOptions options;
-  options.threads = 2;
-  options.spp = spp;
-  options.adaptive = true;
-  return options;
-}
+RenderOptions options_of(std::uint32_t spp) { return {.threads = 2, .spp = spp, .adaptive = true}; }
 
 }  // namespace
 

@@ -1,5 +1,4 @@
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 #include "tests/support/statistics.h"
 
 #include <doctest/doctest.h>
@@ -21,10 +20,7 @@ void check(const Known& known, Integrator integrator, const std::string& isa, in
     Scene scene = small_scene(known.name, 256, 256, 1);
     scene.render.integrator = integrator;
     scene.render.seed = static_cast<std::uint32_t>(run);
-    RenderOptions options;
-    options.isa = isa;
-    options.spp = spp;
-    const std::vector<float> rgb = resolve(render(compile(scene), options).film);
+    const std::vector<float> rgb = resolve(render(compile(scene), {.isa = isa, .spp = spp}).film);
     double sum[3] = {0, 0, 0};
     for (std::size_t i = 0; i < rgb.size(); ++i) sum[i % 3] += static_cast<double>(rgb[i]);
     for (int c = 0; c < 3; ++c) means[c].push_back(sum[c] / (256 * 256));

@@ -1,29 +1,14 @@
-#include "core/render/render.h"
-#include "core/scene/load.h"
-#include "tests/support/prepared.h"
+#include "tests/support/pictures.h"
 
 #include <doctest/doctest.h>
 
 namespace tyndall::test::breaks_test {
 
-namespace {
-
-RenderScene small_scene() {
-  Scene scene = load_scene("showroom").scene;
-  scene.width = 100, scene.height = 60;
-  return compile(scene);
-}
-
-}  // namespace
-
 TEST_CASE("breaks: films and results that are taken in between change no bit, also with adaptive sampling") {
-  const RenderScene scene = small_scene();
+  const RenderScene scene = compile(small_scene("showroom", 100, 60, 1));
   for (const bool adaptive : {false, true}) {
     CAPTURE(adaptive);
-    RenderOptions options;
-    options.threads = 2;
-    options.spp = 200;
-    options.adaptive = adaptive;
+    RenderOptions options{.threads = 2, .spp = 200, .adaptive = adaptive};
     const RenderResult plain = render(scene, options);
     int films = 0, results = 0;
     std::uint64_t last = 0;
@@ -48,10 +33,8 @@ TEST_CASE("breaks: films and results that are taken in between change no bit, al
 }
 
 TEST_CASE("breaks: a time limit still ends a render between passes, so that all pixels have as many samples") {
-  const RenderScene scene = small_scene();
-  RenderOptions options;
-  options.threads = 2;
-  options.time_limit = 0.3;
+  const RenderScene scene = compile(small_scene("showroom", 100, 60, 1));
+  RenderOptions options{.threads = 2, .time_limit = 0.3};
   options.breaks.film_due = [] { return true; };
   options.breaks.take_film = [](const Film&, ThreadPool&) {};
   const FilmTotals sum = totals(render(scene, options).film);

@@ -2,7 +2,6 @@
 #include "core/compile/flatten.h"
 #include "tests/support/mixed_scene.h"
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 
@@ -67,11 +66,7 @@ int wrong_values(const Scene& scene, float expected) {
   const RenderScene compiled = compile(scene);
   int wrong = 0;
   for (const Kernels& kernels : available_kernels()) {
-    RenderOptions options;
-    options.threads = 1;
-    options.isa = kernels.isa;
-    options.spp = 8;
-    const std::vector<float> picture = resolve(render(compiled, options).film);
+    const std::vector<float> picture = resolve(render(compiled, {.threads = 1, .isa = kernels.isa, .spp = 8}).film);
     wrong += static_cast<int>(
         std::count_if(picture.begin(), picture.end(), [=](float x) { return std::abs(x - expected) > 1e-5f; }));
   }

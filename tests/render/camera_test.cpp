@@ -1,5 +1,4 @@
 #include "core/trace/camera.h"
-#include "tests/support/prepared.h"
 
 #include "tests/support/probe.h"
 
@@ -29,10 +28,7 @@ Pair<double> at_depth(const Scene& scene, Vec3d origin, Vec3d direction, double 
 Scene slanted_camera() {
   Scene scene = white_room();
   scene.width = 64, scene.height = 48;
-  scene.camera.look_from = {1, 2, 3};
-  scene.camera.look_at = {-2, 0.5, 1};
-  scene.camera.vup = {0.2, 1, -0.1};
-  scene.camera.vfov = 50;
+  scene.camera = {.look_from = {1, 2, 3}, .look_at = {-2, 0.5, 1}, .vup = {0.2, 1, -0.1}, .vfov = 50};
   return scene;
 }
 
@@ -85,9 +81,7 @@ TEST_CASE("camera: the picture's edges lie where vfov says, its upper left corne
 
 TEST_CASE("camera: pixel (0, 0) of the rendered picture is the top left one") {
   Scene scene = dark_room();
-  scene.camera.look_from = {0, 0, 5};
-  scene.camera.look_at = {0, 0, 0};
-  scene.camera.vfov = 40;
+  scene.camera = {.look_from = {0, 0, 5}, .look_at = {0, 0, 0}, .vfov = 40};
   add(scene, sphere({-1.6, 1.6, 0}, 0.2), lamp(1));  // up and to the left
   const Film film = film_of(scene, 16);
   const Spot spot = spot_of(film);
@@ -100,8 +94,7 @@ TEST_CASE("camera: pixel (0, 0) of the rendered picture is the top left one") {
 TEST_CASE("camera: samples fill their pixel evenly and nothing else") {
   Scene scene = white_room();
   scene.width = 3, scene.height = 2;
-  scene.camera.look_from = {0, 0, 1};
-  scene.camera.look_at = {0, 0, 0};
+  scene.camera = {.look_from = {0, 0, 1}, .look_at = {0, 0, 0}};
   const RenderScene compiled = compile(scene);
   const SceneViewOf view(compiled);
   std::vector<double> xs, ys;
@@ -183,8 +176,7 @@ TEST_CASE("lens: a light in focus is as sharp as without a lens") {
 TEST_CASE("lens: without defocus the focus distance changes nothing; absent, it is the distance looked at") {
   Scene scene = white_room();
   scene.background = Gradient{};
-  scene.camera.look_from = {0, 0.5, 4};
-  scene.camera.look_at = {0, 0, 0};
+  scene.camera = {.look_from = {0, 0.5, 4}, .look_at = {0, 0, 0}};
   add(scene, sphere({0, 0, 0}, 1), lambertian(0.5));
   const std::vector<float> sharp = resolve(film_of(scene, 4));
   scene.camera.focus_distance = 8 * length(scene.camera.look_from);

@@ -1,13 +1,8 @@
 #include "core/render/clean_film.h"
 
 #include "core/accuracy/error.h"
-#include "core/compile/compile.h"
-#include "core/render/render.h"
 #include "core/render/views.h"
-#include "core/scene/load.h"
 #include "tests/support/hard_for_filters.h"
-#include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 #include "tests/support/thorough.h"
 #include "tests/support/watched_renderer.h"
 
@@ -19,19 +14,8 @@ namespace tyndall::test::clean_film_test {
 
 namespace {
 
-Scene small(const char* name, int width, int height) {
-  Scene scene = load_scene(name).scene;
-  scene.width = width, scene.height = height;
-  scene.render.spp.reset();
-  return scene;
-}
-
 RenderResult rendered(const Scene& scene, std::uint32_t spp, bool clean = false, int threads = 2) {
-  RenderOptions options;
-  options.spp = spp;
-  options.clean = clean;
-  options.threads = threads;
-  return render(compile(scene), options);
+  return render(compile(scene), {.threads = threads, .spp = spp, .clean = clean});
 }
 
 Vec3f emission(const Film& film, int x, int y) {
@@ -41,7 +25,7 @@ Vec3f emission(const Film& film, int x, int y) {
 }  // namespace
 
 TEST_CASE("emission: is all that is seen of a light, also in a mirror, and nothing of what it shines on") {
-  Scene scene = small("cornell-box", 96, 96);
+  Scene scene = small_scene("cornell-box", 96, 96, 8);
   const Film box = rendered(scene, 8).film;
   CHECK(emission(box, 48, 14).x > 20);  // the light, in both halves
   CHECK(half_emission(box, box.index(48, 14), 0) == half_mean(box, box.at(48, 14), 0));
@@ -59,14 +43,14 @@ TEST_CASE("emission: is all that is seen of a light, also in a mirror, and nothi
 }
 
 TEST_CASE("emission: costs no memory where there is no light") {
-  CHECK(rendered(small("metal-spheres", 16, 9), 2).film.emission.empty());
+  CHECK(rendered(small_scene("metal-spheres", 16, 9, 2), 2).film.emission.empty());
 }
 
 TEST_CASE("clean view: nearer to the truth than the picture, with an error that it knows, and the film is the same") {
   constexpr const char* names[] = {"cornell-smoke", "showroom", "cornell-box", "metal-spheres"};
   for (const char* name : tried(names, 2)) {
     CAPTURE(name);
-    const Scene scene = small(name, 96, 96);
+    const Scene scene = small_scene(name, 96, 96, 8);
     const RenderResult raw = rendered(scene, 8), result = rendered(scene, 8, true);
     CHECK(result.film == raw.film);
     REQUIRE(result.clean);
@@ -98,14 +82,11 @@ TEST_CASE("clean view: lights smaller than a pixel do not make it worse than raw
 }
 
 TEST_CASE("clean view: of regions, and the same for any number of threads and after an interruption") {
-  const Scene scene = small("cornell-box", 40, 30);
+  const Scene scene = small_scene("cornell-box", 40, 30, 4);
   const RenderScene compiled = compile(scene);
   const RenderResult one = rendered(scene, 4, true, 1), two = rendered(scene, 4, true, 3);
   CHECK(one.clean->rgb == two.clean->rgb);
-  RenderOptions options;
-  options.spp = 4;
-  options.clean = true;
-  options.region = Region{7, 3, 8, 20};
+  RenderOptions options{.region = Region{7, 3, 8, 20}, .spp = 4, .clean = true};
   CHECK(render(compiled, options).clean->rgb.size() == 3 * 17);
   options.region.reset();
   options.spp = 2;
@@ -115,11 +96,9 @@ TEST_CASE("clean view: of regions, and the same for any number of threads and af
 }
 
 TEST_CASE("clean view: its error ends a render that asks for that, and one sample a pixel has none") {
-  const Scene scene = small("cornell-box", 48, 48);
-  RenderOptions options;
-  options.clean = true;
-  options.target_error = 0.12;
-  const RenderResult result = render(compile(scene), options);
+  Scene scene = small_scene("cornell-box", 48, 48, 1);
+  scene.render.spp.reset();
+  const RenderResult result = render(compile(scene), {.target_error = 0.12, .clean = true});
   REQUIRE(result.clean);
   CHECK(result.clean->relative_error <= 0.12);
   CHECK(result.seconds_clean > 0);
@@ -130,21 +109,18 @@ TEST_CASE("coarse clean view: what the picture shows, with fewer pixels, for any
   for (const char* name : {"cornell-box", "metal-spheres"}) {
     CAPTURE(name);
     constexpr int step = 3;
-    const RenderScene scene = compile(small(name, 119, 80));
-    const SceneViewOf view(scene);
-    const Kernels kernels = *choose_kernels("");
+    const Scene scene = small_scene(name, 119, 80, 256);
     std::vector<CleanPicture> made;
     for (const int threads : {1, 3}) {
-      ThreadPool thread_pool(threads);
-      CoarseCleaner cleaner(kernels);
-      CHECK_FALSE(
-          cleaner.run(step, {thread_pool, kernels, view.view()}, scene.film_quantum, true, made.emplace_back()));
-      REQUIRE(cleaner.run(step, {thread_pool, kernels, view.view()}, scene.film_quantum, false, made.back()));
+      const Ready ready(compile(scene), threads);
+      CoarseCleaner cleaner(ready.kernels);
+      CHECK_FALSE(cleaner.run(step, ready.engine, ready.scene.film_quantum, true, made.emplace_back()));
+      REQUIRE(cleaner.run(step, ready.engine, ready.scene.film_quantum, false, made.back()));
     }
     REQUIRE(made[0].width == 40);
     REQUIRE(made[0].height == 27);
     CHECK(made[0].rgb == made[1].rgb);
-    const Film whole = rendered(small(name, 119, 80), 256).film;
+    const Film whole = rendered(scene, 256).film;
     // Against the mean over the pixels around every third one, moved by so many pixels each way.
     const auto off_by = [&](int direction) {
       std::vector<float> truth;
@@ -168,8 +144,7 @@ TEST_CASE("coarse clean view: what the picture shows, with fewer pixels, for any
 TEST_CASE("coarse clean view: the first one after an edit where a whole one takes long, until that is there") {
   WatchedRenderer renderer;
   renderer.set(&RenderRequest::clean, true);
-  Scene scene = small("cornell-box", 1000, 1000);
-  scene.render.spp = 2;
+  const Scene scene = small_scene("cornell-box", 1000, 1000, 2);
   const FramePointer whole = renderer.wait_finished(renderer.submit(scene));
   REQUIRE(whole->clean);
   CHECK(whole->clean->spp == 2);
@@ -196,8 +171,7 @@ TEST_CASE("frames: their memory is used again, but not that of a film of another
 
 TEST_CASE("clean view: comes with frames when it is wanted, of the newest scene, and goes with the wish") {
   WatchedRenderer renderer;
-  Scene scene = small("cornell-box", 64, 64);
-  scene.render.spp = 8;
+  Scene scene = small_scene("cornell-box", 64, 64, 8);
   CHECK_FALSE(renderer.wait_finished(renderer.submit(scene))->clean);
   renderer.set(&RenderRequest::clean, true);
   const FramePointer clean = renderer.wait_for([](const Frame& f) { return f.clean && f.finished; });

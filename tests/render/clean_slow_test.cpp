@@ -1,9 +1,5 @@
 #include "core/accuracy/estimate.h"
 #include "core/accuracy/flip.h"
-#include "core/compile/compile.h"
-#include "core/render/clean_film.h"
-#include "core/render/prepare.h"
-#include "core/render/render.h"
 #include "core/scene/load.h"
 #include "tests/support/hard_for_filters.h"
 #include "tests/support/prepared.h"
@@ -95,8 +91,7 @@ void measure(const std::string& name, Scene scene, std::uint32_t reference_spp, 
   const Reference reference = reference_of(scene, reference_spp);
   const RenderScene compiled = compile(scene);
   const double chance = chance_of_caustics(scene, compiled);
-  RenderOptions options;
-  options.clean = true;
+  RenderOptions options{.clean = true};
   Film film;
   for (const std::uint32_t spp : counts) {
     options.spp = spp;

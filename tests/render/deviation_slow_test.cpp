@@ -1,7 +1,6 @@
 #include "core/transport/path.h"
 #include "tests/support/capture.h"
 #include "tests/support/event.h"
-#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>

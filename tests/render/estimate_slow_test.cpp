@@ -1,8 +1,5 @@
 #include "core/accuracy/estimate.h"
-#include "core/render/prepare.h"
-#include "core/render/render.h"
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 #include "tests/support/random_room.h"
 #include "tests/support/references.h"
 
@@ -45,9 +42,7 @@ void add_cases(const std::string& name, const Scene& scene, std::uint32_t refere
   const Kernels kernels = choose_kernels("").value();
   Film film;
   for (const std::uint32_t spp : counts) {
-    RenderOptions options;
-    options.spp = spp;
-    film = render(compiled, options, {}, std::move(film)).film;
+    film = render(compiled, {.spp = spp}, {}, std::move(film)).film;
     const double truth = std::sqrt(std::max(true_relative_mse(film, reference), 1e-30));
     const ErrorEstimate estimate = estimate_error(compiled, kernels, film);
     const double estimated = estimate.relative_error;

@@ -1,8 +1,4 @@
-#include "core/render/clean_film.h"
-
-#include "core/compile/compile.h"
-#include "core/scene/load.h"
-#include "tests/support/prepared.h"
+#include "tests/support/pictures.h"
 
 #include <doctest/doctest.h>
 
@@ -20,16 +16,13 @@ struct Seen {
 };
 
 Seen seen_in(const char* name, double spp, const Region& region, int threads = 2, const char* isa = "") {
-  Scene scene = load_scene(name).scene;
-  scene.width = 96, scene.height = 54;
-  const RenderScene compiled = compile(scene);
+  const RenderScene compiled = compile(small_scene(name, 96, 54, 1));
   const SceneViewOf view(compiled);
   const auto kernels = choose_kernels(isa);
   ThreadPool thread_pool(threads);
   Seen seen;
   seen.input.spp = spp;
-  const SceneView scene_view = view.view();
-  REQUIRE(find_first_seen(region, {thread_pool, *kernels, scene_view}, false, seen.input, seen.made));
+  REQUIRE(find_first_seen(region, {thread_pool, *kernels, view.view()}, false, seen.input, seen.made));
   return seen;
 }
 
@@ -91,16 +84,10 @@ TEST_CASE("first seen: regions see what the whole picture sees there") {
 }
 
 TEST_CASE("first seen: gives up") {
-  Scene scene = load_scene("quads").scene;
-  scene.width = 16, scene.height = 9;
-  const RenderScene compiled = compile(scene);
-  const SceneViewOf view(compiled);
-  const SceneView scene_view = view.view();
-  const auto kernels = choose_kernels("");
-  ThreadPool thread_pool(2);
+  const Ready ready(compile(small_scene("quads", 16, 9, 1)));
   CleanInput input;
   FirstSeenParts made;
-  CHECK_FALSE(find_first_seen({0, 0, 16, 9}, {thread_pool, *kernels, scene_view}, true, input, made));
+  CHECK_FALSE(find_first_seen({0, 0, 16, 9}, ready.engine, true, input, made));
 }
 
 }  // namespace tyndall::test::first_seen_test

@@ -12,9 +12,7 @@ namespace {
 Scene sphere_room(double scale) {
   Scene scene = white_room();
   scene.width = scene.height = 64;
-  scene.camera.look_from = {0.3 * scale, 0.4 * scale, 5 * scale};
-  scene.camera.look_at = {0, 0, 0};
-  scene.camera.vfov = 25;
+  scene.camera = {.look_from = {0.3 * scale, 0.4 * scale, 5 * scale}, .look_at = {0, 0, 0}, .vfov = 25};
   scene.render.max_depth = 1000000;
   return scene;
 }
@@ -144,8 +142,7 @@ TEST_CASE("white furnace: the camera inside glass, fog and milk") {
   for (const bool shell : {false, true})
     for (const bool fog : {false, true}) {
       Scene scene = sphere_room(1);
-      scene.camera.look_from = {0.2, -0.3, 0.1};
-      scene.camera.look_at = {0, 5, 0.3};
+      scene.camera = {.look_from = {0.2, -0.3, 0.1}, .look_at = {0, 5, 0.3}, .vfov = 25};
       if (shell) add(scene, sphere({0, 0, 0}, 1), glass(1.5));
       if (fog) add_medium(scene, sphere({0, 0, 0}, 1), {4, 0}, 1);
       check_all(scene, 1.0f, "");

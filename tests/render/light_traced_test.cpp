@@ -54,9 +54,7 @@ TEST_CASE("light tracer: what paths from the camera find, off fuzzy metal, throu
   Scene scene = dark_room();
   scene.width = 32, scene.height = 24;
   scene.render.integrator = Integrator::mis;
-  scene.camera.look_from = {0, 2, 7};
-  scene.camera.look_at = {0, 1.5, 0};
-  scene.camera.vfov = 40;
+  scene.camera = {.look_from = {0, 2, 7}, .look_at = {0, 1.5, 0}, .vfov = 40};
   add(scene, Box<>{{-3, 0, -3}, {3, 4, 3}}, lambertian(0.5));
   std::get<Solid3d>(scene.objects.back().kind).shape = Quad<>{{-3, 0, -3}, {0, 0, 6}, {6, 0, 0}};
   add(scene, Quad<>{{-3, 0, -3}, {6, 0, 0}, {0, 4, 0}}, lambertian(0.5));

@@ -1,8 +1,6 @@
 #include "core/render/pass.h"
 #include "core/render/progression.h"
 #include "tests/support/merged.h"
-#include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 #include "tests/support/watched_renderer.h"
 
@@ -19,9 +17,7 @@ namespace {
 RenderScene poisoned() {
   Scene scene = white_room();
   scene.width = 40, scene.height = 30;
-  scene.camera.look_from = {0, 0, 4};
-  scene.camera.look_at = {0, 0, 0};
-  scene.camera.vfov = 45;
+  scene.camera = {.look_from = {0, 0, 4}, .look_at = {0, 0, 0}, .vfov = 45};
   add_medium(scene, sphere({-0.5, 0, 0}, 0.5), {0.5, 0}, 0.9);
   add_medium(scene, sphere({0.7, 0.2, 0}, 0.4), {0.02, 0}, 0.9);
   RenderScene compiled = compile(scene);
@@ -31,13 +27,7 @@ RenderScene poisoned() {
 
 RenderResult result_of(const RenderScene& scene, const char* isa, int threads, int tile, std::uint32_t first = 0,
                        std::uint32_t spp = 16) {
-  RenderOptions options;
-  options.isa = isa;
-  options.threads = threads;
-  options.tile = tile;
-  options.first_sample = first;
-  options.spp = spp;
-  return render(scene, options);
+  return render(scene, {.threads = threads, .isa = isa, .first_sample = first, .spp = spp, .tile = tile});
 }
 
 /// The rejected samples of a film by trying all, one by one.
@@ -100,13 +90,10 @@ TEST_CASE("rejected samples: shards find the ones of their own range") {
 }
 
 TEST_CASE("rejected samples: a pass counts those of both halves") {
-  const RenderScene scene = poisoned();
-  const SceneViewOf view(scene);
-  ThreadPool thread_pool(2);
-  const std::atomic<bool> no = false;
-  Film film = make_film(scene.width, scene.height, {0, 0, scene.width, scene.height}, 0, scene.film_quantum, false);
+  const Ready ready(poisoned());
+  Film film = make_film(40, 30, {0, 0, 40, 30}, 0, ready.scene.film_quantum, false);
   Pass pass(film.region, 0, 16);
-  REQUIRE(pass.run({thread_pool, scalar_kernels(), view.view()}, film, no));
+  REQUIRE(pass.run(ready.engine, film, false));
   std::uint64_t rejected[2] = {0, 0};
   for (const FilmPixel& pixel : film.pixels)
     for (int half = 0; half < 2; ++half) rejected[half] += pixel.rejected[half];

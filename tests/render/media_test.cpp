@@ -8,19 +8,10 @@ namespace tyndall::test::media_test {
 
 namespace {
 
-/// Ray of impact parameter `impact` on a sphere of radius `scale`.
-Scene sphere_seen_at(double impact, double scale) {
-  Scene scene = white_room();
-  aim(scene, {impact * scale, 0, 5 * scale}, {impact * scale, 0, 0});
-  return scene;
-}
-
 /// The sphere fills a disc that touches the picture's edges, seen from so far that its rays are parallel.
 Scene sphere_in_square() {
   Scene scene = white_room();
-  scene.camera.look_from = {0, 0, 1000};
-  scene.camera.look_at = {0, 0, 0};
-  scene.camera.vfov = 2 * std::atan(1.0 / 1000) * (180 / pi);
+  scene.camera = {.look_from = {0, 0, 1000}, .look_at = {0, 0, 0}, .vfov = 2 * std::atan(1.0 / 1000) * (180 / pi)};
   return scene;
 }
 
@@ -197,8 +188,7 @@ TEST_CASE("fog: overlapping media add up, in density and in colour") {
 TEST_CASE("fog: without density it is not there") {
   Scene scene = white_room();
   scene.background = Gradient{};
-  scene.camera.look_from = {0, 0.5, 3};
-  scene.camera.look_at = {0, 0, 0};
+  scene.camera = {.look_from = {0, 0.5, 3}, .look_at = {0, 0, 0}};
   add(scene, sphere({0, 0, 0}, 1), lambertian(0.5));
   const std::vector<float> clear = resolve(film_of(scene, 4));
   for (const double density : {0.0, 1e-38, 1e-30}) {

@@ -1,9 +1,6 @@
-#include "core/compile/compile.h"
 #include "core/image/image_io.h"
-#include "core/render/render.h"
 #include "core/scene/json.h"
 #include "tests/support/allocations.h"
-#include "tests/support/prepared.h"
 #include "tests/support/scratch.h"
 #include "tests/support/watched_renderer.h"
 
@@ -27,12 +24,8 @@ const std::string text = R"({"tyndall": 1, "image": {"width": 16, "height": 12},
 void load_render_save(const std::filesystem::path& folder) {
   const Scene scene = read_scene(text, "a.json", ".");
   const RenderScene compiled = compile(scene);
-  RenderOptions options;
-  options.threads = 1;
-  options.isa = "scalar";
-  options.region = Region{0, 0, scene.width, scene.height};
-  options.spp = 1;
-  const RenderResult result = render(compiled, options);
+  const RenderResult result =
+      render(compiled, {.threads = 1, .isa = "scalar", .region = Region{0, 0, scene.width, scene.height}, .spp = 1});
   const LinearImage image{scene.width, scene.height, resolve(result.film)};
   write_png(folder / "a.png", image, 0, ToneMap::srgb, {text, ""});
   write_pfm(folder / "a.pfm", image);
@@ -116,10 +109,7 @@ TEST_CASE("memory: whichever request is refused while a renderer takes over a fi
   const Scene small = read_scene(text, "a.json", ".");
   Scene large = small;
   large.width = 2 * small.width;
-  RenderOptions options;
-  options.isa = "scalar";
-  options.spp = 4;
-  const Film taken = render(compile(large), options).film;
+  const Film taken = render(compile(large), {.isa = "scalar", .spp = 4}).film;
   int refused = 0;
   for (int number = 1; number <= 150; ++number) {
     WatchedRenderer renderer(1, "scalar");

@@ -65,9 +65,7 @@ TEST_CASE("motion: a mirror sees the ball where it is at the path's own time") {
 TEST_CASE("motion: a ball whose two centres are equal is at rest") {
   Scene moving = white_room();
   moving.background = Gradient{};
-  moving.camera.look_from = {0, 0.4, 3};
-  moving.camera.look_at = {0, 0, 0};
-  moving.camera.shutter_close = 1;
+  moving.camera = {.look_from = {0, 0.4, 3}, .look_at = {0, 0, 0}, .shutter_close = 1};
   Scene still = moving;
   add(moving, Sphere<>{{0, 0, 0}, 1, Vec3d{0, 0, 0}}, lambertian(0.5));
   add(still, sphere({0, 0, 0}, 1), lambertian(0.5));

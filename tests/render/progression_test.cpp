@@ -1,11 +1,7 @@
 #include "core/render/progression.h"
 
 #include "core/accuracy/estimate.h"
-#include "core/compile/compile.h"
-#include "core/render/render.h"
-#include "core/scene/load.h"
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 
@@ -14,19 +10,10 @@ namespace tyndall::test::progression_test {
 
 namespace {
 
-RenderScene small_scene() {
-  Scene scene = load_scene("cornell-smoke").scene;
-  scene.width = 37;
-  scene.height = 23;
-  return compile(scene);
-}
+RenderScene smoke() { return compile(small_scene("cornell-smoke", 37, 23, 1)); }
 
 Film film_of(const RenderScene& scene, std::uint32_t first, std::uint32_t spp, Film film = {}) {
-  RenderOptions options;
-  options.threads = 2;
-  options.first_sample = first;
-  options.spp = spp;
-  return render(scene, options, {}, std::move(film)).film;
+  return render(scene, {.threads = 2, .first_sample = first, .spp = spp}, {}, std::move(film)).film;
 }
 
 /// Some pixels of one film, the others of another with more samples: what an interrupted pass leaves.
@@ -39,7 +26,7 @@ Film mixed(Film few, const Film& many) {
 }  // namespace
 
 TEST_CASE("an interrupted film that is continued is, bit for bit, the film of one render") {
-  const RenderScene scene = small_scene();
+  const RenderScene scene = smoke();
   for (const std::uint32_t first : {0u, 3u}) {
     const Film few = film_of(scene, first, 2), some = film_of(scene, first, 9), many = film_of(scene, first, 12);
     const Film uneven = mixed(few, some);
@@ -52,20 +39,17 @@ TEST_CASE("an interrupted film that is continued is, bit for bit, the film of on
 }
 
 TEST_CASE("progression: making a film even can be interrupted, leaves whole prefixes and is counted") {
-  const RenderScene scene = small_scene();
-  const Film few = film_of(scene, 0, 2), some = film_of(scene, 0, 9);
+  const Ready ready(smoke());
+  const Film few = film_of(ready.scene, 0, 2), some = film_of(ready.scene, 0, 9);
   const Film before = mixed(few, some);
-  ThreadPool thread_pool(2);
-  const Kernels kernels = *choose_kernels("");
-  const SceneViewOf view(scene);
   Progression picture;
   picture.go_on(before, {});
   CHECK(picture.taken() == 2);
-  CHECK_FALSE(picture.run_pass({thread_pool, kernels, view.view()}, {}, true));
+  CHECK_FALSE(picture.run_pass(ready.engine, {}, true));
   CHECK(picture.within_pass());
   CHECK(picture.film() == before);
   CHECK(picture.tally().rays == 0);
-  CHECK(picture.run_pass({thread_pool, kernels, view.view()}, {}, false));
+  CHECK(picture.run_pass(ready.engine, {}, false));
   CHECK_FALSE(picture.within_pass());
   CHECK(picture.film() == some);
   CHECK(picture.taken() == 9);
@@ -73,49 +57,37 @@ TEST_CASE("progression: making a film even can be interrupted, leaves whole pref
 }
 
 TEST_CASE("progression: a coarse pass, the rest of the first sample, then growing passes give the blocking film") {
-  const RenderScene scene = small_scene();
-  ThreadPool thread_pool(2);
-  const Kernels kernels = *choose_kernels("");
-  const SceneViewOf view(scene);
-  const RenderEngine engine{thread_pool, kernels, view.view()};
-  ProgressionOptions options;
-  options.coarse_step = 4;
+  const Ready ready(smoke());
+  const RenderScene& scene = ready.scene;
   Progression picture;
   // The second round replaces what the first has left in the film.
   for (int round = 0; round < 2; ++round) {
-    picture.start(scene, {0, 0, scene.width, scene.height}, 0, options);
+    picture.start(scene, {0, 0, scene.width, scene.height}, 0, {.coarse_step = 4});
     CHECK_FALSE(picture.has_picture());
     CHECK(picture.step() == 4);
     std::vector<std::uint32_t> taken;
     while (!picture.reached({.spp = 21})) {
-      REQUIRE(picture.run_pass(engine, {.spp = 21}, false));
+      REQUIRE(picture.run_pass(ready.engine, {.spp = 21}, false));
       CHECK(picture.has_picture());
       taken.push_back(picture.taken());
     }
     CHECK(taken == std::vector<std::uint32_t>{0, 1, 2, 4, 8, 16, 21});
     CHECK(picture.step() == 1);
     CHECK(picture.film() == film_of(scene, 0, 21));
-    RenderOptions blocking;
-    blocking.spp = 21;
-    CHECK(picture.tally().rays == render(scene, blocking).rays);  // no path is followed twice
+    CHECK(picture.tally().rays == render(scene, {.spp = 21}).rays);  // no path is followed twice
   }
 }
 
 TEST_CASE("progression: a coarse pass of a scene that shares is replaced, with all that was counted of it") {
-  Scene scene = test::close_up("cornell-box", 37, 23);
+  Scene scene = close_up("cornell-box", 37, 23);
   scene.render.max_depth = 2;
-  const RenderScene compiled = compile(scene);
-  const SceneViewOf view(compiled);
-  REQUIRE(view.view().reuses_paths);
-  ThreadPool thread_pool(2);
-  const Kernels kernels = *choose_kernels("");
-  const RenderEngine engine{thread_pool, kernels, view.view()};
-  ProgressionOptions options;
-  options.coarse_step = 4;
+  const Ready ready(compile(scene));
+  REQUIRE(ready.view.view().reuses_paths);
+  ProgressionOptions options{.coarse_step = 4};
   Progression picture;
-  picture.start(compiled, {0, 0, 37, 23}, 0, options);
+  picture.start(ready.scene, {0, 0, 37, 23}, 0, options);
   while (!picture.reached({.spp = 4})) {
-    REQUIRE(picture.run_pass(engine, {.spp = 4}, false));
+    REQUIRE(picture.run_pass(ready.engine, {.spp = 4}, false));
     const PassTally tally = picture.tally();
     CHECK(tally.truncated > tally.samples / 4);
     CHECK(tally.truncated <= tally.samples);
@@ -124,7 +96,7 @@ TEST_CASE("progression: a coarse pass of a scene that shares is replaced, with a
   }
   const Film& film = picture.film();
   const FilmTotals sum = totals(film);
-  CHECK(film == film_of(compiled, 0, 4));
+  CHECK(film == film_of(ready.scene, 0, 4));
   CHECK(picture.tally().samples == sum.samples);
   CHECK(picture.tally().truncated == sum.truncated);
   CHECK(picture.cut_throughput() == sum.cut_throughput);
@@ -135,68 +107,54 @@ TEST_CASE("progression: a coarse pass of a scene that shares is replaced, with a
   CHECK(continued.cut_throughput() == sum.cut_throughput);
   options.first = {8, 4, 16, 12};  // refined first: its pixels have more samples than the others
   continued.go_on(film, options);
-  REQUIRE(continued.run_pass(engine, {.spp = 64}, false));
+  REQUIRE(continued.run_pass(ready.engine, {.spp = 64}, false));
   CHECK(continued.taken() == 4);
   CHECK(continued.cut_throughput() == doctest::Approx(totals(continued.film()).cut_throughput));
 }
 
 TEST_CASE("progression: ends at the first of the limits, but not before a pass") {
-  const RenderScene scene = small_scene();
-  ThreadPool thread_pool(2);
-  const Kernels kernels = *choose_kernels("");
-  const SceneViewOf view(scene);
-  const RenderEngine engine{thread_pool, kernels, view.view()};
+  const Ready ready(smoke());
   Progression picture;
-  picture.start(scene, {0, 0, scene.width, scene.height}, 0, {});
+  picture.start(ready.scene, {0, 0, 37, 23}, 0, {});
   const Limits no_time{.spp = {}, .seconds = 0}, rough{.spp = {}, .error = 1e6};
   CHECK(picture.reached({.spp = 0}));
   CHECK_FALSE(picture.reached(no_time));
   CHECK_FALSE(picture.reached(rough));
-  picture.run_pass(engine, rough, false);
+  picture.run_pass(ready.engine, rough, false);
   CHECK(picture.reached(no_time));
   CHECK_FALSE(picture.reached(rough));  // with one sample a pixel the error is not known
   CHECK_FALSE(picture.estimate_is_new());
-  picture.run_pass(engine, rough, false);
+  picture.run_pass(ready.engine, rough, false);
   CHECK(picture.reached(rough));
   CHECK(picture.estimate_is_new());
-  CHECK(picture.error() == estimate_error(scene, kernels, picture.film()).relative_error);
+  CHECK(picture.error() == estimate_error(ready.scene, ready.kernels, picture.film()).relative_error);
   CHECK_FALSE(picture.reached({}));
 }
 
 TEST_CASE("progression: levels that an estimate has asked for are not those of the next scene") {
-  Scene lit = load_scene("stress-light-and-fuzz").scene;
-  lit.width = 111, lit.height = 83;
+  const Scene lit = small_scene("stress-light-and-fuzz", 111, 83, 1);
   Scene dim = lit;  // the same pixels decide, at half the level
   for (Material& material : dim.materials)
     if (std::holds_alternative<Light<>>(material.kind)) material.colour = 0.5 * std::get<Vec3d>(material.colour);
-  ThreadPool thread_pool(2);
-  const Kernels kernels = *choose_kernels("");
   Progression picture;
   for (const Scene& scene : {lit, dim}) {
-    const RenderScene compiled = compile(scene);
-    const SceneViewOf view(compiled);
-    picture.start(compiled, {0, 0, compiled.width, compiled.height}, 0, {});
-    while (!picture.reached({.spp = 4})) picture.run_pass({thread_pool, kernels, view.view()}, {.spp = 4}, false);
-    picture.estimate_now({thread_pool, kernels, view.view()}, false);
-    CHECK(picture.error() == estimate_error(compiled, kernels, picture.film()).relative_error);
+    const Ready ready(compile(scene));
+    picture.start(ready.scene, {0, 0, scene.width, scene.height}, 0, {});
+    while (!picture.reached({.spp = 4})) picture.run_pass(ready.engine, {.spp = 4}, false);
+    picture.estimate_now(ready.engine, false);
+    CHECK(picture.error() == estimate_error(ready.scene, ready.kernels, picture.film()).relative_error);
     CHECK(picture.error() != estimated_relative_error(picture.film()));  // some were asked for
   }
 }
 
 TEST_CASE("progression: the error is estimated when it is due, not after each pass") {
-  const RenderScene scene = small_scene();
-  ThreadPool thread_pool(1);
-  const Kernels kernels = *choose_kernels("");
-  const SceneViewOf view(scene);
-  const RenderEngine engine{thread_pool, kernels, view.view()};
+  const Ready ready(smoke(), 1);
   const auto estimated_at = [&](const EstimateTimes& times) {
-    ProgressionOptions options;
-    options.estimates = times;
     Progression picture;
-    picture.start(scene, {0, 0, scene.width, scene.height}, 0, options);
+    picture.start(ready.scene, {0, 0, 37, 23}, 0, {.estimates = times});
     std::vector<std::uint32_t> found;
     while (!picture.reached({.spp = 32})) {
-      picture.run_pass(engine, {.spp = 32}, false);
+      picture.run_pass(ready.engine, {.spp = 32}, false);
       if (picture.estimate_is_new()) found.push_back(picture.taken());
     }
     return found;

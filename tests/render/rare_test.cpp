@@ -1,8 +1,5 @@
 #include "core/accuracy/estimate.h"
 
-#include "core/compile/compile.h"
-#include "core/render/prepare.h"
-#include "core/render/render.h"
 #include "core/scene/json.h"
 #include "core/scene/load.h"
 #include "tests/support/prepared.h"
@@ -15,10 +12,8 @@ namespace {
 
 bool is_rare(Scene scene, std::uint32_t spp) {
   scene.width = 80, scene.height = 60;
-  RenderOptions options;
-  options.spp = spp;
   const auto prepared = prepare(scene);
-  const Film film = render(*prepared, options).film;
+  const Film film = render(*prepared, {.spp = spp}).film;
   return has_rare_bright_paths(estimate_error(film), spp, prepared->caustic_chance());
 }
 
@@ -60,10 +55,8 @@ TEST_CASE("rare bright paths: light off metal with a little fuzz is guided; wher
   for (scene.render.seed = 0; scene.render.seed < 4; ++scene.render.seed) {
     Scene small = scene;
     small.width = 128, small.height = 96;
-    RenderOptions options;
-    options.spp = 64;
     const auto prepared = prepare(small);
-    const RenderResult result = render(*prepared, options);
+    const RenderResult result = render(*prepared, {.spp = 64});
     const ErrorEstimate estimate = estimate_error(*prepared, result.kernels, result.film);
     CHECK_FALSE(has_rare_bright_paths(estimate, 64, prepared->caustic_chance()));
   }

@@ -1,9 +1,5 @@
-#include "core/compile/compile.h"
 #include "core/render/progression.h"
-#include "core/render/render.h"
 #include "core/render/views.h"
-#include "core/scene/load.h"
-#include "tests/support/prepared.h"
 #include "tests/support/watched_renderer.h"
 
 #include <doctest/doctest.h>
@@ -16,31 +12,18 @@ namespace tyndall::test::refine_first_test {
 
 namespace {
 
-RenderScene small(const char* name) {
-  Scene scene = load_scene(name).scene;
-  scene.width = 61;
-  scene.height = 43;
-  return compile(scene);
-}
+Ready small(const char* name) { return Ready(compile(small_scene(name, 61, 43, 1))); }
 
 }  // namespace
 
 TEST_CASE("a part that is refined first has prefixes of the same samples, and the picture is the same in the end") {
   // With light that groups of pixels share, and without.
   for (const char* name : {"cornell-box", "showroom"}) {
-    const RenderScene scene = small(name);
-    ThreadPool thread_pool(2);
-    const Kernels kernels = *choose_kernels("");
-    const SceneViewOf view(scene);
-    const RenderEngine engine{thread_pool, kernels, view.view()};
-    RenderOptions blocking;
-    blocking.spp = 40;
-    const Film whole = render(scene, blocking).film;
-    ProgressionOptions options;
-    options.coarse_step = 4;
-    options.first = {20, 10, 33, 21};
+    const Ready ready = small(name);
+    const RenderEngine& engine = ready.engine;
+    const Film whole = render(ready.scene, {.spp = 40}).film;
     Progression picture;
-    picture.start(scene, {0, 0, scene.width, scene.height}, 0, options);
+    picture.start(ready.scene, {0, 0, 61, 43}, 0, {.coarse_step = 4, .first = {20, 10, 33, 21}});
     const Limits limits{.spp = 40};
     while (picture.max_taken() < 40) REQUIRE(picture.run_pass(engine, limits, false));
     CHECK(picture.taken() == 1);
@@ -69,27 +52,19 @@ TEST_CASE("a part that is refined first has prefixes of the same samples, and th
 }
 
 TEST_CASE("a part that is refined first: beyond the picture it is nothing, and adaptive sampling knows better") {
-  const RenderScene scene = small("cornell-smoke");
-  ThreadPool thread_pool(2);
-  const Kernels kernels = *choose_kernels("");
-  const SceneViewOf view(scene);
-  const RenderEngine engine{thread_pool, kernels, view.view()};
+  const Ready ready = small("cornell-smoke");
   for (const bool adaptive : {false, true}) {
-    ProgressionOptions options;
-    options.adaptive = adaptive;
-    options.first = adaptive ? Region{0, 0, 9, 9} : Region{61, 0, 99, 9};
+    const Region first = adaptive ? Region{0, 0, 9, 9} : Region{61, 0, 99, 9};
     Progression picture;
-    picture.start(scene, {0, 0, scene.width, scene.height}, 0, options);
-    for (int pass = 0; pass < 3; ++pass) REQUIRE(picture.run_pass(engine, {.spp = 64}, false));
+    picture.start(ready.scene, {0, 0, 61, 43}, 0, {.adaptive = adaptive, .first = first});
+    for (int pass = 0; pass < 3; ++pass) REQUIRE(picture.run_pass(ready.engine, {.spp = 64}, false));
     CHECK(picture.taken() == 4);
     CHECK(picture.max_taken() == 4);
   }
 }
 
 TEST_CASE("the renderer refines a part first, and reports on a pixel after each pass and when asked at rest") {
-  Scene scene = load_scene("showroom").scene;
-  scene.width = 160, scene.height = 100;
-  scene.render.spp = 64;
+  const Scene scene = small_scene("showroom", 160, 100, 64);
   WatchedRenderer renderer;
   renderer.set(&RenderRequest::refine_first, {40, 40, 60, 60});
   renderer.set(&RenderRequest::watched_pixel, std::pair{50, 50});
@@ -114,16 +89,13 @@ TEST_CASE("the renderer refines a part first, and reports on a pixel after each 
 }
 
 TEST_CASE("the standard error of a pixel is that of its mean: it agrees with other seeds") {
-  Scene scene = load_scene("cornell-smoke").scene;
-  scene.width = scene.height = 48;
+  Scene scene = small_scene("cornell-smoke", 48, 48, 32);
   scene.render.sampler = SamplerKind::random;
-  RenderOptions options;
-  options.spp = 32;
   double told = 0, squares = 0, sum = 0;
   constexpr int seeds = 40;
   for (int seed = 0; seed < seeds; ++seed) {
     scene.render.seed = static_cast<std::uint32_t>(seed);
-    const Film film = render(compile(scene), options).film;
+    const Film film = render(compile(scene), {.spp = 32}).film;
     PixelReport report{.x = 24, .y = 36};
     look_at_pixel(film, report);
     CHECK(report.samples == 32);

@@ -1,5 +1,4 @@
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 
@@ -14,10 +13,7 @@ TEST_CASE(
     const Scene scene = small_scene(built_in.name, 48, 36, 1024);
     const RenderScene compiled = compile(scene);
     for (const Kernels& kernels : {available_kernels().back(), scalar_kernels()}) {
-      RenderOptions options;
-      options.isa = kernels.isa;
-      options.spp = kernels.lanes == 1 ? 64 : 1024;
-      const FilmTotals sum = totals(render(compiled, options).film);
+      const FilmTotals sum = totals(render(compiled, {.isa = kernels.isa, .spp = kernels.lanes == 1 ? 64 : 1024}).film);
       CAPTURE(built_in.name);
       CAPTURE(std::string(kernels.isa));
       CHECK(sum.rejected == 0);

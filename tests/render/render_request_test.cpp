@@ -1,6 +1,4 @@
-#include "core/compile/compile.h"
 #include "core/render/mailbox.h"
-#include "core/render/render.h"
 #include "core/render/sample_source.h"
 #include "tests/support/watched_renderer.h"
 
@@ -91,8 +89,7 @@ TEST_CASE("requests: the same one again gives no other frame") {
 
 TEST_CASE("requests: a film that is gone on from is not lost when another request follows before it was taken") {
   const Scene scene = small_scene("cornell-box", 40, 40, 6);
-  RenderOptions options;
-  options.spp = 4;
+  RenderOptions options{.spp = 4};
   RenderRequest request = request_for(scene);
   request.film = std::make_shared<Film>(render(compile(scene), options).film);
   WatchedRenderer renderer;

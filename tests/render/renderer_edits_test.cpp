@@ -1,5 +1,3 @@
-#include "core/render/renderer.h"
-
 #include "core/scene/scene.h"
 #include "tests/support/allocations.h"
 #include "tests/support/thorough.h"
@@ -63,8 +61,7 @@ TEST_CASE("edits: of 1000 cameras in the middle of passes nothing is left in the
 TEST_CASE("edits: a coarse first picture has samples of the final one, and what lies between them") {
   Scene scene = small_scene("showroom", 200, 150, 1);
   WatchedRenderer renderer(1);
-  const std::uint64_t edit = renderer.submit(scene);
-  renderer.wait_finished(edit);
+  renderer.wait_finished(renderer.submit(scene));
   const FramePointer first = renderer.frames().front(), last = renderer->latest();
   CHECK(first->step == 8);  // nothing is known about the machine's speed yet
   CHECK(first->spp == 0);

@@ -1,5 +1,4 @@
 #include "core/render/renderer.h"
-#include "tests/support/prepared.h"
 
 #include "tests/support/watched_renderer.h"
 
@@ -25,8 +24,7 @@ TEST_CASE("renderer: the last frame is the blocking render's picture, bit for bi
       Scene scene = scene_of(name);
       scene.render.spp = 9;
       WatchedRenderer renderer(2, kernels.isa);
-      const std::uint64_t edit = renderer.submit(scene);
-      const FramePointer last = renderer.wait_finished(edit);
+      const FramePointer last = renderer.wait_finished(renderer.submit(scene));
       CHECK(last->spp == 9);
       CHECK(last->isa == kernels.isa);
       CHECK(last->lanes == kernels.lanes);
@@ -143,16 +141,14 @@ TEST_CASE("renderer: single pixels, rows and columns") {
   for (const auto& [w, h] : {std::pair{1, 1}, {1, 40}, {40, 1}, {7, 9}}) {
     Scene scene = small_scene("showroom", w, h, 12);
     WatchedRenderer renderer;
-    const std::uint64_t edit = renderer.submit(scene);
-    CHECK(rgb_of(*renderer.wait_finished(edit)) == reference_picture(scene));
+    CHECK(rgb_of(*renderer.wait_finished(renderer.submit(scene))) == reference_picture(scene));
   }
 }
 
 TEST_CASE("renderer: frames tell of error, time and memory") {
   const Scene scene = scene_of("showroom");
   WatchedRenderer renderer;
-  const std::uint64_t edit = renderer.submit(scene);
-  renderer.wait_finished(edit);
+  renderer.wait_finished(renderer.submit(scene));
   std::uint64_t pass = 0;
   double seconds = 0, first = -1;
   for (const FramePointer& frame : renderer.frames()) {

@@ -1,6 +1,3 @@
-#include "core/render/renderer.h"
-#include "tests/support/prepared.h"
-
 #include "tests/support/watched_renderer.h"
 
 #include <doctest/doctest.h>
@@ -18,9 +15,7 @@ Scene wall_and_sphere() {
   Scene scene;
   scene.width = 90, scene.height = 60;
   scene.background = Vec3d{0.1, 0.2, 0.9};
-  scene.camera.look_from = {0, 0, 0};
-  scene.camera.look_at = {0, 0, -1};
-  scene.camera.vfov = 60;
+  scene.camera = {.look_from = {0, 0, 0}, .look_at = {0, 0, -1}, .vfov = 60};
   scene.render.spp = 8;
   scene.materials = {{"red", Vec3d{0.8, 0.1, 0.1}, Lambertian<>{}}, {"green", Vec3d{0.1, 0.7, 0.1}, Lambertian<>{}}};
   const Object ball{"ball", Solid3d{Sphere<>{{0, 0, 0}, 0.5, {}}, 1}, {}};
@@ -138,9 +133,7 @@ TEST_CASE("film: a copy of what was gathered, the same number of samples everywh
     const FilmTotals t = totals(film);
     CHECK(t.min_taken == t.max_taken);
     REQUIRE(t.min_taken > 0);
-    RenderOptions options;
-    options.spp = t.min_taken;
-    CHECK(film == render(compile(scene), options).film);
+    CHECK(film == render(compile(scene), {.spp = t.min_taken}).film);
     if (i == 3) watched.pause(true);
   }
 }

@@ -1,6 +1,5 @@
 #include "core/render/sample_source.h"
 
-#include "core/render/render.h"
 #include "tests/support/watched_renderer.h"
 
 #include <doctest/doctest.h>
@@ -137,7 +136,7 @@ TEST_CASE("sample source: shows what a long pass has so far, and gives it as a f
   scene.width = scene.height = 12;
   WatchedRenderer renderer(1);
   const std::uint64_t edit = show(renderer, scene, [&](double, double, std::uint64_t index) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(12));  // a pass takes 1.7 seconds
+    std::this_thread::sleep_for(std::chrono::milliseconds(index > 0 ? 12 : 3));  // the second pass takes 1.7 seconds
     return Vec3f{static_cast<float>(index), 0, 0};
   });
   const auto has_some = [&](const Frame& frame) { return frame.spp == 1 && frame.rgba[0] == 0.5f; };
@@ -174,7 +173,7 @@ TEST_CASE("sample source: one that becomes slow comes to its end, though no tile
   scene.width = scene.height = 12;
   WatchedRenderer renderer(1);
   const std::uint64_t edit = show(renderer, scene, [&](double, double, std::uint64_t index) {
-    if (index > 0) std::this_thread::sleep_for(std::chrono::milliseconds(8));  // one tile job of a second
+    if (index > 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));  // one tile job of 0.7 seconds
     return Vec3f{1, 1, 1};
   });
   CHECK(renderer.wait_finished(edit)->spp == 2);
@@ -208,8 +207,7 @@ TEST_CASE("sample source: is left after the present sample, and unfinished tiles
 
 TEST_CASE("sample source: bright and dark samples are kept, in a blocking render as well") {
   const Scene scene = empty_scene(16);
-  RenderOptions options;
-  options.spp = 16;
+  RenderOptions options{.spp = 16};
   options.samples = std::make_shared<const SampleSource>(SampleSource{[](double x, double, std::uint64_t) {
     return x < 1 ? Vec3f{1e10f, 1, 1e-9f} : Vec3f{-1, 0.1f, 0.25f};
   }});

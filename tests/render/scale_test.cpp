@@ -54,9 +54,7 @@ Difference difference(const Film& a, const Film& b) {
 Scene shelf() {
   Scene scene = white_room();
   scene.background = Gradient{{0.2, 0.2, 0.25}, {0.5, 0.6, 0.8}};
-  scene.camera.look_from = {0.5, 1.5, 5};
-  scene.camera.look_at = {0, 0.5, 0};
-  scene.camera.vfov = 40;
+  scene.camera = {.look_from = {0.5, 1.5, 5}, .look_at = {0, 0.5, 0}, .vfov = 40};
   scene.render.integrator = Integrator::mis;
   scene.render.sampler = SamplerKind::sobol;
   add(scene, Quad<>{{-4, 0, -4}, {8, 0, 0}, {0, 0, 8}}, lambertian(0.5));
@@ -135,8 +133,7 @@ TEST_CASE("scale: a scene more than a hundred thousand units away is the same pi
 TEST_CASE("scale: the same seen from inside glass and from inside fog") {
   for (const Vec3d eye : {Vec3d{0.0625, 0.5, 0.9375}, Vec3d{0.25, 0.75, 0.5}, Vec3d{0.5, 1.5, 1.5}}) {
     Scene scene = shelf();  // in the shell, in the hollow, in the media
-    scene.camera.look_from = eye;
-    scene.camera.look_at = eye + Vec3d{-0.5, -0.25, -1};
+    scene.camera = {.look_from = eye, .look_at = eye + Vec3d{-0.5, -0.25, -1}, .vfov = 40};
     const Film film = small_film(scene);
     CHECK(totals(film).rejected == 0);
     for (const int exponent : {-20, -13, 13, 20}) CHECK(small_film(scaled(scene, std::ldexp(1.0, exponent))) == film);

@@ -3,7 +3,6 @@
 #include "core/reuse/reuse_tile.h"
 #include "core/targets/scalar.h"
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 #include "tests/support/thorough.h"
 

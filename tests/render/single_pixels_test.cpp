@@ -1,9 +1,6 @@
 #include "core/render/single_pixels.h"
 
-#include "core/compile/compile.h"
-#include "core/render/render.h"
-#include "core/scene/load.h"
-#include "tests/support/prepared.h"
+#include "tests/support/pictures.h"
 
 #include <doctest/doctest.h>
 
@@ -15,37 +12,20 @@ namespace tyndall::test::single_pixels_test {
 
 namespace {
 
-Scene small(const char* name) {
-  Scene scene = load_scene(name).scene;
-  scene.width = 40, scene.height = 30;
-  scene.render.adaptive = false;
-  return scene;
+RenderScene small(const char* name, int width = 40, int height = 30) {
+  return compile(small_scene(name, width, height, 1));
 }
 
 Film film_of(const RenderScene& scene, Region region, std::uint32_t spp) {
-  RenderOptions options;
-  options.spp = spp;
-  options.region = region;
-  return render(scene, options).film;
+  return render(scene, {.region = region, .spp = spp}).film;
 }
-
-/// A scene, and what it takes to render it.
-struct Ready {
-  RenderScene scene;
-  SceneViewOf view{scene};
-  Kernels kernels = *choose_kernels("");
-  ThreadPool thread_pool;
-  RenderEngine engine{thread_pool, kernels, view.view()};
-
-  Ready(const Scene& from, int threads) : scene(compile(from)), thread_pool(threads) {}
-};
 
 }  // namespace
 
 TEST_CASE("levels: those of the film, within their errors, from other samples") {
   for (const char* name : {"cornell-box", "showroom"}) {  // the first one shares second vertices
     CAPTURE(name);
-    Ready ready(small(name), 2);
+    const Ready ready(small(name));
     const Region region{7, 5, 31, 22};
     const Film film = film_of(ready.scene, region, PixelLevels::samples);
     const std::vector<std::size_t> pixels{0, 100, 207, film.pixels.size() - 1};
@@ -64,8 +44,7 @@ TEST_CASE("levels: those of the film, within their errors, from other samples") 
 }
 
 TEST_CASE("levels: the same bits for any number of threads, any order of questions and any region") {
-  const Scene scene = small("showroom");
-  Ready one(scene, 1), three(scene, 3);
+  const Ready one(small("showroom"), 1), three(small("showroom"), 3);
   const Film whole = film_of(one.scene, {0, 0, 40, 30}, 2), part = film_of(one.scene, {8, 4, 24, 20}, 2);
   PixelLevels first, second, third;
   const auto at_once = first.of({whole.index(9, 9), whole.index(20, 15)}, whole, one.engine, false);
@@ -80,7 +59,7 @@ TEST_CASE("levels: the same bits for any number of threads, any order of questio
 }
 
 TEST_CASE("levels: none when it is given up, and they are found when asked again") {
-  Ready ready(small("cornell-box"), 2);
+  const Ready ready(small("cornell-box"));
   const Film film = film_of(ready.scene, {0, 0, 40, 30}, 2);
   PixelLevels levels;
   CHECK(levels.of({5, 6}, film, ready.engine, true).empty());
@@ -90,9 +69,7 @@ TEST_CASE("levels: none when it is given up, and they are found when asked again
 }
 
 TEST_CASE("levels: those of pixels with subpixel lights are known, where these pixels are few") {
-  Scene scene = small("stress-bulb");
-  scene.width = 111, scene.height = 83;
-  Ready ready(scene, 2);
+  const Ready ready(small("stress-bulb", 111, 83));
   const Film film = film_of(ready.scene, {0, 0, 111, 83}, 4), part = film_of(ready.scene, {53, 30, 90, 60}, 4);
   const std::vector<std::size_t> pixels = pixels_with_subpixel_lights(ready.view.view(), film);
   REQUIRE(pixels.size() > 4);
@@ -113,9 +90,7 @@ TEST_CASE("levels: those of pixels with subpixel lights are known, where these p
 
 TEST_CASE("levels: the error of a picture with a light that is smaller than a pixel") {
   // Single samples meet the light by chance: from the film alone it looks like a rare path.
-  Scene scene = small("stress-light-and-fuzz");
-  scene.width = 111, scene.height = 83;
-  const RenderScene compiled = compile(scene);
+  const RenderScene compiled = small("stress-light-and-fuzz", 111, 83);
   const Film film = film_of(compiled, {0, 0, 111, 83}, 4);
   const Kernels kernels = *choose_kernels("");
   const double alone = estimated_relative_error(film), known = estimate_error(compiled, kernels, film).relative_error;

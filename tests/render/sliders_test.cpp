@@ -1,5 +1,4 @@
 #include "core/scene/check.h"
-#include "tests/support/mixed_scene.h"
 #include "tests/support/probe.h"
 #include "tests/support/skies.h"
 #include "tests/support/thorough.h"
@@ -23,39 +22,25 @@ std::vector<double> values_of(const Slider& slider, Engine& engine) {
   return parts;
 }
 
+/// What sets a field to each of those values; of a vector, one axis at a time.
 template <class T>
-struct Setter {
-  static std::vector<std::function<void(T&)>> all(const Slider&, Engine&) { return {}; }
-};
-template <>
-struct Setter<double> {
-  static std::vector<std::function<void(double&)>> all(const Slider& slider, Engine& engine) {
-    std::vector<std::function<void(double&)>> list;
+std::vector<std::function<void(T&)>> setters(const Slider& slider, Engine& engine) {
+  std::vector<std::function<void(T&)>> list;
+  if constexpr (std::is_same_v<T, double>) {
     for (const double v : values_of(slider, engine)) list.push_back([v](double& value) { value = v; });
-    return list;
-  }
-};
-template <>
-struct Setter<Vec3d> {
-  static std::vector<std::function<void(Vec3d&)>> all(const Slider& slider, Engine& engine) {
-    std::vector<std::function<void(Vec3d&)>> list;
+  } else if constexpr (std::is_same_v<T, Vec3d>) {
     for (double Vec3d::*axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z})
       for (const double v : values_of(slider, engine)) list.push_back([=](Vec3d& value) { value.*axis = v; });
-    return list;
-  }
-};
-template <class T>
-struct Setter<std::optional<T>> {
-  static std::vector<std::function<void(std::optional<T>&)>> all(const Slider& slider, Engine& engine) {
-    std::vector<std::function<void(std::optional<T>&)>> list{[](std::optional<T>& value) { value.reset(); }};
-    for (const auto& set : Setter<T>::all(slider, engine))
-      list.push_back([set](std::optional<T>& value) {
-        if (!value) value = T{};
+  } else if constexpr (requires(T value) { value.reset(); }) {
+    list.push_back([](T& value) { value.reset(); });
+    for (const auto& set : setters<typename T::value_type>(slider, engine))
+      list.push_back([set](T& value) {
+        if (!value) value.emplace();
         set(*value);
       });
-    return list;
   }
-};
+  return list;
+}
 
 /// Calls `use` with copies of `owner`, in each of which one slider stands elsewhere.
 template <class Owner, class Use>
@@ -65,7 +50,7 @@ void drag_each(const Owner& owner, const Use& use) {
     using Value = std::decay_t<decltype(owner.*field.value)>;
     // Places have no slider: they are dragged as far as the stage reaches.
     const Slider reach = has_slider(field.slider) ? field.slider : Slider{-10, 10};
-    for (const auto& set : Setter<Value>::all(reach, engine)) {
+    for (const auto& set : setters<Value>(reach, engine)) {
       Owner changed = owner;
       set(changed.*field.value);
       CAPTURE(field.name);
@@ -80,9 +65,7 @@ Scene stage() {
   Scene scene = white_room();
   scene.width = 24, scene.height = 18;
   scene.background = Gradient{{0.1, 0.1, 0.1}, {0.3, 0.4, 0.6}};
-  scene.camera.look_from = {0, 2, 7};
-  scene.camera.look_at = {0, 0.5, 0};
-  scene.camera.vfov = 40;
+  scene.camera = {.look_from = {0, 2, 7}, .look_at = {0, 0.5, 0}, .vfov = 40};
   scene.render.integrator = Integrator::mis;
   scene.render.sampler = SamplerKind::sobol;
   scene.render.max_depth = 1000000;

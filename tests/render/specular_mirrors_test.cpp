@@ -1,6 +1,4 @@
-#include "core/scene/load.h"
 #include "tests/support/lit_floor.h"
-#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 
@@ -14,7 +12,7 @@ namespace {
 const Vec3d hanging{1.5, 3, -2};
 const Quad<> wall{{-6, 0, -4}, {12, 0, 0}, {0, 8, 0}};
 
-void check_floor(const std::string& name, Vec3d point, auto change, double less_noise) {
+void check_floor(const std::string& name, Vec3d point, double less_noise, auto change) {
   Scene scene = lit_floor(0.3, hanging, 20);
   change(scene);
   REQUIRE(compile(scene).specular.mirrors.size() > 0);
@@ -39,65 +37,41 @@ TEST_CASE("specular paths: the image of a light in a flat mirror") {
 }
 
 TEST_CASE("specular paths: what BSDF sampling finds, with less noise: off quads and boxes of metal, from both sides") {
-  check_floor(
-      "parallelogram", {0.5, 0, 1},
-      [](Scene& s) {
-        add(s, Quad<>{{-6, 0, -4}, {12, 0, 0}, {4, 8, 0}}, metal(0.9, 0));
-      },
-      0.25);
-  check_floor(
-      "back of a quad", {0.5, 0, 1},
-      [](Scene& s) {
-        add(s, Quad<>{{-6, 0, -4}, {0, 8, 0}, {12, 0, 0}}, metal(0.9, 0));
-      },
-      0.25);
-  check_floor(
-      "turned block", {0.55, 0, -1.05},
-      [](Scene& s) {
-        add(s, Box<>{{-1, 0, -1}, {1, 3, 1}}, metal(0.9, 0), {RotateY{30}, Translate{{-1.5, 0, 0}}});
-      },
-      0.5);
-  check_floor(
-      "room of metal", {0.5, 0, 1},
-      [](Scene& s) {
-        s.render.max_depth = 200;
-        add(s, Box<>{{-5, -0.1, -4}, {5, 6, 7}}, metal(0.4, 0));
-      },
-      1);
+  check_floor("parallelogram", {0.5, 0, 1}, 0.25, [](Scene& s) {
+    add(s, Quad<>{{-6, 0, -4}, {12, 0, 0}, {4, 8, 0}}, metal(0.9, 0));
+  });
+  check_floor("back of a quad", {0.5, 0, 1}, 0.25, [](Scene& s) {
+    add(s, Quad<>{{-6, 0, -4}, {0, 8, 0}, {12, 0, 0}}, metal(0.9, 0));
+  });
+  check_floor("turned block", {0.55, 0, -1.05}, 0.5, [](Scene& s) {
+    add(s, Box<>{{-1, 0, -1}, {1, 3, 1}}, metal(0.9, 0), {RotateY{30}, Translate{{-1.5, 0, 0}}});
+  });
+  check_floor("room of metal", {0.5, 0, 1}, 1, [](Scene& s) {
+    s.render.max_depth = 200;
+    add(s, Box<>{{-5, -0.1, -4}, {5, 6, 7}}, metal(0.4, 0));
+  });
 }
 
 TEST_CASE("specular paths: what BSDF sampling finds off flat mirrors, with less noise: textures, all lights, media") {
-  check_floor(
-      "tiles", {0.5, 0, 1},
-      [](Scene& s) {
-        s.textures.push_back({"tiles", Checker<>{0.7, {0.1, 0.5, 1}, {0.9, 0.7, 0.2}}});
-        add(s, wall, {"", TextureIndex{0}, Metal<>{0}});
-      },
-      0.25);
-  check_floor(
-      "three lamps and two mirrors", {0.5, 0, 1},
-      [](Scene& s) {
-        add(s, Sphere<>{{-1, 2, -2}, 0.2, Vec3d{0, 2.5, -2}}, lamp(20));
-        add(s, Quad<>{{0, 3.5, -1}, {0.4, 0, 0}, {0.1, 0.1, 0.4}}, lamp(20));
-        add(s, wall, metal(0.9, 0));
-        add(s, Quad<>{{4, 0, -4}, {0, 0, 6}, {1, 5, 0}}, metal(0.7, 0));
-        s.camera.shutter_open = 0, s.camera.shutter_close = 1;
-      },
-      0.5);
-  check_floor(
-      "beside a ball of glass", {0.5, 0, 1},
-      [](Scene& s) {
-        add(s, wall, metal(0.9, 0));
-        add(s, sphere({0.7, 1, 0}, 0.8), glass(1.5));
-      },
-      1);
-  check_floor(
-      "fog", {0.5, 0, 1},
-      [](Scene& s) {
-        add(s, wall, metal(0.9, 0));
-        add_medium(s, Box<>{{-3, 0, -5}, {3, 4, 3}}, {0.1, 0.4}, 0.9);
-      },
-      1);
+  check_floor("tiles", {0.5, 0, 1}, 0.25, [](Scene& s) {
+    s.textures.push_back({"tiles", Checker<>{0.7, {0.1, 0.5, 1}, {0.9, 0.7, 0.2}}});
+    add(s, wall, {"", TextureIndex{0}, Metal<>{0}});
+  });
+  check_floor("three lamps and two mirrors", {0.5, 0, 1}, 0.5, [](Scene& s) {
+    add(s, Sphere<>{{-1, 2, -2}, 0.2, Vec3d{0, 2.5, -2}}, lamp(20));
+    add(s, Quad<>{{0, 3.5, -1}, {0.4, 0, 0}, {0.1, 0.1, 0.4}}, lamp(20));
+    add(s, wall, metal(0.9, 0));
+    add(s, Quad<>{{4, 0, -4}, {0, 0, 6}, {1, 5, 0}}, metal(0.7, 0));
+    s.camera.shutter_open = 0, s.camera.shutter_close = 1;
+  });
+  check_floor("beside a ball of glass", {0.5, 0, 1}, 1, [](Scene& s) {
+    add(s, wall, metal(0.9, 0));
+    add(s, sphere({0.7, 1, 0}, 0.8), glass(1.5));
+  });
+  check_floor("fog", {0.5, 0, 1}, 1, [](Scene& s) {
+    add(s, wall, metal(0.9, 0));
+    add_medium(s, Box<>{{-3, 0, -5}, {3, 4, 3}}, {0.1, 0.4}, 0.9);
+  });
 }
 
 TEST_CASE("specular paths: in a white furnace flat mirrors are invisible") {
@@ -150,15 +124,7 @@ TEST_CASE("specular paths: flat mirrors that another surface covers, even in par
 }
 
 TEST_CASE("specular paths: no sample of a scene with flat mirrors is rejected, and tiles do not matter") {
-  const Scene scene = small_scene("stress-mirror-wall", 48, 36, 16);
-  const RenderScene compiled = compile(scene);
-  CHECK(compiled.specular.mirrors.size() > 0);
-  RenderOptions options;
-  options.spp = 16;
-  const Film film = render(compiled, options).film;
-  CHECK(totals(film).rejected == 0);
-  options.tile = 5, options.threads = 1;
-  CHECK(render(compiled, options).film == film);
+  CHECK(check_built_in("stress-mirror-wall").specular.mirrors.size() > 0);
 }
 
 }  // namespace tyndall::test::specular_mirrors_test

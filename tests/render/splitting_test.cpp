@@ -1,8 +1,6 @@
-#include "core/render/render.h"
 #include "core/targets/kernels.h"
 #include "tests/support/capture.h"
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>
@@ -13,10 +11,7 @@ namespace tyndall::test::splitting_test {
 namespace {
 
 RenderResult rendered(const Scene& scene, std::uint32_t spp, const std::string& isa = "") {
-  RenderOptions options;
-  options.isa = isa;
-  options.spp = spp;
-  return render(*prepare(scene), options);
+  return render(*prepare(scene), {.isa = isa, .spp = spp});
 }
 
 /// Sum over the pixels of the squared difference of their halves: how noisy a picture is.
@@ -105,9 +100,7 @@ TEST_CASE("splitting: also where second vertices are shared, by every kernel") {
   REQUIRE(columns.kernel == KernelSet::specular_paths_only);
   for (const Kernels& kernels : available_kernels()) {
     CAPTURE(kernels.isa);
-    RenderOptions options;
-    options.isa = kernels.isa;
-    options.spp = 4;
+    const RenderOptions options{.isa = kernels.isa, .spp = 4};
     columns.kernel = KernelSet::specular_paths_only;
     const RenderResult small = render(columns, options);
     columns.kernel = KernelSet::everything;

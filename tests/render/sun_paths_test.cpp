@@ -1,6 +1,5 @@
 #include "core/compile/sky.h"
 #include "core/compile/sun.h"
-#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 #include "tests/support/skies.h"
 #include "tests/support/thorough.h"
@@ -86,7 +85,7 @@ TEST_CASE("sun: its light through and off spheres is that which chance finds, wi
       scene.render.caustics = solved ? Caustics::chains : Caustics::scatter;
       found[solved ? 1 : 0] = radiance(scene, 4096);
     }
-    CHECK(std::abs(found[1].mean - found[0].mean) <= 4 * std::hypot(found[0].error, found[1].error));
+    check_agree(found[0], found[1]);
     CHECK(found[0].error < 0.1 * found[0].mean);
     CHECK(c.gain * found[1].error * found[1].error <= found[0].error * found[0].error);
   }

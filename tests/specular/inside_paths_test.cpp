@@ -1,4 +1,4 @@
-#include "core/specular/specular_path.h"
+#include "tests/support/specular_spheres.h"
 #include "tests/support/thorough.h"
 
 #include <doctest/doctest.h>
@@ -15,45 +15,6 @@
 namespace tyndall::test::inside_paths_test {
 
 namespace {
-
-template <class F>
-SpecularSphere<F> sphere_of(double index, double inner_radius) {
-  SpecularSphere<F> b{};
-  b.radius = F(1), b.index = F(index), b.inner_radius = F(inner_radius), b.inner_index = F(1);
-  b.mirror = false, b.hollow = inner_radius > 0, b.overlapped = false;
-  return b;
-}
-
-template <class F>
-SpecularDeflection<F> deflection_between(const SpecularSphere<F>& b, const EventSequence<F>& sequence, F near, F far,
-                                         EndSigns<F> sign) {
-  SpecularView view{};
-  view.shells = b.hollow;
-  return deflection_of(view, b, ends_of(b, near, far), sequence, sign);
-}
-
-/// The number of paths, found by counting how often the deflection passes `angle` or its negative, plus any number of
-/// revolutions.
-int roots_by_search(const Deflection<double>& deflection, double angle) {
-  const auto there = [&](double s) {
-    double sum = 0;
-    for (int i = 0; i < deflection.terms; ++i)
-      sum += deflection.times[i] * std::acos(std::min(1.0, deflection.maximum * (1 - s * s) * deflection.inverse[i]));
-    return sum;
-  };
-  constexpr int places = 5000;
-  const double first = static_cast<double>(min_parameter);
-  int count = 0;
-  for (const double sign : {1.0, -1.0}) {
-    double last = 0;
-    for (int i = 0; i <= places; ++i) {
-      const double whole = std::floor((there(first + (1 - first) * i / places) - sign * angle) / (2 * pi));
-      if (i > 0) count += static_cast<int>(std::abs(whole - last));
-      last = whole;
-    }
-  }
-  return count;
-}
 
 /// Events in order, from the near end: i or o, inner or outer sphere, and R or T, reflected or transmitted.
 struct Word {
@@ -145,7 +106,7 @@ TEST_CASE("specular paths with both ends inside: all are found, and traced as ra
         const SpecularDeflection<double> path = deflection_between(b, sequence, near, far, sign);
         REQUIRE(path.possible);
         const DeflectionRoots<double> roots = list_roots(path.deflection, angle, true);
-        differ += static_cast<int>(roots.count) != roots_by_search(path.deflection, angle);
+        differ += static_cast<int>(roots.count) != roots_by_search(path.deflection, angle, 1, 5000);
         for (int k = 0; k < static_cast<int>(roots.count); ++k, ++count) {
           const DeflectionRoot<double> root = take_root(path.deflection, roots, angle, static_cast<double>(k));
           const double sine = path.deflection.maximum * (1 - root.s * root.s) / ends.near_reach;

@@ -1,4 +1,3 @@
-#include "core/compile/compile.h"
 #include "core/targets/kernels.h"
 #include "tests/support/prepared.h"
 
@@ -16,9 +15,7 @@ namespace {
 double seen_through(const Kernels& kernels, Scene scene, Vec3d middle, double size) {
   scene.width = scene.height = 16;
   scene.background = Vec3d{1, 1, 1};
-  scene.camera.look_from = middle + Vec3d{0, 0, 10 * size};
-  scene.camera.look_at = middle;
-  scene.camera.vfov = 0.01;
+  scene.camera = {.look_from = middle + Vec3d{0, 0, 10 * size}, .look_at = middle, .vfov = 0.01};
   const RenderScene compiled = compile(scene);
   Film film = make_film(16, 16, {0, 0, 16, 16}, 0, compiled.film_quantum);
   const SceneViewOf view(compiled);

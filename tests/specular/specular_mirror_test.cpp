@@ -1,13 +1,12 @@
 #include "core/specular/specular_flat.h"
 
 #include "core/trace/scene_view.h"
-#include "tests/support/prepared.h"
+#include "tests/support/mixed_scene.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <random>
 
 /// Paths off flat mirrors: they obey the law of reflection, and fill the solid angle that neighbouring rays find.
 namespace tyndall::test::specular_mirror_test {
@@ -33,15 +32,6 @@ struct MirrorScene {
   Vec3d middle() const { return Vec3d{1, 2, -1} - compiled.origin; }
 };
 
-Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
-Vec3d to_double(Vec3f v) { return {v.x, v.y, v.z}; }
-
-Vec3d random_point(std::mt19937_64& engine, double size) {
-  std::uniform_real_distribution<double> u(-size, size);
-  const double x = u(engine), y = u(engine);
-  return {x, y, u(engine)};
-}
-
 }  // namespace
 
 TEST_CASE(
@@ -50,16 +40,16 @@ TEST_CASE(
   const SpecularView& specular = scene.view.view().specular;
   REQUIRE(specular.spheres == 1);
   REQUIRE(specular.first_mirror == 0);
-  const SpecularMirror<double> exact = load_mirror<double>(specular, 0);
-  const SpecularMirror<float> rounded = load_mirror<float>(specular, 0);
+  const SpecularMirror<double> m = load_mirror<double>(specular, 0);
+  const SpecularMirror<float> in_floats = load_mirror<float>(specular, 0);
   const Vec3d normal = normalize(cross(scene.u, scene.v)), edge = cross(scene.v, normal),
               other = cross(normal, scene.u);
-  std::mt19937_64 engine(3);
+  Engine engine(3);
   int found = 0, apart = 0;
   for (int i = 0; i < 4000; ++i) {
-    const Vec3d near = scene.middle() + random_point(engine, 4), far = scene.middle() + random_point(engine, 4);
+    const Vec3d near = scene.middle() + in_cube(engine, 4), far = scene.middle() + in_cube(engine, 4);
     const double below = dot(near - scene.middle(), normal), above = dot(far - scene.middle(), normal);
-    const MirrorPath<double> path = mirror_path(exact, near, far);
+    const MirrorPath<double> path = mirror_path(m, near, far);
     if (below * above <= 0) {
       CHECK_FALSE(path.found);
       ++apart;
@@ -74,8 +64,8 @@ TEST_CASE(
     const double b = std::abs(dot(from_middle, other) / dot(scene.v, other));
     if (std::abs(a - 1) > 1e-4 && std::abs(b - 1) > 1e-4) CHECK(path.found == (a < 1 && b < 1));
     found += path.found ? 1 : 0;
-    const MirrorPath<float> rough = mirror_path(rounded, to_float(near), to_float(far));
-    CHECK(length(to_double(rough.direction) - path.direction) < 1e-4);
+    const MirrorPath<float> rough = mirror_path(in_floats, rounded(near), rounded(far));
+    CHECK(length(exact(rough.direction) - path.direction) < 1e-4);
     CHECK(static_cast<double>(rough.spread) == doctest::Approx(path.spread).epsilon(1e-5).scale(0));
   }
   CHECK(found > 300);
@@ -108,13 +98,12 @@ TEST_CASE(
   const MirrorScene scene;
   const SpecularView& specular = scene.view.view().specular;
   const SpecularMirror<double> m = load_mirror<double>(specular, 0);
-  const Vec3d lamp =
-      to_double({specular.choice.center[0][0], specular.choice.center[1][0], specular.choice.center[2][0]});
+  const Vec3d lamp = exact({specular.choice.center[0][0], specular.choice.center[1][0], specular.choice.center[2][0]});
   const double power = static_cast<double>(specular.choice.power[0]);
-  std::mt19937_64 engine(7);
+  Engine engine(7);
   int seen = 0;
   for (int i = 0; i < 2000; ++i) {
-    const Vec3d point = scene.middle() + random_point(engine, 4), direction = mirrored(m, point) - lamp;
+    const Vec3d point = scene.middle() + in_cube(engine, 4), direction = mirrored(m, point) - lamp;
     const double worth = mirror_worth<double>(specular, 0, point), full = power / dot(direction, direction);
     if (mirror_path(m, point, lamp).found) {
       CHECK(worth == doctest::Approx(full));

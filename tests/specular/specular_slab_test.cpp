@@ -1,5 +1,5 @@
 #include "core/specular/specular_trail.h"
-#include "tests/support/prepared.h"
+#include "tests/support/mixed_scene.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>
@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <random>
 #include <tuple>
 
 /// Paths through panes: a ray that starts along one is refracted and reflected to its far end, and neighbouring rays
@@ -95,14 +94,8 @@ Vec3d in_world(const SlabScene& scene, const double (&edges)[3]) {
   return edges[0] * scene.slab.row[0] + edges[1] * scene.slab.row[1] + edges[2] * scene.slab.row[2];
 }
 
-Vec3d random_point(std::mt19937_64& engine, double size) {
-  std::uniform_real_distribution<double> u(-size, size);
-  const double x = u(engine), y = u(engine);
-  return {x, y, u(engine)};
-}
-
 /// An event sequence whose way may exist between two points outside of the slab.
-SlabSequence<double> random_sequence(std::mt19937_64& engine, int across, bool same) {
+SlabSequence<double> random_sequence(Engine& engine, int across, bool same) {
   std::uniform_int_distribution<int> image(-2, 2), revolutions(0, 1);
   SlabSequence<double> sequence{across, 2.0 * revolutions(engine) + (same ? 0 : 1), {0, 0}};
   if (sequence.crossings > 0) sequence.image[0] = image(engine), sequence.image[1] = image(engine);
@@ -112,13 +105,13 @@ SlabSequence<double> random_sequence(std::mt19937_64& engine, int across, bool s
 }  // namespace
 
 TEST_CASE("specular paths: a ray that starts along the one through a slab arrives at its far end") {
-  std::mt19937_64 engine(5);
+  Engine engine(5);
   int found = 0, reflected = 0;
   for (const Vec3d half : {Vec3d{2, 1.5, 0.1}, Vec3d{0.8, 0.8, 0.8}}) {
     const SlabScene scene(half);
     for (int i = 0; i < 60000; ++i) {
       const int across = i % 3;
-      const Vec3d near = scene.middle() + random_point(engine, 3.5), far = scene.middle() + random_point(engine, 3.5);
+      const Vec3d near = scene.middle() + in_cube(engine, 3.5), far = scene.middle() + in_cube(engine, 3.5);
       const SlabFrame<double> frame = slab_frame(scene.slab, near, far, across);
       if (frame.near_gap < 0.02 || frame.far_gap < 0.02) continue;
       const SlabSequence<double> sequence = random_sequence(engine, across, frame.same);
@@ -155,35 +148,31 @@ TEST_CASE("specular paths: a ray that starts along the one through a slab arrive
 
 TEST_CASE("specular paths: floats find the same ones through slabs as doubles, at grazing angles, too") {
   const SlabScene scene({2, 1.5, 0.1});
-  const SpecularSlab<float> rounded = load_slab<float>(scene.view.view().specular, 0);
-  std::mt19937_64 engine(6);
-  const auto to_floats = [](Vec3d v) {
-    return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-  };
+  const SpecularSlab<float> in_floats = load_slab<float>(scene.view.view().specular, 0);
+  Engine engine(6);
   int found = 0;
   for (int i = 0; i < 20000; ++i) {
-    const Vec3d near = scene.middle() + random_point(engine, 2.5), far = scene.middle() + random_point(engine, 2.5);
+    const Vec3d near = scene.middle() + in_cube(engine, 2.5), far = scene.middle() + in_cube(engine, 2.5);
     const SlabFrame<double> frame = slab_frame(scene.slab, near, far, 2);
     if (frame.near_gap < 0.002 || frame.far_gap < 0.002 || frame.same) continue;
-    const SlabPath<double> exact = slab_path(scene.slab, frame, {2, 3, {0, 0}});
+    const SlabPath<double> in_doubles = slab_path(scene.slab, frame, {2, 3, {0, 0}});
     const SlabPath<float> path =
-        slab_path(rounded, slab_frame(rounded, to_floats(near), to_floats(far), 2), {2, 3, {0, 0}});
-    if (!exact.found || !path.found) continue;
+        slab_path(in_floats, slab_frame(in_floats, rounded(near), rounded(far), 2), {2, 3, {0, 0}});
+    if (!in_doubles.found || !path.found) continue;
     ++found;
-    const Vec3d direction{path.direction.x, path.direction.y, path.direction.z};
-    CHECK(length(direction - exact.direction) < 2e-4);
-    CHECK(static_cast<double>(path.spread) == doctest::Approx(exact.spread).epsilon(2e-3).scale(0));
-    CHECK(static_cast<double>(path.throughput) == doctest::Approx(exact.throughput).epsilon(2e-3).scale(0));
+    CHECK(length(exact(path.direction) - in_doubles.direction) < 2e-4);
+    CHECK(static_cast<double>(path.spread) == doctest::Approx(in_doubles.spread).epsilon(2e-3).scale(0));
+    CHECK(static_cast<double>(path.throughput) == doctest::Approx(in_doubles.throughput).epsilon(2e-3).scale(0));
   }
   CHECK(found > 300);
 }
 
 TEST_CASE("specular paths: the area that a small solid angle fills through a slab") {
   const SlabScene scene({0.8, 0.8, 0.8});
-  std::mt19937_64 engine(7);
+  Engine engine(7);
   int found = 0;
   while (found < 200) {
-    const Vec3d near = scene.middle() + random_point(engine, 3), far = scene.middle() + random_point(engine, 3);
+    const Vec3d near = scene.middle() + in_cube(engine, 3), far = scene.middle() + in_cube(engine, 3);
     const SlabFrame<double> frame = slab_frame(scene.slab, near, far, 2);
     if (frame.near_gap < 0.02 || frame.far_gap < 0.02) continue;
     const SlabSequence<double> sequence = random_sequence(engine, 2, frame.same);
@@ -214,7 +203,7 @@ TEST_CASE(
   const Vec3d light_at{1, 2.5, 2};
   const SlabScene scene({0.8, 0.8, 0.8}, light_at, 0.1);
   const BoundingSphere<double> lamp{light_at - scene.compiled.origin, 0.1};
-  std::mt19937_64 engine(8);
+  Engine engine(8);
   std::uniform_real_distribution<double> u(0, 1);
   int sequences = 0;
   for (int place = 0; place < 60; ++place) {
@@ -246,11 +235,11 @@ TEST_CASE(
 
 TEST_CASE("specular paths: through a slab a light sees the shading point within the sphere of seen_by_slab()") {
   const SlabScene scene({1.2, 1, 0.3});
-  std::mt19937_64 engine(9);
+  Engine engine(9);
   int found = 0;
   for (int i = 0; i < 60000; ++i) {
     const int across = i % 3;
-    const Vec3d near = scene.middle() + random_point(engine, 3), far = scene.middle() + random_point(engine, 3);
+    const Vec3d near = scene.middle() + in_cube(engine, 3), far = scene.middle() + in_cube(engine, 3);
     const SlabFrame<double> frame = slab_frame(scene.slab, near, far, across);
     if (frame.near_gap < 0.01 || frame.far_gap < 0.01) continue;
     const SlabSequence<double> sequence = random_sequence(engine, across, frame.same);

@@ -1,10 +1,8 @@
 #include "core/trace/subpixel_lights.h"
 
-#include "core/render/prepare.h"
 #include "core/targets/replay.h"
 #include "core/trace/scene_view.h"
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>
@@ -41,9 +39,7 @@ Spread spread_of_seeds(Scene scene, std::uint32_t spp) {
   double means = 0, mean_squares = 0;
   for (int seed = 0; seed < seeds; ++seed) {
     scene.render.seed = static_cast<std::uint32_t>(seed + 1);
-    RenderOptions options;
-    options.spp = spp;
-    const Film film = render(*prepare(scene), options).film;
+    const Film film = render(*prepare(scene), {.spp = spp}).film;
     double whole = 0;
     for (std::size_t i = 0; i < pixels; ++i) {
       const auto value = static_cast<double>(mean(film, film.pixels[i]).x);

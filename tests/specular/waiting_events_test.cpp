@@ -1,8 +1,6 @@
 #include "tests/specular/waiting_events.h"
 
-#include "core/compile/compile.h"
 #include "tests/support/mixed_scene.h"
-#include "tests/support/prepared.h"
 #include "tests/support/random_glass.h"
 
 #include <doctest/doctest.h>

@@ -1,8 +1,6 @@
 #pragma once
 #include "core/compile/flatten.h"
-#include "core/targets/kernels.h"
 #include "tests/support/mixed_scene.h"
-#include "tests/support/prepared.h"
 
 #include <array>
 #include <cmath>

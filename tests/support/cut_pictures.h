@@ -1,7 +1,6 @@
 #pragma once
 #include "tests/support/merged.h"
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 #include "tests/support/random_glass.h"
 
 #include <doctest/doctest.h>
@@ -27,10 +26,7 @@ inline void compare_cuts(unsigned seed, const Kernels& kernels, CutPictures& fou
   if (engine() % 2) source.render.sampler = SamplerKind::random;
   const RenderScene scene = compile(source);
   found.chained += !scene.specular.sphere.empty() ? 1 : 0;
-  RenderOptions options;
-  options.threads = 1;
-  options.isa = kernels.isa;
-  options.spp = 8;
+  RenderOptions options{.threads = 1, .isa = kernels.isa, .spp = 8};
   const Film whole = render(scene, options).film;
   const auto count = [&](bool same) {
     ++found.pairs;

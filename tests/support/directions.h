@@ -37,8 +37,8 @@ class CapCells {
     const int sector = static_cast<int>((azimuth < 0 ? azimuth + 1 : azimuth) * sectors);
     ++counts_[cell(std::min(ring, rings - 1), std::min(sector, sectors - 1))];
   }
-  /// Chi-square of the counted directions among `drawn` against the shares, as a normal deviate (Wilson and
-  /// Hilferty's cube root). Cells that expect few are put together.
+  /// Chi-square of the counted directions among `drawn` against the shares, as a normal deviate. Cells that expect
+  /// few are put together.
   double deviate(const std::vector<double>& fraction, int drawn) const {
     double chi = 0, few_expected = 0, few_counted = 0;
     int freedom = -1;
@@ -55,8 +55,7 @@ class CapCells {
       }
     }
     if (few_expected > 5 || few_counted > 5) add(few_counted, std::max(few_expected, 1.0));
-    const double spread = 2.0 / (9 * freedom);
-    return (std::cbrt(chi / freedom) - (1 - spread)) / std::sqrt(spread);
+    return deviate_of(chi, freedom);
   }
   int outside() const { return outside_; }
 

@@ -1,6 +1,4 @@
 #pragma once
-#include "core/compile/compile.h"
-#include "core/render/render.h"
 #include "tests/support/light_tracer.h"
 #include "tests/support/prepared.h"
 #include "tests/support/statistics.h"
@@ -17,9 +15,7 @@ inline Pictures rendered(Scene scene, int spp, int seeds) {
   Pictures out;
   for (int seed = 1; seed <= seeds; ++seed) {
     scene.render.seed = static_cast<std::uint32_t>(seed);
-    RenderOptions options;
-    options.spp = static_cast<std::uint32_t>(spp);
-    const RenderResult result = render(compile(scene), options);
+    const RenderResult result = render(compile(scene), {.spp = static_cast<std::uint32_t>(spp)});
     CHECK(totals(result.film).rejected == 0);
     const std::vector<float> picture = resolve(result.film);
     out.emplace_back(picture.begin(), picture.end());

@@ -1,7 +1,6 @@
 #include "tests/support/light_room.h"
 
 #include "core/base/kinds.h"
-#include "core/base/math.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,6 +1,5 @@
 #pragma once
 #include "core/compile/flatten.h"
-#include "core/scene/scene.h"
 #include "tests/support/light_draws.h"
 
 #include <cmath>

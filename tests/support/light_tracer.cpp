@@ -1,7 +1,6 @@
 #include "tests/support/light_tracer.h"
 
 #include "core/base/kinds.h"
-#include "core/base/math.h"
 #include "core/system/processors.h"
 #include "tests/support/light_room.h"
 

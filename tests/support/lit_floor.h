@@ -28,11 +28,7 @@ inline void check_against_scattering(const std::string& name, Scene scene, doubl
   scene.render.caustics = Caustics::scatter;
   REQUIRE(compile(scene).specular.sphere.empty());
   const Estimate chance = radiance(scene, 1024);
-  CAPTURE(by_specular_paths.mean);
-  CAPTURE(by_specular_paths.error);
-  CAPTURE(chance.mean);
-  CAPTURE(chance.error);
-  CHECK(std::abs(by_specular_paths.mean - chance.mean) < 4 * std::hypot(by_specular_paths.error, chance.error));
+  check_agree(by_specular_paths, chance);
   CHECK(by_specular_paths.error < less_noise * chance.error * 4);  // sixteen times fewer samples
 }
 
@@ -48,9 +44,7 @@ inline void check_point_of_floor(const std::string& name, Scene scene, Vec3d poi
 inline Scene furnace_with_floor() {
   Scene scene = white_room();
   scene.render.integrator = Integrator::mis;
-  scene.camera.look_from = {0, 3, 7};
-  scene.camera.look_at = {0, 1, 0};
-  scene.camera.vfov = 40;
+  scene.camera = {.look_from = {0, 3, 7}, .look_at = {0, 1, 0}, .vfov = 40};
   add(scene, Quad<>{{-6, 0, -6}, {12, 0, 0}, {0, 0, 12}}, lambertian(1));
   add(scene, sphere({1.5, 4.5, 0.5}, 0.1), lamp(1));
   return scene;
@@ -61,6 +55,16 @@ inline void check_invisible(const Scene& furnace) {
   const Estimate all = radiance(furnace, 256);
   CHECK(std::abs(all.mean - 1) < 4 * all.error);
   CHECK(all.error < 0.002);
+}
+
+/// Checks that no sample of a built-in scene is rejected and that tiles do not matter; returns the compiled scene.
+inline RenderScene check_built_in(const char* name) {
+  CAPTURE(name);
+  const RenderScene scene = compile(small_scene(name, 48, 36, 16));
+  const Film film = render(scene, {.spp = 16}).film;
+  CHECK(totals(film).rejected == 0);
+  CHECK(render(scene, {.threads = 1, .spp = 16, .tile = 5}).film == film);
+  return scene;
 }
 
 }  // namespace tyndall::test

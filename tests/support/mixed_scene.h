@@ -1,5 +1,4 @@
 #pragma once
-#include "core/compile/compile.h"
 #include "core/targets/kernels.h"
 #include "tests/support/prepared.h"
 
@@ -46,9 +45,7 @@ struct Mixture {
 inline Scene mixed_scene(Engine& engine, const Mixture& mix = {}) {
   Scene scene;
   scene.materials = {{"white", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}};
-  scene.camera.look_from = mix.middle + Vec3d{0, 0, 3 * mix.half_width};
-  scene.camera.look_at = mix.middle;
-  scene.camera.shutter_close = 1;
+  scene.camera = {.look_from = mix.middle + Vec3d{0, 0, 3 * mix.half_width}, .look_at = mix.middle, .shutter_close = 1};
   for (int i = 0; i < mix.count; ++i) {
     const double size = mix.smallest * std::pow(mix.largest / mix.smallest, uniform(engine, 0, 1));
     const Vec3d at = mix.middle + in_cube(engine, mix.half_width);

@@ -1,8 +1,6 @@
 #pragma once
-#include "core/compile/compile.h"
 #include "core/files/film_files.h"
 #include "core/film/film.h"
-#include "core/render/render.h"
 #include "core/scene/load.h"
 #include "tests/support/prepared.h"
 
@@ -43,11 +41,9 @@ inline bool same_samples(const Scene& a, const Scene& b) { return !differing_sam
 
 /// The picture that every other way of rendering must reproduce: one thread, one go.
 inline std::vector<float> reference_picture(const Scene& scene, const std::string& isa = "") {
-  RenderOptions options;
-  options.threads = 1;
-  options.isa = isa;
-  options.spp = static_cast<std::uint32_t>(scene.render.spp.value());
-  return resolve(render(compile(scene), options).film);
+  return resolve(
+      render(compile(scene), {.threads = 1, .isa = isa, .spp = static_cast<std::uint32_t>(scene.render.spp.value())})
+          .film);
 }
 
 inline std::uint64_t hash_of(const Film& film) {

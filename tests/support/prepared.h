@@ -21,9 +21,29 @@ class SceneViewOf {
   PreparedScene prepared_;
 };
 
+/// A compiled scene, and what passes of it take.
+struct Ready {
+  RenderScene scene;
+  SceneViewOf view{scene};
+  Kernels kernels = *choose_kernels("");
+  ThreadPool thread_pool;
+  RenderEngine engine{thread_pool, kernels, view.view()};
+
+  explicit Ready(RenderScene columns, int threads = 2) : scene(std::move(columns)), thread_pool(threads) {}
+};
+
 inline RenderResult render(const RenderScene& columns, const RenderOptions& options,
                            const ProgressCallback& progress = {}, Film film = {}) {
   return tyndall::render(SceneViewOf(columns).prepared(), options, progress, std::move(film));
+}
+
+/// What a kernel makes of samples first … last - 1 of a scene's whole picture.
+inline Film drawn_by(const Kernels& kernels, const RenderScene& scene, const SceneView& view, std::uint32_t first,
+                     std::uint32_t last) {
+  Film film = make_film(scene.width, scene.height, {0, 0, scene.width, scene.height}, first, scene.film_quantum);
+  TileCounts counts;
+  kernels.render_tile(view, {film.region, 1, 0, first, last}, film.quantum, film.pixels.data(), counts);
+  return film;
 }
 
 inline ErrorEstimate estimate_error(const RenderScene& columns, const Kernels& kernels, const Film& film,

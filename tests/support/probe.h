@@ -1,7 +1,6 @@
 #pragma once
-#include "core/compile/compile.h"
+#include "core/accuracy/error.h"
 #include "core/film/groups.h"
-#include "core/render/render.h"
 #include "tests/support/prepared.h"
 #include "tests/support/statistics.h"
 
@@ -60,19 +59,19 @@ inline Object light_object(auto shape, Transform transform = {}) {
 
 /// Turns the camera into a probe: all its rays run from `from` towards `to`, within a hundred-thousandth of a degree.
 inline void aim(Scene& scene, Vec3d from, Vec3d to) {
-  scene.camera = {};
-  scene.camera.look_from = from;
-  scene.camera.look_at = to;
-  const Vec3d direction = normalize(to - from);
-  scene.camera.vup = std::abs(direction.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
-  scene.camera.vfov = 1e-5;
+  const Vec3d up = std::abs(normalize(to - from).y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
+  scene.camera = {.look_from = from, .look_at = to, .vup = up, .vfov = 1e-5};
+}
+
+/// A white room with a ray of impact parameter `impact` on a sphere of radius `scale` around the origin.
+inline Scene sphere_seen_at(double impact, double scale) {
+  Scene scene = white_room();
+  aim(scene, {impact * scale, 0, 5 * scale}, {impact * scale, 0, 0});
+  return scene;
 }
 
 inline Film film_of(const Scene& scene, int spp, const std::string& isa = "") {
-  RenderOptions options;
-  options.isa = isa;
-  options.spp = static_cast<std::uint32_t>(spp);
-  return render(compile(scene), options).film;
+  return render(compile(scene), {.isa = isa, .spp = static_cast<std::uint32_t>(spp)}).film;
 }
 
 /// Mean red radiance over the picture; every group of pixels is a batch, as their samples may be computed together. No
@@ -85,7 +84,30 @@ inline Estimate radiance_of(const Film& film) {
   return estimate(group_sums(film, film.region, red));
 }
 
-/// The same of a scene in which no path may be cut.
+/// Mean over a picture whose pixels show different things. No sample may be rejected.
+inline Estimate picture_mean(const Film& film) {
+  CHECK(totals(film).rejected == 0);
+  const FilmMean found = film_mean(film);
+  return {found.mean, found.error};
+}
+
+/// The same from 16 seeds, by one integrator.
+inline Estimate over_seeds(Scene scene, Integrator integrator, int spp) {
+  scene.render.integrator = integrator;
+  std::vector<double> means;
+  for (scene.render.seed = 0; scene.render.seed < 16; ++scene.render.seed)
+    means.push_back(picture_mean(film_of(scene, spp)).mean);
+  return estimate(means);
+}
+
+/// Each pixel's mean in one channel.
+inline std::vector<double> channel_of(const Film& film, float Vec3f::*channel = &Vec3f::x) {
+  std::vector<double> values;
+  for (const FilmPixel& pixel : film.pixels) values.push_back(static_cast<double>(mean(film, pixel).*channel));
+  return values;
+}
+
+/// radiance_of() a scene in which no path may be cut.
 inline Estimate radiance(const Scene& scene, int spp, const std::string& isa = "") {
   const Film film = film_of(scene, spp, isa);
   CHECK(totals(film).truncated == 0);
@@ -106,9 +128,7 @@ inline double common_value(const Scene& scene, const std::string& isa = "") {
 inline Scene medium_sphere() {
   Scene scene = white_room();
   scene.width = scene.height = 16;
-  scene.camera.look_from = {0, 0, 5};
-  scene.camera.look_at = {0, 0, 0};
-  scene.camera.vfov = 30;
+  scene.camera = {.look_from = {0, 0, 5}, .look_at = {0, 0, 0}, .vfov = 30};
   add_medium(scene, sphere({0, 0, 0}, 1), {2, 0.3}, 0.7);
   return scene;
 }

@@ -1,8 +1,6 @@
 #include "tests/support/references.h"
 
-#include "core/compile/compile.h"
 #include "core/image/image_io.h"
-#include "core/render/render.h"
 #include "core/scene/json.h"
 #include "tests/support/fingerprint.h"
 #include "tests/support/paths.h"
@@ -28,9 +26,7 @@ Reference reference_of(Scene scene, std::uint32_t spp) {
     for (int half = 0; half < 2; ++half) reference.half[half] = read_image(files[half]).rgb;
     return reference;
   }
-  RenderOptions options;
-  options.spp = spp;
-  const Film film = render(compile(scene), options).film;
+  const Film film = render(compile(scene), {.spp = spp}).film;
   for (int half = 0; half < 2; ++half) {
     for (const FilmPixel& pixel : film.pixels) {
       const Vec3f value = half_mean(film, pixel, half);

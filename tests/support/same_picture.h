@@ -1,6 +1,5 @@
 #pragma once
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 
@@ -31,11 +30,7 @@ inline const std::vector<RenderScene>& scenes() {
 }
 
 inline RenderOptions options_of(const Kernels& kernels, std::uint32_t spp) {
-  RenderOptions options;
-  options.threads = 2;
-  options.isa = kernels.isa;
-  options.spp = spp;
-  return options;
+  return {.threads = 2, .isa = kernels.isa, .spp = spp};
 }
 
 /// Renders the scene on one thread, then with each of these numbers of threads and edges of tiles.

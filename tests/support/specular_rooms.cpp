@@ -14,9 +14,7 @@ Scene dim_room() {
   scene.width = 48, scene.height = 36;
   scene.render.integrator = Integrator::mis;
   scene.render.sampler = SamplerKind::sobol;
-  scene.camera.look_from = {2.8, 2.6, 2.7};
-  scene.camera.look_at = {-0.6, 1, -0.6};
-  scene.camera.vfov = 75;
+  scene.camera = {.look_from = {2.8, 2.6, 2.7}, .look_at = {-0.6, 1, -0.6}, .vfov = 75};
   add(scene, Box<>{{-3, 0, -3}, {3, 5, 3}}, lambertian(0.2));
   return scene;
 }

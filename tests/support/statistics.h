@@ -26,6 +26,15 @@ inline Estimate estimate(const std::vector<double>& values) {
   return {mean, std::sqrt(squares / (n * (n - 1)))};
 }
 
+/// Checks that two independent measurements of one thing agree.
+inline void check_agree(const Estimate& a, const Estimate& b) {
+  CAPTURE(a.mean);
+  CAPTURE(a.error);
+  CAPTURE(b.mean);
+  CAPTURE(b.error);
+  CHECK(std::abs(a.mean - b.mean) <= 4 * std::hypot(a.error, b.error));
+}
+
 /// Running sums for means of very many values.
 struct Moments {
   double count = 0, sum = 0, squares = 0;
@@ -73,6 +82,21 @@ class ZScores {
   double squares_ = 0;
   int count_ = 0;
 };
+
+/// A chi-square as a normal deviate (Wilson and Hilferty's cube root).
+inline double deviate_of(double chi_square, double freedom) {
+  const double spread = 2 / (9 * freedom);
+  return (std::cbrt(chi_square / freedom) - (1 - spread)) / std::sqrt(spread);
+}
+
+/// The same for counts against equal shares.
+inline double chi_square_deviate(const std::vector<int>& counts) {
+  double total = 0, chi = 0;
+  for (const int n : counts) total += n;
+  const double expected = total / static_cast<double>(counts.size());
+  for (const int n : counts) chi += (n - expected) * (n - expected) / expected;
+  return deviate_of(chi, static_cast<double>(counts.size()) - 1);
+}
 
 /// Distance of the drawn values' distribution from `cumulative`, times sqrt(n). Above 2.23 with probability 1e-4
 /// (Kolmogorov's limit 2 exp(-2 x^2)).

@@ -1,6 +1,5 @@
-#include "core/compile/compile.h"
-#include "core/scene/load.h"
 #include "tests/support/double_kernels.h"
+#include "tests/support/pictures.h"
 #include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
@@ -12,20 +11,14 @@ namespace tyndall::test::double_test {
 namespace {
 
 std::vector<float> picture(const Kernels& kernels, const RenderScene& scene) {
-  const SceneViewOf view(scene);
-  Film film = make_film(scene.width, scene.height, {0, 0, scene.width, scene.height}, 0, scene.film_quantum);
-  TileCounts counts;
-  kernels.render_tile(view.view(), {film.region, 1, 0, 0, 4}, film.quantum, film.pixels.data(), counts);
-  return resolve(film);
+  return resolve(drawn_by(kernels, scene, SceneViewOf(scene).view(), 0, 4));
 }
 
 }  // namespace
 
 TEST_CASE("double: the kernel over double follows the same paths, except where rounding changes a decision") {
   for (const char* name : {"cornell-box", "showroom", "cornell-smoke"}) {
-    Scene loaded = load_scene(name).scene;
-    loaded.width = loaded.height = 48;
-    const RenderScene scene = compile(loaded);
+    const RenderScene scene = compile(small_scene(name, 48, 48, 4));
     const std::vector<float> a = picture(scalar_kernels(), scene), b = picture(double_kernels(), scene);
     int different = 0;
     for (std::size_t i = 0; i < a.size(); ++i) different += std::abs(a[i] - b[i]) > 1e-3f * (0.01f + b[i]) ? 1 : 0;

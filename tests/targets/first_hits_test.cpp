@@ -1,4 +1,3 @@
-#include "core/compile/compile.h"
 #include "core/targets/kernels.h"
 #include "tests/support/prepared.h"
 
@@ -26,9 +25,7 @@ std::vector<FirstHit> seen(const Kernels& kernels, const RenderScene& scene, Reg
 Scene sphere_before_wall(double radius) {
   Scene scene;
   scene.width = 90, scene.height = 60;
-  scene.camera.look_from = {0, 0, 4};
-  scene.camera.look_at = {0, 0, 0};
-  scene.camera.vfov = 90;
+  scene.camera = {.look_from = {0, 0, 4}, .look_at = {0, 0, 0}, .vfov = 90};
   scene.materials = {{"ball", Vec3d{0.1, 0.2, 0.3}, Lambertian<>{}}, {"wall", Vec3d{0.7, 0.8, 0.9}, Lambertian<>{}}};
   scene.objects = {{"", Solid3d{Sphere<>{{0, 0, 0}, radius, {}}, 0}, {}},
                    {"", Solid3d{Quad<>{{-5, -5, -2}, {10, 0, 0}, {0, 10, 0}}, 1}, {}}};

@@ -1,6 +1,5 @@
-#include "core/compile/compile.h"
-#include "core/scene/load.h"
 #include "core/targets/kernels.h"
+#include "tests/support/pictures.h"
 #include "tests/support/prepared.h"
 #include "tests/support/statistics.h"
 #include "tests/support/thorough.h"
@@ -18,18 +17,14 @@ namespace {
 constexpr int edge = 48;
 
 RenderScene small(const std::string& name, std::uint32_t seed) {
-  Scene scene = load_scene(name).scene;
-  scene.width = scene.height = edge;
+  Scene scene = small_scene(name, edge, edge, 4);
   scene.render.seed = seed;
   return compile(scene);
 }
 
 /// Means of the picture from samples first … last - 1.
 std::vector<float> picture(const Kernels& kernels, const RenderScene& scene, std::uint32_t first, std::uint32_t last) {
-  Film film = make_film(edge, edge, {0, 0, edge, edge}, first, scene.film_quantum);
-  const SceneViewOf view(scene);
-  TileCounts counts;
-  kernels.render_tile(view.view(), {film.region, 1, 0, first, last}, film.quantum, film.pixels.data(), counts);
+  const Film film = drawn_by(kernels, scene, SceneViewOf(scene).view(), first, last);
   CHECK(totals(film).rejected == 0);
   return resolve(film);
 }

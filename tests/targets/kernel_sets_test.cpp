@@ -1,7 +1,5 @@
-#include "core/compile/compile.h"
-#include "core/render/prepare.h"
-#include "core/scene/load.h"
 #include "core/targets/kernels.h"
+#include "tests/support/pictures.h"
 #include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
@@ -15,14 +13,10 @@ namespace tyndall::test::kernel_sets_test {
 namespace {
 
 std::vector<float> picture(const Kernels& kernels, const RenderScene& scene, const SceneView& view) {
-  Film film = make_film(scene.width, scene.height, {0, 0, scene.width, scene.height}, 0, scene.film_quantum);
-  TileCounts counts;
-  kernels.render_tile(view, {film.region, 1, 0, 0, 4}, film.quantum, film.pixels.data(), counts);
-  return resolve(film);
+  return resolve(drawn_by(kernels, scene, view, 0, 4));
 }
 std::vector<float> picture(const Kernels& kernels, const RenderScene& scene) {
-  const SceneViewOf view(scene);
-  return picture(kernels, scene, view.view());
+  return picture(kernels, scene, SceneViewOf(scene).view());
 }
 
 }  // namespace
@@ -30,9 +24,7 @@ std::vector<float> picture(const Kernels& kernels, const RenderScene& scene) {
 TEST_CASE("kernel sets: each built-in scene's own gives bit for bit what the full one gives") {
   int scenes_of[kernel_sets] = {};
   for (const BuiltIn& scene : built_in_scenes()) {
-    Scene loaded = load_scene(scene.name).scene;
-    loaded.width = loaded.height = 32;
-    const RenderScene own = compile(loaded);
+    const RenderScene own = compile(small_scene(scene.name, 32, 32, 4));
     ++scenes_of[static_cast<int>(own.kernel)];
     RenderScene full = own;
     full.kernel = KernelSet::everything;
@@ -48,9 +40,7 @@ TEST_CASE("kernel sets: each built-in scene's own gives bit for bit what the ful
 
 TEST_CASE("kernel sets: the one with a guide gives bit for bit what the full one gives") {
   for (const char* name : {"stress-two-balls", "stress-small-fuzz"}) {
-    Scene scene = load_scene(name).scene;
-    scene.width = scene.height = 32;
-    const auto prepared = prepare(scene);
+    const auto prepared = prepare(small_scene(name, 32, 32, 4));
     CAPTURE(name);
     REQUIRE(prepared->view().kernel == KernelSet::guided_paths_only);
     for (const Kernels& kernels : available_kernels()) {

@@ -1,4 +1,3 @@
-#include "core/compile/compile.h"
 #include "core/targets/kernels.h"
 #include "tests/support/prepared.h"
 
@@ -20,8 +19,7 @@ constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 Scene wall_and_light() {
   Scene scene;
   scene.width = scene.height = 64;
-  scene.camera.look_from = {0, 0, 1000};
-  scene.camera.look_at = {0, 0, 0};
+  scene.camera = {.look_from = {0, 0, 1000}, .look_at = {0, 0, 0}};
   scene.camera.vfov = 2 * std::atan(1.0 / 1000) * 180 / 3.141592653589793;  // sees [-1, 1] squared at z = 0
   scene.materials = {{"wall", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}, {"lamp", Vec3d{3, 2, 1}, Light<>{}}};
   scene.objects = {{"", Solid3d{Quad<>{{-2, -2, 0}, {2, 0, 0}, {0, 4, 0}}, 0}, {}},
@@ -33,11 +31,7 @@ Scene wall_and_light() {
 Scene busy_scene() {
   Scene scene;
   scene.width = 61, scene.height = 47;  // not multiples of any tile or number of lanes
-  scene.camera.look_from = {0, 1, 6};
-  scene.camera.look_at = {0, 0.5, 0};
-  scene.camera.vfov = 50;
-  scene.camera.defocus_angle = 1;
-  scene.camera.shutter_close = 1;
+  scene.camera = {.look_from = {0, 1, 6}, .look_at = {0, 0.5, 0}, .vfov = 50, .defocus_angle = 1, .shutter_close = 1};
   scene.background = Gradient{};
   scene.materials = {{"floor", Vec3d{0.6, 0.5, 0.4}, Lambertian<>{}},
                      {"glass", Vec3d{1, 1, 1}, Dielectric<>{1.5}},

@@ -2,7 +2,6 @@
 
 #include "core/targets/kernels.h"
 #include "tests/support/pictures.h"
-#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,4 @@
-#include "core/compile/compile.h"
-#include "core/targets/kernels.h"
 #include "tests/support/mixed_scene.h"
-#include "tests/support/prepared.h"
 #include "tests/support/thorough.h"
 
 #include <doctest/doctest.h>

@@ -1,8 +1,6 @@
 #include "core/trace/camera.h"
 
-#include "core/compile/compile.h"
 #include "tests/support/mixed_scene.h"
-#include "tests/support/prepared.h"
 
 #include <doctest/doctest.h>
 
@@ -17,10 +15,7 @@ namespace {
 Scene slanted() {
   Scene scene;
   scene.width = 120, scene.height = 80;
-  scene.camera.look_from = {3, 2, 5};
-  scene.camera.look_at = {-1, 0.5, -2};
-  scene.camera.vup = {0.2, 1, 0};
-  scene.camera.vfov = 35;
+  scene.camera = {.look_from = {3, 2, 5}, .look_at = {-1, 0.5, -2}, .vup = {0.2, 1, 0}, .vfov = 35};
   return scene;
 }
 

@@ -1,7 +1,6 @@
 #include "core/trace/lights.h"
 #include "tests/support/directions.h"
 #include "tests/support/mixed_scene.h"
-#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 #include "tests/support/thorough.h"
 

@@ -4,7 +4,6 @@
 #include "core/shapes/outline.h"
 #include "core/trace/scene_view.h"
 #include "tests/support/mixed_scene.h"
-#include "tests/support/prepared.h"
 #include "tests/support/probe.h"
 
 #include <doctest/doctest.h>
@@ -41,6 +40,32 @@ Seen quadrature(const Quad<>& q, Vec3d point, std::optional<Outline> outline = {
   return seen;
 }
 
+/// Checks 20000 samples of a scene's only light, as seen from a point: their density is the one that is found for the
+/// direction by itself, and its inverse has the light's solid angle and mean direction. each: gets every sample.
+template <class Each>
+void check_samples(const RenderScene& scene, Vec3d from, const Seen& seen, double tolerance, const Each& each) {
+  const SceneViewOf view(scene);
+  const Vec3f point = rounded(from - scene.origin);
+  Moments inverse, x, y, z;
+  for (std::uint32_t i = 0; i < 20000; ++i) {
+    const LightSample<float> s = sample_light<float>(view.view(), 0, point, 0.0f, sampler_of(i).next_2d(2));
+    REQUIRE(s.pdf > 0);
+    const double weight = 1 / static_cast<double>(s.pdf);
+    inverse.add(weight);
+    x.add(weight * static_cast<double>(s.direction.x));
+    y.add(weight * static_cast<double>(s.direction.y));
+    z.add(weight * static_cast<double>(s.direction.z));
+    const float again = light_pdf<float>(view.view(), 0, point, 0.0f, s.direction, s.distance);
+    REQUIRE(again == doctest::Approx(s.pdf).epsilon(1e-3).scale(0));
+    each(s);
+  }
+  const std::pair<const Moments*, double> sums[] = {
+      {&inverse, 1}, {&x, seen.mean.x}, {&y, seen.mean.y}, {&z, seen.mean.z}};
+  for (const auto& [sum, expected] : sums)
+    CHECK(std::abs(sum->estimate().mean - expected * seen.solid_angle) <
+          4 * sum->estimate().error + tolerance * seen.solid_angle);
+}
+
 }  // namespace
 
 TEST_CASE("lights: a rectangle is sampled uniformly in its solid angle, a far or slanting one by area") {
@@ -50,33 +75,10 @@ TEST_CASE("lights: a rectangle is sampled uniformly in its solid angle, a far or
     const Vec3d u = size * direction(engine), helper = direction(engine);
     const Vec3d v = (k % 4 == 3 ? 1.0 : uniform(engine, 0.2, 3)) * (k % 4 == 3 ? size * helper : cross(u, helper));
     const Quad<> quad{size * in_cube(engine, 2), u, v};
-    const RenderScene scene = lit({light_object(quad)});
-    const SceneViewOf view(scene);
     const Vec3d from = size * in_cube(engine, k % 2 ? 2 : 20);
     if (std::abs(dot(normalize(cross(u, v)), from - quad.corner)) < 0.2 * size) continue;
-    const Seen seen = quadrature(quad, from);
-    const Vec3f point = rounded(from - scene.origin);
-    Moments inverse, x, y, z;
-    for (std::uint32_t i = 0; i < 20000; ++i) {
-      const LightSample<float> s = sample_light<float>(view.view(), 0, point, 0.0f, sampler_of(i).next_2d(2));
-      REQUIRE(s.pdf > 0);
-      const double weight = 1 / static_cast<double>(s.pdf);
-      inverse.add(weight);
-      x.add(weight * static_cast<double>(s.direction.x));
-      y.add(weight * static_cast<double>(s.direction.y));
-      z.add(weight * static_cast<double>(s.direction.z));
-      // The same density is found for the direction by itself.
-      const float again = light_pdf<float>(view.view(), 0, point, 0.0f, s.direction, s.distance);
-      REQUIRE(again == doctest::Approx(s.pdf).epsilon(1e-3).scale(0));
-    }
     CAPTURE(k);
-    CHECK(std::abs(inverse.estimate().mean - seen.solid_angle) <
-          4 * inverse.estimate().error + 1e-3 * seen.solid_angle);
-    const Moments* sums[] = {&x, &y, &z};
-    const double expected[] = {seen.mean.x, seen.mean.y, seen.mean.z};
-    for (int c = 0; c < 3; ++c)
-      CHECK(std::abs(sums[c]->estimate().mean - expected[c] * seen.solid_angle) <
-            4 * sums[c]->estimate().error + 1e-3 * seen.solid_angle);
+    check_samples(lit({light_object(quad)}), from, quadrature(quad, from), 1e-3, [](const LightSample<float>&) {});
   }
 }
 
@@ -90,40 +92,22 @@ TEST_CASE("lights: triangles are sampled evenly in solid angle, rings and small 
     const Disk<> disk{at, u, v, k % 2 ? uniform(engine, 0.2, 0.9) : 0};
     const Vec3d from = in_cube(engine, k % 3 == 1 ? 1.5 : 5), normal = normalize(cross(u, v));
     if (std::abs(dot(normal, from - at)) < 0.2 || length(cross(u, v)) < 0.1) continue;
-    const RenderScene scene = lit({is_disk ? light_object(disk) : light_object(triangle)});
-    const SceneViewOf view(scene);
     const Seen seen = quadrature(is_disk ? frame_of(disk) : frame_of(triangle), from,
                                  is_disk ? outline_of(disk) : outline_of(triangle));
-    const Vec3f point = rounded(from - scene.origin);
-    Moments inverse, x, y, z;
     bool even = true;
-    for (std::uint32_t i = 0; i < 20000; ++i) {
-      const LightSample<float> s = sample_light<float>(view.view(), 0, point, 0.0f, sampler_of(i).next_2d(2));
-      REQUIRE(s.pdf > 0);
-      const double weight = 1 / static_cast<double>(s.pdf);
-      even = even && std::abs(weight - seen.solid_angle) < 5e-3 * seen.solid_angle;
-      inverse.add(weight);
-      x.add(weight * static_cast<double>(s.direction.x));
-      y.add(weight * static_cast<double>(s.direction.y));
-      z.add(weight * static_cast<double>(s.direction.z));
-      const float again = light_pdf<float>(view.view(), 0, point, 0.0f, s.direction, s.distance);
-      REQUIRE(again == doctest::Approx(s.pdf).epsilon(1e-3).scale(0));
-      const Vec3d hit = from + static_cast<double>(s.distance) * exact(s.direction) - at;
-      const Reciprocal r = reciprocal_edges(u, v);
-      const double a = dot(r.a, hit), b = dot(r.b, hit), slack = 1e-4;
-      if (!is_disk) REQUIRE(std::min({a, b, 1 - a - b}) > -slack);
-      if (is_disk) REQUIRE(std::hypot(a, b) < 1 + slack);
-      if (is_disk) REQUIRE(std::hypot(a, b) > disk.inner - slack);
-    }
-    if (even && !is_disk) ++by_solid_angle;
     CAPTURE(k);
-    CHECK(std::abs(inverse.estimate().mean - seen.solid_angle) <
-          4 * inverse.estimate().error + 5e-3 * seen.solid_angle);
-    const Moments* sums[] = {&x, &y, &z};
-    const double expected[] = {seen.mean.x, seen.mean.y, seen.mean.z};
-    for (int c = 0; c < 3; ++c)
-      CHECK(std::abs(sums[c]->estimate().mean - expected[c] * seen.solid_angle) <
-            4 * sums[c]->estimate().error + 5e-3 * seen.solid_angle);
+    check_samples(lit({is_disk ? light_object(disk) : light_object(triangle)}), from, seen, 5e-3,
+                  [&](const LightSample<float>& s) {
+                    even =
+                        even && std::abs(1 / static_cast<double>(s.pdf) - seen.solid_angle) < 5e-3 * seen.solid_angle;
+                    const Vec3d hit = from + static_cast<double>(s.distance) * exact(s.direction) - at;
+                    const Reciprocal r = reciprocal_edges(u, v);
+                    const double a = dot(r.a, hit), b = dot(r.b, hit), slack = 1e-4;
+                    if (!is_disk) REQUIRE(std::min({a, b, 1 - a - b}) > -slack);
+                    if (is_disk) REQUIRE(std::hypot(a, b) < 1 + slack);
+                    if (is_disk) REQUIRE(std::hypot(a, b) > disk.inner - slack);
+                  });
+    if (even && !is_disk) ++by_solid_angle;
   }
   CHECK(by_solid_angle > 15);
 }

@@ -16,11 +16,10 @@ int main(int argc, char** argv) try {
   for (int k = 7; k < argc; ++k) {
     LoadedScene loaded = load_scene(argv[k]);
     loaded.scene.width = std::atoi(argv[3]), loaded.scene.height = std::atoi(argv[4]);
-    RenderOptions options;
-    options.isa = argv[2], options.spp = static_cast<std::uint32_t>(std::atoi(argv[5]));
-    options.threads = std::atoi(argv[6]);
     const auto prepared = prepare(loaded.scene);
-    const RenderResult result = render(*prepared, options);
+    const RenderResult result =
+        render(*prepared,
+               {.threads = std::atoi(argv[6]), .isa = argv[2], .spp = static_cast<std::uint32_t>(std::atoi(argv[5]))});
     const FinishedPicture picture = finished_picture(*prepared, result);
     std::printf("%s %s %.3f\n", argv[k], hash_text(picture.hash).c_str(),
                 1e-6 * static_cast<double>(result.rays) / result.seconds);

@@ -131,16 +131,22 @@ open_window() {
   "$tyndall" view "$@" --ui-log "$scratch/log" 2>"$scratch/errors" &
   pid=$!
   trap 'kill $pid 2>/dev/null || true' EXIT
+  find_window
+}
+find_window() {
   wait_for '^frame 1 '
   window=$(xdotool search --sync --onlyvisible --name 'Tyndall$' | head -1)
 }
-
-# start ARGUMENTS: the same, and makes it so high that all of the column is on the screen.
-start() {
-  open_window "$@"
+enlarge() { # all of the column is on the screen
   sends 1 '^size 1280 2640$' xdotool windowsize "$window" 1280 2640
   move 5 5
   wait_for '^widget scenes.cover '
+}
+
+# start ARGUMENTS: opens it enlarged.
+start() {
+  open_window "$@"
+  enlarge
 }
 
 # at NAME ACROSS [DOWN]: window coordinates of a point of a control; ACROSS and DOWN in percent.
@@ -233,9 +239,19 @@ PY
 # compares A OPERATOR B: Python's comparison of two numbers.
 compares() { python3 -c "import sys; sys.exit(not ($*))"; }
 
+# ends_with STATUS TEXT...: the window ends with that status, and its last line has each text.
+ends_with() {
+  local status=0 text
+  wait "$pid" || status=$?
+  trap - EXIT
+  [ "$status" = "$1" ] || fail "exit code $status, expected $1"
+  shift
+  for text in "$@"; do tail -1 "$scratch/errors" | grep -qF -- "$text" || fail "the last line lacks '$text'"; done
+}
+
 # Closes with Ctrl+Q, without saving, and checks how it ended.
 finish() {
-  local lines status=0
+  local lines
   lines=$(here)
   xdotool key --delay 60 ctrl+q
   while kill -0 "$pid" 2>/dev/null; do
@@ -246,9 +262,7 @@ finish() {
     fi
     sleep 0.03
   done
-  wait "$pid" || status=$?
-  [ "$status" = 0 ] || fail "exit code $status"
+  ends_with 0
   [ -s "$scratch/errors" ] && fail "it complained"
   grep -q '^latency' "$scratch/log" || fail "no summary in the log"
-  trap - EXIT
 }

@@ -3,14 +3,6 @@
 # the reason, and its last line does not promise them; where they are kept beside the scene they come back from there.
 . "$(dirname "$0")/_lib.sh"
 
-ends_with() { # STATUS TEXT...: the window ends with that status, and its last line has each text
-  local status=0 text
-  wait "$pid" || status=$?
-  trap - EXIT
-  [ "$status" = "$1" ] || fail "exit code $status, expected $1"
-  shift
-  for text in "$@"; do tail -1 errors | grep -qF -- "$text" || fail "the last line lacks '$text'"; done
-}
 edit_and_end() { # TEXT...: an edit, then SIGTERM; see ends_with
   type_value gold.fuzz.value "$1"
   shift
@@ -67,11 +59,8 @@ piped_window() { # COMMAND...: a window over standard input, which the command s
   "$@" view - --ui-log "$scratch/log" <scenes/scene.json 2>"$scratch/errors" &
   pid=$!
   trap 'kill $pid 2>/dev/null || true' EXIT
-  wait_for '^frame 1 '
-  window=$(xdotool search --sync --onlyvisible --name 'Tyndall$' | head -1)
-  sends 1 '^size 1280 2640$' xdotool windowsize "$window" 1280 2640
-  move 5 5
-  wait_for '^widget scenes.cover '
+  find_window
+  enlarge
 }
 piped_window "$tyndall"
 settle

@@ -4,12 +4,6 @@
 . "$(dirname "$0")/_lib.sh"
 
 fuzz_is() { [ "$(value gold.fuzz)" = "$1" ] || fail "fuzz is $(value gold.fuzz), expected $1"; }
-ends_with() { # STATUS
-  local status=0
-  wait "$pid" || status=$?
-  trap - EXIT
-  [ "$status" = "$1" ] || fail "exit code $status, expected $1"
-}
 begin() { # ARGUMENTS: starts anew, with the log of before out of the way
   start "$@"
   settle
@@ -148,11 +142,9 @@ read -r number <&"${server[0]}"
 : >log
 DISPLAY=:$number "$tyndall" view scene.json --ui-log log 2>errors &
 pid=$!
-wait_for '^frame 1 '
 export DISPLAY=:$number
-window=$(xdotool search --sync --onlyvisible --name 'Tyndall$' | head -1)
-sends 1 '^size 1280 2640$' xdotool windowsize "$window" 1280 2640
-move 5 5
+find_window
+enlarge
 type_value gold.fuzz.value 0.55
 kill "$server_PID"
 ends_with 3

@@ -14,11 +14,8 @@ piped_window() {
   exec 3>pipe
 }
 await_window() {
-  wait_for '^frame 1 '
-  window=$(xdotool search --sync --onlyvisible --name 'Tyndall$' | head -1)
-  sends 1 '^size 1280 2640$' xdotool windowsize "$window" 1280 2640
-  move 5 5
-  wait_for '^widget scenes.cover '
+  find_window
+  enlarge
 }
 rows() { python3 -c "print(('$2 $2 $2 ' * 320 + '\n') * $1, end='')"; }
 is_bright() { compares "abs($(brightness picture) - $1) < 2"; }

@@ -15,21 +15,10 @@ probe_window() {
   trap 'kill $pid 2>/dev/null || true' EXIT
   find_window
 }
-find_window() {
-  wait_for '^frame 1 '
-  window=$(xdotool search --sync --onlyvisible --name 'Tyndall$' | head -1)
-}
-enlarge() {
-  sends 1 '^size 1280 2640$' xdotool windowsize "$window" 1280 2640
-  move 5 5
-  wait_for '^widget scenes.cover '
-}
 # ends CODE: the window is closed, and the program ends with that code.
 ends() {
-  local status=0
   python3 "$root/tests/window/_close.py" "$window"
-  wait "$pid" || status=$?
-  [ "$status" = "$1" ] || fail "exit code $status instead of $1"
+  ends_with "$1"
 }
 
 # As any picture: finished, read, compared with a reference of the same values, saved. A window remembers nothing.
