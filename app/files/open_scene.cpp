@@ -75,12 +75,12 @@ void apply_options(const SceneRequest& request, LoadedScene& loaded) {
 }  // namespace
 
 OwnSamples::OwnSamples() : held_(std::make_shared<Held>()) {
-  const auto remove = [held = held_](WatchedFunction* function) { delete function; };
+  const auto remove = [kept = held_](WatchedFunction* function) { delete function; };
   function_ = {new WatchedFunction(compute, held_.get()), remove};
 }
 
-void OwnSamples::compute(void* held, double x, double y, std::uint64_t, double rgb[3]) {
-  auto& its = *static_cast<Held*>(held);
+void OwnSamples::compute(void* data, double x, double y, std::uint64_t, double rgb[3]) {
+  auto& its = *static_cast<Held*>(data);
   std::unique_lock lock(its.mutex);
   const std::shared_ptr<OwnProgram> program = its.program;
   lock.unlock();

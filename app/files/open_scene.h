@@ -87,7 +87,7 @@ class OwnSamples {
     std::string reason;
     std::uint32_t taken = 0;
   };
-  static void compute(void* held, double x, double y, std::uint64_t sample, double rgb[3]);
+  static void compute(void* data, double x, double y, std::uint64_t sample, double rgb[3]);
 
   std::shared_ptr<Held> held_;
   std::shared_ptr<WatchedFunction> function_;  ///< keeps what is held

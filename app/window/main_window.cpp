@@ -15,12 +15,6 @@ namespace {
 /// Seconds for which the screen stays as it is, because the picture of the newest edit is about to come.
 constexpr double longest_await = 0.04;
 
-/// What opens the scene again, as the list of recent files has it.
-std::string what_of(const Origin& origin) {
-  std::error_code ignored;
-  return origin.file.empty() ? origin.what : std::filesystem::absolute(origin.file, ignored).string();
-}
-
 }  // namespace
 
 MainWindow::MainWindow(const WindowOptions& options, std::shared_ptr<const Reference> reference,
@@ -81,7 +75,10 @@ void MainWindow::draw(double now) {
   session_.wanted.shown_pixels = std::llround(image.width() * image.height() * context.dots * context.dots);
   session_.input_time = std::exchange(input_since_, 0);
   const std::uint64_t edit_before = paced_edit_;
-  follow_gesture(now);
+  const Mouse mouse = read_mouse();
+  const bool holds = mouse.any_down() || holds_fly_key(platform_->held()) || objects_.active();
+  const bool turns = pointer_.is_turning(mouse, context.layout, now);
+  session_.editor.gestures.update(holds ? Gesture::held : turns ? Gesture::wheel : Gesture::none);
   draw_interface();
   use_mouse_and_keys(now);
   apply_panels(now);
@@ -117,7 +114,9 @@ Context MainWindow::context(double now) {
   context.calm = !read_mouse().any_down() && !timeline_.plays();
   context.origin = editor.document().origin;
   if (context.origin->title != panels_.now.origin->title) forget_scene(panels_);
-  context.what = what_of(*context.origin);
+  std::error_code ignored;
+  context.what = context.origin->file.empty() ? context.origin->what
+                                              : std::filesystem::absolute(context.origin->file, ignored).string();
   context.changes = editor.changes();
   context.edited = editor.edited();
   context.has_scene = !session_.shows_picture();
@@ -192,14 +191,6 @@ void MainWindow::draw_strip(const Rect& rect) {
   if (strip_gesture_ == 0) strip_gesture_ = session_.editor.gestures.begin();
   session_.editor.edit(std::move(*taken), strip_gesture_);
   panels_.scene.show(session_.editor.shared());
-}
-
-/// All edits of this drawing belong to what is held or turned now.
-void MainWindow::follow_gesture(double now) {
-  const Mouse mouse = read_mouse();
-  const bool holds = mouse.any_down() || holds_fly_key(platform_->held()) || objects_.active();
-  const bool rotates = pointer_.is_turning(mouse, panels_.now.layout, now);
-  session_.editor.gestures.update(holds ? Gesture::held : rotates ? Gesture::wheel : Gesture::none);
 }
 
 void MainWindow::use_mouse_and_keys(double now) {

@@ -38,7 +38,6 @@ class MainWindow {
   void draw(double now);
   Context context(double now);
   void draw_interface();
-  void follow_gesture(double now);
   void use_mouse_and_keys(double now);
   void set_camera(const Camera& camera);
   void set_value(const std::string& pointer, const Value& value, bool scene_too);

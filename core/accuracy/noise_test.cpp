@@ -226,7 +226,7 @@ int outliers_at(const Energies& energies, int width, int height, int x, int y) {
 double count_outliers(const NoisyImage& a, const NoisyImage& b, const Region& region, NoiseScores& scores) {
   const Energies energies = energies_of(a, b, region);
   const int width = region.width(), height = region.height();
-  const auto columns = static_cast<std::size_t>(width / block_width + 2);
+  const auto columns = static_cast<std::size_t>(width / block_width) + 2;
   std::vector<std::array<int, 3>> blocks(columns * static_cast<std::size_t>(height / block_height + 2));
   const int first_column = region.x0 / block_width, first_row = region.y0 / block_height;
   for (int y = 0; y < height; ++y)
