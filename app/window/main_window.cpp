@@ -77,8 +77,8 @@ void MainWindow::draw(double now) {
   const std::uint64_t edit_before = paced_edit_;
   const Mouse mouse = read_mouse();
   const bool holds = mouse.any_down() || holds_fly_key(platform_->held()) || objects_.active();
-  const bool turns = pointer_.is_turning(mouse, context.layout, now);
-  session_.editor.gestures.update(holds ? Gesture::held : turns ? Gesture::wheel : Gesture::none);
+  const bool rotates = pointer_.is_turning(mouse, context.layout, now);
+  session_.editor.gestures.update(holds ? Gesture::held : rotates ? Gesture::wheel : Gesture::none);
   draw_interface();
   use_mouse_and_keys(now);
   apply_panels(now);
