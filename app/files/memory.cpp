@@ -20,7 +20,7 @@ std::uint64_t writing(const MemoryPlan& plan, const std::filesystem::path& file)
   return ending == ".png" ? 20 : 0;
 }
 
-constexpr std::uint64_t program = 11'000'000;
+constexpr std::uint64_t program_bytes = 11'000'000;
 
 std::uint64_t pixels(std::int64_t width, std::int64_t height) {
   return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
@@ -44,7 +44,7 @@ std::uint64_t memory_needed(const MemoryPlan& plan) {
   const std::uint64_t copy = plan.checkpoints ? film : 0, part = plan.parts ? film : 0;
   const std::uint64_t after = picture + std::max(estimate, (plan.clean ? shown : 0) + written);
   const std::uint64_t pixel = film + std::max({copy + estimate, part, copy + (plan.clean ? filter : 0), after});
-  return program + pixel * pixels(plan.width, plan.height);
+  return program_bytes + pixel * pixels(plan.width, plan.height);
 }
 
 /// The memory that a window takes that renders one picture, bytes. Measured with OpenGL in software.
@@ -54,7 +54,7 @@ std::uint64_t memory_needed(const WindowPlan& plan) {
   const std::uint64_t all = pixels(plan.width, plan.height);
   const std::uint64_t coarse = std::min<std::uint64_t>(all / 4, 256'000);  // pixels of the first clean view
   const std::uint64_t clean = plan.clean ? filter * all + (film + filter) * coarse : 0;
-  return program + libraries + (film + pictures) * all + clean;
+  return program_bytes + libraries + (film + pictures) * all + clean;
 }
 
 }  // namespace
