@@ -47,6 +47,7 @@ void fill(TextureColumns& out, const Image& image, Vec3d) {
   out.width = image.pixels->width;
   out.height = image.pixels->height;
   out.pixels = image.pixels;
+  out.texels = image.pixels->rgb.data();
 }
 
 void set_row(Affine& map, int i, Vec3d row, Vec3d zero_at) {
@@ -119,7 +120,7 @@ struct Appender {
 
 }  // namespace
 
-void push(std::vector<float> (&columns)[3], Vec3d v) {
+void push(Column<float> (&columns)[3], Vec3d v) {
   columns[0].push_back(static_cast<float>(v.x));
   columns[1].push_back(static_cast<float>(v.y));
   columns[2].push_back(static_cast<float>(v.z));
@@ -189,24 +190,24 @@ Materials material_columns(const std::vector<Material>& materials) {
   return out;
 }
 
-std::vector<TextureColumns> texture_columns(const std::vector<Texture>& textures, Vec3d origin) {
-  std::vector<TextureColumns> out;
+Column<TextureColumns> texture_columns(const std::vector<Texture>& textures, Vec3d origin) {
+  Column<TextureColumns> out;
   for (const Texture& texture : textures) {
     TextureColumns columns;
     columns.kind = static_cast<std::int32_t>(texture.kind.index());
     std::visit([&](const auto& t) { fill(columns, t, origin); }, texture.kind);
-    out.push_back(std::move(columns));
+    out.push_back(columns);
   }
   return out;
 }
 
-std::shared_ptr<const std::vector<float>> gradient_table() {
-  auto table = std::make_shared<std::vector<float>>();
+Column<float> gradient_table() {
+  Column<float> table;
   for (std::uint32_t i = 0; i < 256; ++i) {
     const double z = 1 - 2 * unit_interval<double>(hash(2 * i + 1)),
                  phi = 2 * pi * unit_interval<double>(hash(2 * i + 2));
     const double r = std::sqrt(1 - z * z);
-    for (const double c : {r * cosine(phi), r * sine(phi), z}) table->push_back(static_cast<float>(c));
+    for (const double c : {r * cosine(phi), r * sine(phi), z}) table.push_back(static_cast<float>(c));
   }
   return table;
 }

@@ -8,7 +8,7 @@ namespace tyndall {
 inline Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
 /// Appends a vector to its three columns.
-void push(std::vector<float> (&columns)[3], Vec3d v);
+void push(Column<float> (&columns)[3], Vec3d v);
 
 /// Of the whole lens, scene units; 0: a pinhole.
 double lens_radius(const Camera& camera);
@@ -16,9 +16,9 @@ double lens_radius(const Camera& camera);
 CameraColumns camera_columns(const Camera& camera, int width, int height, Vec3d origin);
 BackgroundColumns background_columns(const Background& background);
 Materials material_columns(const std::vector<Material>& materials);
-std::vector<TextureColumns> texture_columns(const std::vector<Texture>& textures, Vec3d origin);
+Column<TextureColumns> texture_columns(const std::vector<Texture>& textures, Vec3d origin);
 /// 256 unit vectors for gradient noise, 3 floats each: the project's fixed table.
-std::shared_ptr<const std::vector<float>> gradient_table();
+Column<float> gradient_table();
 
 /// For a point p = corner + a u + b v: a and b are the dot products of p - corner with the members a and b.
 struct Reciprocal {

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace tyndall {
@@ -86,7 +87,8 @@ struct SlotFiller {
     out.quads.element.push_back(element);
   }
   void operator()(const Box<>& b) const {
-    const Affine& map = out.boxes.map.emplace_back(box_map(b, placement, out.origin));
+    const Affine map = box_map(b, placement, out.origin);
+    out.boxes.map.push_back(map);
     for (std::size_t row = 0; row < 3; ++row) {
       const Vec3f r = map.row[row];
       out.boxes.column[3 * row].push_back(r.x), out.boxes.column[3 * row + 1].push_back(r.y);
@@ -108,23 +110,23 @@ struct SlotFiller {
 
 /// Builds the tree if there are enough primitives, and returns the order in which primitives fill the columns. The tree
 /// of `before` is kept if the geometry is equal.
-std::vector<std::int32_t> choose_tree(const Flattened& flat, const Camera& camera, const RenderScene* before,
-                                      RenderScene& out) {
-  std::vector<std::int32_t> order(flat.shapes.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int32_t>(i);
+Column<std::int32_t> choose_tree(const Flattened& flat, const Camera& camera, const RenderScene* before,
+                                 RenderScene& out) {
   if (flat.shapes.size() <= max_by_brute_force) {
+    Column<std::int32_t> order;
+    order.resize(flat.shapes.size());
+    std::iota(order.begin(), order.end(), 0);
     const auto bounding = std::stable_partition(order.begin(), order.end(), [&](std::int32_t i) {
       return out.sky.pixels || !bounds_scene(flat, static_cast<std::size_t>(i), camera);  // the sky is behind walls
     });
     out.quads.bounding = static_cast<int>(order.end() - bounding);
     return order;
   }
-  std::vector<BvhInput> input;
+  Column<BvhInput> input;
   input.reserve(flat.shapes.size());
   for (const PlacedShape& s : flat.shapes) input.push_back({bounds_of(extent_of(s, camera), out.origin), kind_of(s)});
-  const bool kept = before && before->bvh && before->bvh->input == input;
-  out.bvh = kept ? before->bvh : std::make_shared<const Bvh>(build_bvh(std::move(input)));
-  return out.bvh->order;
+  out.bvh = before && before->bvh.input == input ? before->bvh : build_bvh(input);
+  return out.bvh.order;
 }
 
 /// The checker of a material; null: it has another texture or none.
@@ -232,7 +234,7 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
   out.materials = material_columns(scene.materials);
   out.textures = texture_columns(scene.textures, out.origin);
   for (const TextureColumns& t : out.textures)
-    if (t.kind == place_in<Noise<>, TextureKinds<double>> && !out.gradients) out.gradients = gradient_table();
+    if (t.kind == place_in<Noise<>, TextureKinds<double>> && out.gradients.empty()) out.gradients = gradient_table();
   fill_geometry(flat, scene, before, out);
   out.max_depth = scene.render.max_depth;
   out.seed = scene.render.seed;
@@ -282,11 +284,10 @@ std::size_t bytes_of(const RenderScene& s) {
   bytes += (sizeof(Affine) + 4) * (s.quads.map.size() + 2 * s.boxes.map.size());
   bytes += (sizeof(Affine) + sizeof(Outline) + 4) * s.outlined.map.size();
   bytes += element * static_cast<std::size_t>(s.elements.count()) + sizeof(float) * s.elements.uv.size();
-  if (s.bvh)
-    bytes += sizeof(BvhNode) * s.bvh->nodes.size() + sizeof(BvhLeaf) * s.bvh->leaves.size() +
-             (sizeof(BvhInput) + 4) * s.bvh->input.size();
+  bytes += sizeof(BvhNode) * s.bvh.nodes.size() + sizeof(BvhLeaf) * s.bvh.leaves.size() +
+           (sizeof(BvhInput) + 4) * s.bvh.input.size();
   if (s.sky.pixels) bytes += sizeof(float) * s.sky.pixels->rgb.size();
-  if (s.sky.distribution) bytes += sizeof(std::int32_t) * s.sky.distribution->column_ends.size();
+  bytes += sizeof(std::int32_t) * s.sky.distribution.column_ends.size();
   for (const TextureColumns& t : s.textures)
     if (t.pixels) bytes += sizeof(float) * t.pixels->rgb.size();
   return bytes;

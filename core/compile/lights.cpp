@@ -164,8 +164,7 @@ class TreeBuilder {
 
   std::size_t add_pair(std::int32_t parent) {
     const std::size_t first = tree_.power.size();
-    for (std::vector<float>* column :
-         {&tree_.center[0], &tree_.center[1], &tree_.center[2], &tree_.power, &tree_.reach2})
+    for (Column<float>* column : {&tree_.center[0], &tree_.center[1], &tree_.center[2], &tree_.power, &tree_.reach2})
       column->resize(first + 2);
     tree_.child.resize(first + 2, -1), tree_.parent.resize(first + 2, parent);
     return first;

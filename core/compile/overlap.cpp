@@ -110,7 +110,7 @@ Vec3d on_disc(Vec3d direction, double u, double v) {
   return place.x * across.s + place.y * across.t;
 }
 
-Vec3d column(const std::vector<float> (&of)[3], std::size_t k) { return {of[0][k], of[1][k], of[2][k]}; }
+Vec3d column(const Column<float> (&of)[3], std::size_t k) { return {of[0][k], of[1][k], of[2][k]}; }
 
 Vec3d light_point_at(const Lights& l, std::size_t k, Vec3d to_sphere, double u, double v) {
   const double width = l.length_u[k], height = l.length_v[k];

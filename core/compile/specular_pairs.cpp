@@ -117,8 +117,8 @@ Found look_for_all(const Flattened& flat, const Scene& scene) {
 
 /// The irradiance by the sun of the sky's picture; 0 if it has none.
 double irradiance_of_sun(const SkyColumns& sky) {
-  if (!sky.is_sampled() || sky.distribution->sun.tangent == 0) return 0;
-  return sky.distribution->sun.irradiance * static_cast<double>(sky.scale);
+  if (!sky.is_sampled() || sky.distribution.sun.tangent == 0) return 0;
+  return sky.distribution.sun.irradiance * static_cast<double>(sky.scale);
 }
 
 std::vector<SpecularPair> list_pairs(const Found& found, const RenderScene& compiled) {
@@ -188,8 +188,9 @@ class Filler {
     out.inner_index.push_back(inner ? static_cast<float>(outer.index * inner->index) : 1);
     out.outer.push_back(name(outer, sphere, 0));
     out.inner.push_back(inner ? name(*inner, sphere, 1) : out.outer.back());
-    out.overlapped.push_back(is_overlapped(flat_, outer.body, {outer.shape, inner ? inner->shape : outer.shape}) ? 1
-                                                                                                                 : 0);
+    const bool overlapped = is_overlapped(flat_, outer.body, {outer.shape, inner ? inner->shape : outer.shape});
+    out.overlapped.push_back(overlapped ? 1 : 0);
+    out.has_overlaps |= overlapped, out.shells |= inner != nullptr;
     out.pair_of.resize(out.pair_of.size() + compiled_.lights.kind.size(), -1);
     ++out.first_mirror, ++out.first_slab;
   }
@@ -197,7 +198,7 @@ class Filler {
   /// After all spheres.
   void add_mirror(const FlatMirror& mirror) {
     add_flat(mirror.middle, 0, 0, first_element_[mirror.shape] + mirror.face, 1);
-    append_numbers(mirror, compiled_.origin, out.mirrors);
+    out.mirrors.push_back(record_of(mirror, compiled_.origin));
     ++out.first_slab;
   }
 
@@ -205,7 +206,7 @@ class Filler {
   void add_slab(const Slab& slab) {
     const double radius = length(Vec3d{slab.half[0], slab.half[1], slab.half[2]});
     add_flat(slab.middle, radius, slab.index, first_element_[slab.shape], 6);
-    append_numbers(slab, compiled_.origin, out.slabs);
+    out.slabs.push_back(record_of(slab, compiled_.origin));
   }
 
   void add_pair(const SpecularPair& pair) {

@@ -117,7 +117,7 @@ struct TileSamples {
 };
 
 TYNDALL_INLINE void list_samples(const SceneView& s, const TileJob& job, TileSamples& list) {
-  list.subpixel_lights = subpixel_lights_in_rows({s.subpixel_lights, s.subpixel_lights + s.subpixel_light_count},
+  list.subpixel_lights = subpixel_lights_in_rows({s.subpixel_lights, s.subpixel_lights + s.subpixel_lights.count()},
                                                  job.tile.y0, job.tile.y1);
   list.pixels = 0;
   const auto first_multiple = [&](int from) { return (from + job.step - 1) / job.step * job.step; };

@@ -8,20 +8,20 @@ namespace tyndall {
 /// Estimated contribution of light k at a point: its power over the squared distance, where distances below the light's
 /// radius count as the radius.
 template <class F>
-TYNDALL_INLINE F light_worth(const LightView& l, int k, Vec3<F> point) {
+TYNDALL_INLINE F light_worth(const Lights& l, int k, Vec3<F> point) {
   const Vec3<F> way = splat<F>(Vec3f{l.center[0][k], l.center[1][k], l.center[2][k]}) - point;
   return splat<F>(l.power[k]) / max(dot(way, way), splat<F>(l.reach2[k]));
 }
 
-// The functions below choose among lights (LightView) or among pairs of an object and a light (SpecularView). They take
+// The functions below choose among lights (Lights) or among pairs of an object and a light (SpecularPairs). They take
 // views instead of closures, because closures would keep the path in memory.
-TYNDALL_INLINE const LightView& choice_of(const LightView& view) { return view; }
-TYNDALL_INLINE const LightView& choice_of(const SpecularView& view) { return view.choice; }
+TYNDALL_INLINE const Lights& choice_of(const Lights& view) { return view; }
+TYNDALL_INLINE const Lights& choice_of(const SpecularPairs& view) { return view.choice; }
 
 template <class F>
 TYNDALL_INLINE F total_worth(const auto& view, Vec3<F> point) {
   F sum = F(0.0f);
-  for (int k = 0; k < choice_of(view).count; ++k) sum = sum + light_worth(view, k, point);
+  for (int k = 0; k < choice_of(view).count(); ++k) sum = sum + light_worth(view, k, point);
   return sum;
 }
 
@@ -35,7 +35,7 @@ struct LightChoice {
 /// The probabilities of choosing each of two sibling nodes at a point: in proportion to their estimated contributions,
 /// as light_worth() estimates those of single lights.
 template <class F>
-TYNDALL_INLINE Pair<F> probabilities_of_pair(const LightTreeView& t, IntOf<F> first, Vec3<F> point) {
+TYNDALL_INLINE Pair<F> probabilities_of_pair(const LightTree& t, IntOf<F> first, Vec3<F> point) {
   const auto worth = [&](IntOf<F> node) {
     const Vec3<F> center{gather<F>(t.center[0], node), gather<F>(t.center[1], node), gather<F>(t.center[2], node)};
     const Vec3<F> to_node = center - point;
@@ -47,7 +47,7 @@ TYNDALL_INLINE Pair<F> probabilities_of_pair(const LightTreeView& t, IntOf<F> fi
 
 /// Descends the tree from the root, choosing one of two children at random at each node.
 template <class F>
-TYNDALL_INLINE LightChoice<F> choose_in_tree(const LightTreeView& t, Vec3<F> point, F u) {
+TYNDALL_INLINE LightChoice<F> choose_in_tree(const LightTree& t, Vec3<F> point, F u) {
   using I = IntOf<F>;
   I node = I(0);
   F probability = F(1.0f);
@@ -68,7 +68,7 @@ TYNDALL_INLINE LightChoice<F> choose_in_tree(const LightTreeView& t, Vec3<F> poi
 
 /// Probability with which choose_in_tree() takes `light`: the product over its ancestors, from its leaf up.
 template <class F>
-TYNDALL_INLINE F probability_in_tree(const LightTreeView& t, Vec3<F> point, IntOf<F> light) {
+TYNDALL_INLINE F probability_in_tree(const LightTree& t, Vec3<F> point, IntOf<F> light) {
   using I = IntOf<F>;
   I node = gather_int<F>(t.leaf, light);
   F probability = F(1.0f);
@@ -87,16 +87,16 @@ TYNDALL_INLINE F probability_in_tree(const LightTreeView& t, Vec3<F> point, IntO
 template <class F>
 TYNDALL_INLINE LightChoice<F> choose_light(const auto& view, Vec3<F> point, F u) {
   using I = IntOf<F>;
-  const LightView& l = choice_of(view);
-  if (l.count == 1) return {I(0), F(1.0f)};
-  if (l.count <= max_lights_by_contribution) {
+  const Lights& l = choice_of(view);
+  if (l.count() == 1) return {I(0), F(1.0f)};
+  if (l.count() <= max_lights_by_contribution) {
     const F total = total_worth(view, point);
-    LightChoice<F> choice{I(l.count - 1), F(0.0f)};
+    LightChoice<F> choice{I(l.count() - 1), F(0.0f)};
     F left = u * total, worth = F(0.0f);
     MaskOf<F> open = less(F(-1.0f), F(0.0f));
-    for (int k = 0; k < l.count; ++k) {
+    for (int k = 0; k < l.count(); ++k) {
       worth = light_worth(view, k, point);
-      const auto here = k + 1 < l.count ? mask_and(open, less(left, worth)) : open;
+      const auto here = k + 1 < l.count() ? mask_and(open, less(left, worth)) : open;
       choice.light = select(here, I(k), choice.light);
       choice.probability = select(here, worth / total, choice.probability);
       open = mask_and_not(open, here);
@@ -110,11 +110,11 @@ TYNDALL_INLINE LightChoice<F> choose_light(const auto& view, Vec3<F> point, F u)
 /// Probability with which choose_light() takes `light` at a point.
 template <class F>
 TYNDALL_INLINE F choice_probability(const auto& view, Vec3<F> point, IntOf<F> light) {
-  const LightView& l = choice_of(view);
-  if (l.count == 1) return F(1.0f);
-  if (l.count > max_lights_by_contribution) return probability_in_tree(l.tree, point, light);
+  const Lights& l = choice_of(view);
+  if (l.count() == 1) return F(1.0f);
+  if (l.count() > max_lights_by_contribution) return probability_in_tree(l.tree, point, light);
   F total = F(0.0f), own = F(0.0f);
-  for (int k = 0; k < l.count; ++k) {
+  for (int k = 0; k < l.count(); ++k) {
     const F worth = light_worth(view, k, point);
     own = select(equal(light, IntOf<F>(k)), worth, own);
     total = total + worth;

@@ -16,18 +16,18 @@ struct LightColumns {
 
 /// Value of a column of lights in each lane.
 template <class F>
-TYNDALL_INLINE F light_value(const LightView& l, const float* column, IntOf<F> k) {
-  return l.count == 1 ? splat<F>(column[0]) : lookup<F>(column, l.count, k);
+TYNDALL_INLINE F light_value(const Lights& l, const float* column, IntOf<F> k) {
+  return l.count() == 1 ? splat<F>(column[0]) : lookup<F>(column, l.count(), k);
 }
 
 template <class F>
-TYNDALL_INLINE Vec3<F> light_vector(const LightView& l, const float* const* columns, IntOf<F> k) {
+TYNDALL_INLINE Vec3<F> light_vector(const Lights& l, const Column<float> (&columns)[3], IntOf<F> k) {
   return {light_value<F>(l, columns[0], k), light_value<F>(l, columns[1], k), light_value<F>(l, columns[2], k)};
 }
 
 template <class F>
-TYNDALL_INLINE LightColumns<F> load_light(const LightView& l, IntOf<F> k) {
-  return {l.count == 1 ? IntOf<F>(l.kind[0]) : lookup_int<F>(l.kind, l.count, k),
+TYNDALL_INLINE LightColumns<F> load_light(const Lights& l, IntOf<F> k) {
+  return {l.count() == 1 ? IntOf<F>(l.kind[0]) : lookup_int<F>(l.kind, l.count(), k),
           light_vector<F>(l, l.corner, k),
           light_vector<F>(l, l.edge_u, k),
           light_vector<F>(l, l.edge_v, k),

@@ -58,7 +58,7 @@ TYNDALL_INLINE void test_sphere(Vec3<F> center, F radius, IntOf<F> element, cons
 }
 
 template <class F, class Q>
-TYNDALL_INLINE void test_spheres(const SphereView& s, int first, int last, const Ray<F>& ray, const Q& query,
+TYNDALL_INLINE void test_spheres(const Spheres& s, int first, int last, const Ray<F>& ray, const Q& query,
                                  Hit<F>& best) {
   for (int i = first; i < last; ++i)
     test_sphere(splat<F>(Vec3f{s.x[i], s.y[i], s.z[i]}), splat<F>(s.radius[i]), splat_int<F>(s.element[i]), ray, query,
@@ -66,7 +66,7 @@ TYNDALL_INLINE void test_spheres(const SphereView& s, int first, int last, const
 }
 
 template <class F, class Q>
-TYNDALL_INLINE void test_moving_spheres(const SphereView& s, int first, int last, const Ray<F>& ray, const Q& query,
+TYNDALL_INLINE void test_moving_spheres(const Spheres& s, int first, int last, const Ray<F>& ray, const Q& query,
                                         Hit<F>& best) {
   for (int i = first; i < last; ++i) {
     const Vec3<F> motion = splat<F>(Vec3f{s.move_x[i], s.move_y[i], s.move_z[i]});
@@ -76,8 +76,7 @@ TYNDALL_INLINE void test_moving_spheres(const SphereView& s, int first, int last
 }
 
 template <class F, class Q>
-TYNDALL_INLINE void test_quads(const FlatView& q, int first, int last, const Ray<F>& ray, const Q& query,
-                               Hit<F>& best) {
+TYNDALL_INLINE void test_quads(const Flats& q, int first, int last, const Ray<F>& ray, const Q& query, Hit<F>& best) {
   for (int i = first; i < last; ++i) {
     if (Q::shadow && q.element[i] == query.common_aim) continue;
     const auto element = splat_int<F>(q.element[i]);
@@ -94,8 +93,7 @@ TYNDALL_INLINE void test_quads(const FlatView& q, int first, int last, const Ray
 /// Triangles and disks. Returns the closest hit. Not inlined, and by value, because each inlined copy takes seconds to
 /// compile. A ray that nearly lies in a triangle's plane meets it at an uncertain distance, but not before its box.
 template <class F, class Q>
-[[gnu::noinline]] static Hit<F> test_outlined(const FlatView& f, int first, int last, Ray<F> ray, Q query,
-                                              Hit<F> best) {
+[[gnu::noinline]] static Hit<F> test_outlined(const Flats& f, int first, int last, Ray<F> ray, Q query, Hit<F> best) {
   for (int i = first; i < last; ++i) {
     if (Q::shadow && f.element[i] == query.common_aim) continue;
     const auto element = splat_int<F>(f.element[i]);
@@ -140,19 +138,18 @@ TYNDALL_INLINE void test_box(const auto& map, IntOf<F> element, Start<F> start, 
 }
 
 template <class F, class Q>
-TYNDALL_INLINE void test_boxes(const FlatView& b, int first, int last, const Ray<F>& ray, const Q& query,
-                               Hit<F>& best) {
+TYNDALL_INLINE void test_boxes(const Flats& b, int first, int last, const Ray<F>& ray, const Q& query, Hit<F>& best) {
   for (int i = first; i < last; ++i)
     test_box(b.map[i], splat_int<F>(b.element[i]), start_on<F>(ray.from, b.element[i], 6), ray, query, best);
 }
 
 template <class F, class Q>
 TYNDALL_INLINE void test_all(const auto& s, const Ray<F>& ray, const Q& query, Hit<F>& best) {
-  test_spheres(s.spheres, 0, s.spheres.count, ray, query, best);
-  test_moving_spheres(s.moving_spheres, 0, s.moving_spheres.count, ray, query, best);
-  test_quads(s.quads, 0, Q::shadow ? s.quads.blocking : s.quads.count, ray, query, best);
-  test_boxes(s.boxes, 0, s.boxes.count, ray, query, best);
-  if (s.has_outlined()) best = test_outlined(s.outlined, 0, s.outlined.count, ray, query, best);
+  test_spheres(s.spheres, 0, s.spheres.count(), ray, query, best);
+  test_moving_spheres(s.moving_spheres, 0, s.moving_spheres.count(), ray, query, best);
+  test_quads(s.quads, 0, Q::shadow ? s.quads.count() - s.quads.bounding : s.quads.count(), ray, query, best);
+  test_boxes(s.boxes, 0, s.boxes.count(), ray, query, best);
+  if (s.has_outlined()) best = test_outlined(s.outlined, 0, s.outlined.count(), ray, query, best);
 }
 
 template <class F, class Q>

@@ -114,7 +114,7 @@ struct SingleRay {
   }
 
   template <bool moving>
-  TYNDALL_INLINE void test_spheres(const SphereView& s, int first, int last) {
+  TYNDALL_INLINE void test_spheres(const Spheres& s, int first, int last) {
     for (int i = first; i < last; i += lanes_of<R>) {
       const int count = last - i < lanes_of<R> ? last - i : lanes_of<R>;
       const auto column = [&](const float* values) __attribute__((always_inline)) {
@@ -129,7 +129,7 @@ struct SingleRay {
     }
   }
 
-  TYNDALL_INLINE void test_boxes(const FlatView& b, int first, int last) {
+  TYNDALL_INLINE void test_boxes(const Flats& b, int first, int last) {
     using I = IntOf<R>;
     for (int i = first; i < last; i += lanes_of<R>) {
       const int count = last - i < lanes_of<R> ? last - i : lanes_of<R>;
@@ -164,9 +164,9 @@ struct SingleRay {
     SingleStack stack;
     for (;;) {
       if (node >= 0) {
-        if (open_node(s.nodes[node], stack)) continue;
+        if (open_node(s.bvh.nodes[node], stack)) continue;
       } else {
-        test_leaf(s, s.leaves[~node]);
+        test_leaf(s, s.bvh.leaves[~node]);
         if (Q::shadow && any(less_equal(IntOf<R>(0), best.element))) return;
       }
       if (!take_node(stack)) return;

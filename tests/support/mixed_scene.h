@@ -97,10 +97,9 @@ inline std::vector<TraceRay> parallel_rays(Engine& engine, int count, double hal
   std::vector<float> planes;
   for (const float v : scene.elements.x) planes.push_back(v);
   for (const float v : scene.spheres.y) planes.push_back(v);
-  if (scene.bvh)
-    for (const BvhInput& input : scene.bvh->input)
-      for (const Vec3f& corner : {input.bounds.low, input.bounds.high})
-        planes.insert(planes.end(), {corner.x, corner.y, corner.z});
+  for (const BvhInput& input : scene.bvh.input)
+    for (const Vec3f& corner : {input.bounds.low, input.bounds.high})
+      planes.insert(planes.end(), {corner.x, corner.y, corner.z});
   std::vector<TraceRay> rays = random_rays(engine, count, half_width);
   for (TraceRay& ray : rays) {
     const auto pick = [&] { return planes[engine() % planes.size()]; };

@@ -33,9 +33,9 @@ inline bool same(const CameraColumns& a, const CameraColumns& b) {
 }
 inline bool same(const Materials& a, const Materials& b) {
   return a.kind == b.kind && a.red == b.red && a.green == b.green && a.blue == b.blue && a.texture == b.texture &&
-         a.parameter == b.parameter;
+         std::equal(std::begin(a.parameter), std::end(a.parameter), b.parameter);
 }
-inline bool same(const std::vector<MediumColumns>& a, const std::vector<MediumColumns>& b) {
+inline bool same(const Column<MediumColumns>& a, const Column<MediumColumns>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const MediumColumns& x, const MediumColumns& y) {
     return x.box == y.box && x.center == y.center && x.radius == y.radius && same(x.map, y.map) && x.first == y.first &&
            x.count == y.count && x.density == y.density && x.g == y.g && x.albedo == y.albedo && x.texture == y.texture;
@@ -47,8 +47,7 @@ inline bool same_geometry(const RenderScene& a, const RenderScene& b) {
          same(a.media, b.media);
 }
 inline bool same_tree(const RenderScene& a, const RenderScene& b) {
-  if (!a.bvh || !b.bvh) return a.bvh == b.bvh;
-  return a.bvh->input == b.bvh->input && a.bvh->order == b.bvh->order && a.bvh->nodes.size() == b.bvh->nodes.size();
+  return a.bvh.input == b.bvh.input && a.bvh.order == b.bvh.order && a.bvh.nodes.size() == b.bvh.nodes.size();
 }
 inline bool same(const RenderScene& a, const RenderScene& b) {
   return same_geometry(a, b) && same_tree(a, b) && same(a.camera, b.camera) && same(a.materials, b.materials) &&
