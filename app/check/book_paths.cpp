@@ -79,17 +79,13 @@ BookDirection scatter_glass(const Dielectric<float>& glass, const BookRules& rul
   return {out.direction, 1, false, out.flags.transmitted};
 }
 
-Vec3d to_double(Vec3f v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
-
 /// The distance above 0 at which the books' programs find an element, in their arithmetic, whose rounding puts a point
 /// of a surface a little outside or inside; negative: they do not find it. point: one of the element.
 double book_distance(const SceneView& s, std::int32_t element, Vec3f point, Vec3d origin, Vec3d direction, float time) {
-  const Vec3f at{s.elements.x[element], s.elements.y[element], s.elements.z[element]};
+  const Vec3f at = s.elements.center_or_normal[element];
   if (s.elements.inverse_radius[element] == 0)
     return dot(to_double(at), to_double(point) - origin) / dot(to_double(at), direction);
-  const Vec3f move = s.features.moving_spheres
-                         ? Vec3f{s.elements.move_x[element], s.elements.move_y[element], s.elements.move_z[element]}
-                         : Vec3f{};
+  const Vec3f move = s.features.moving_spheres ? s.elements.move[element] : Vec3f{};
   const Vec3d to_center = to_double(at + time * move) - origin;
   const double radius = 1 / static_cast<double>(s.elements.inverse_radius[element]);
   const double a = dot(direction, direction), h = dot(direction, to_center);
@@ -220,8 +216,7 @@ class BookPaths {
   }
 
   bool moves(std::int32_t element) const {
-    return s_.features.moving_spheres &&
-           (s_.elements.move_x[element] != 0 || s_.elements.move_y[element] != 0 || s_.elements.move_z[element] != 0);
+    return s_.features.moving_spheres && !(s_.elements.move[element] == Vec3f{});
   }
 
   BookDirection scatter(const BookPath& p, const SurfacePoint<float>& at, std::int32_t kind,

@@ -67,6 +67,20 @@ class Column {
   std::shared_ptr<T[]> memory_;
 };
 
+/// A column of vectors, component by component, so that lookup() serves them as it serves numbers.
+struct VectorColumn {
+  Column<float> x, y, z;
+  TYNDALL_INLINE Vec3f operator[](std::ptrdiff_t k) const { return {x[k], y[k], z[k]}; }
+  std::size_t size() const { return x.size(); }
+  void set(std::size_t k, Vec3f v) { x[k] = v.x, y[k] = v.y, z[k] = v.z; }
+  void push_back(Vec3f v) { x.push_back(v.x), y.push_back(v.y), z.push_back(v.z); }
+  bool operator==(const VectorColumn&) const = default;
+};
+template <class F>
+TYNDALL_INLINE Vec3<F> lookup(const VectorColumn& table, int count, IntOf<F> index) {
+  return {lookup<F>(table.x, count, index), lookup<F>(table.y, count, index), lookup<F>(table.z, count, index)};
+}
+
 /// A record of a column in each lane, to be read by members: record(&Record::member), record(&Record::array, index).
 template <class F, class Record>
 struct RecordIn {

@@ -5,11 +5,6 @@
 /// The second half of compiling: converts each part of the scene to columns of floats.
 namespace tyndall {
 
-inline Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
-
-/// Appends a vector to its three columns.
-void push(Column<float> (&columns)[3], Vec3d v);
-
 /// Of the whole lens, scene units; 0: a pinhole.
 double lens_radius(const Camera& camera);
 /// Fills in all but the surface on which the camera stands: see surroundings.h.

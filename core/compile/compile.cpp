@@ -74,13 +74,10 @@ struct SlotFiller {
 
   void operator()(const Sphere<>& s) const {
     Spheres& to = s.center_end ? out.moving_spheres : out.spheres;
-    const Vec3f center = to_float(place(placement, s.center) - out.origin);
-    to.x.push_back(center.x), to.y.push_back(center.y), to.z.push_back(center.z);
+    to.center.push_back(to_float(place(placement, s.center) - out.origin));
     to.radius.push_back(static_cast<float>(std::abs(s.radius)));
     to.element.push_back(element);
-    if (!s.center_end) return;
-    const Vec3f motion = to_float(rotate(placement, *s.center_end - s.center));
-    to.move_x.push_back(motion.x), to.move_y.push_back(motion.y), to.move_z.push_back(motion.z);
+    if (s.center_end) to.move.push_back(to_float(rotate(placement, *s.center_end - s.center)));
   }
   void operator()(const Quad<>& q) const {
     out.quads.map.push_back(quad_map(q, placement, out.origin));
@@ -256,8 +253,7 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
 }
 
 int RenderScene::primitives() const {
-  return static_cast<int>(spheres.x.size() + moving_spheres.x.size() + quads.map.size() + boxes.map.size() +
-                          outlined.map.size());
+  return spheres.count() + moving_spheres.count() + quads.count() + boxes.count() + outlined.count();
 }
 
 const char* name_of(KernelSet set) {
@@ -280,7 +276,7 @@ const char* name_of(KernelSet set) {
 
 std::size_t bytes_of(const RenderScene& s) {
   const std::size_t sphere = 5 * sizeof(float), element = 9 * sizeof(float);
-  std::size_t bytes = sizeof s + sphere * s.spheres.x.size() + (sphere + 12) * s.moving_spheres.x.size();
+  std::size_t bytes = sizeof s + sphere * s.spheres.radius.size() + (sphere + 12) * s.moving_spheres.radius.size();
   bytes += (sizeof(Affine) + 4) * (s.quads.map.size() + 2 * s.boxes.map.size());
   bytes += (sizeof(Affine) + sizeof(Outline) + 4) * s.outlined.map.size();
   bytes += element * static_cast<std::size_t>(s.elements.count()) + sizeof(float) * s.elements.uv.size();

@@ -195,7 +195,7 @@ std::vector<Receiver> list_receivers(const Flattened& flat, const Scene& scene) 
 
 double worth_of(const FlatMirror& m, const Lights& lights, std::size_t k, Vec3d origin,
                 const std::vector<Receiver>& receivers) {
-  const Vec3d light = Vec3d{lights.center[0][k], lights.center[1][k], lights.center[2][k]} + origin;
+  const Vec3d light = to_double(lights.center[k]) + origin;
   const Vec3d to_light = light - m.middle;
   const double height = dot(to_light, m.normal), reach = std::sqrt(static_cast<double>(lights.reach2[k]));
   if (height == 0) return 0;
@@ -243,7 +243,7 @@ std::vector<Slab> list_slabs(const Flattened& flat, const std::vector<Flat>& fla
 }
 
 double worth_of(const Slab& slab, const Lights& lights, std::size_t k, Vec3d origin) {
-  const Vec3d light = Vec3d{lights.center[0][k], lights.center[1][k], lights.center[2][k]} + origin;
+  const Vec3d light = to_double(lights.center[k]) + origin;
   const double distance = distance_to(slab, light), reach = std::sqrt(static_cast<double>(lights.reach2[k]));
   if (reach > widest_light * distance) return 0;
   double area = 0;  // as seen from the light

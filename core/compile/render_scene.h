@@ -106,8 +106,8 @@ struct BackgroundColumns {
 
 /// Primitives of one kind, in the order of the tree's leaves. `element`: a primitive's first element, named by hits.
 struct Spheres {
-  Column<float> x, y, z, radius;         ///< radius > 0
-  Column<float> move_x, move_y, move_z;  ///< only for moving spheres: way from time 0 to 1
+  VectorColumn center, move;  ///< move: only for moving spheres, way from time 0 to 1
+  Column<float> radius;       ///< > 0
   Column<std::int32_t> element;
   TYNDALL_INLINE int count() const { return element.count(); }
 };
@@ -124,8 +124,9 @@ struct Flats {
 /// Columns by element. An element is a sphere, a flat shape or a face of a box.
 struct Elements {
   /// Spheres: centre and 1 / signed radius. Flats: unit outward normal and 0.
-  Column<float> x, y, z, inverse_radius;
-  Column<float> move_x, move_y, move_z;  ///< filled only if some sphere moves
+  VectorColumn center_or_normal;
+  Column<float> inverse_radius;
+  VectorColumn move;  ///< filled only if some sphere moves
   Column<std::int32_t> material;
   Column<std::int32_t> light;  ///< index into Lights, or -1
   /// For image textures; empty without image textures. Flats: u and v as affine functions of the point (8 floats).
@@ -146,7 +147,7 @@ struct Elements {
 /// Columns by material. parameter[i] holds the i-th field of the material's kind.
 struct Materials {
   Column<std::int32_t> kind;  ///< index into MaterialKinds
-  Column<float> red, green, blue;
+  VectorColumn colour;
   Column<std::int32_t> texture;  ///< index into RenderScene::textures, or -1
   Column<float> parameter[max_material_fields];
   TYNDALL_INLINE int count() const { return kind.count(); }
@@ -180,7 +181,7 @@ struct MediumColumns {
 /// A binary tree of lights, from which one of many lights is chosen. Columns by node. Node 0 is the root, node 1 is not
 /// used, and the children of a node are neighbours: 2 k and 2 k + 1.
 struct LightTree {
-  Column<float> center[3];  ///< of a box that holds the node's lights
+  VectorColumn center;  ///< of a box that holds the node's lights
   /// Sum of the powers of the node's lights; lower limit of the squared distance from the centre.
   Column<float> power, reach2;
   Column<std::int32_t> child;  ///< >= 0: the first child; < 0: leaf of light -1 - child
@@ -195,11 +196,11 @@ struct Lights {
   Column<std::int32_t> kind, element;
   /// Flats: a corner and unit edges, of the frame if they have an outline. Spheres: the centre in corner, and its
   /// motion over the shutter in edge_u.
-  Column<float> corner[3], edge_u[3], edge_v[3], normal[3];
+  VectorColumn corner, edge_u, edge_v, normal;
   Column<float> length_u, length_v;  ///< spheres: the radius in length_u
   Column<float> area;                ///< of what emits: of a triangle half of its frame's
   Column<float> inner;               ///< rings: Outline::size; empty without triangles and rings
-  Column<float> center[3];           ///< a point in the middle, for choosing a light
+  VectorColumn center;               ///< a point in the middle, for choosing a light
   Column<float> power;               ///< area times the largest component of the radiance
   Column<float> reach2;              ///< squared radius of a sphere around center that holds the light
   LightTree tree;                    ///< empty with at most max_lights_by_contribution
@@ -237,7 +238,7 @@ struct SlabRecord {
 /// first face.
 struct SpecularPairs {
   // Columns by sphere: one sphere, or two around one centre.
-  Column<float> center[3], move[3];         ///< move: way from time 0 to 1
+  VectorColumn center, move;                ///< move: way from time 0 to 1
   Column<float> radius, index;              ///< of the outer sphere; index within it over that outside, 0: metal
   Column<float> inner_radius, inner_index;  ///< of the inner sphere, 0: none; index within it over that outside
   Column<std::int32_t> outer, inner;        ///< elements of the spheres

@@ -90,9 +90,8 @@ double middle_size(const std::vector<Landing>& landings) {
 double direct_light_at(const SceneView& s, Vec3d point, double size) {
   double sum = 0;
   for (int k = 0; k < s.lights.count(); ++k) {
-    const auto at = [&](const float* column) { return static_cast<double>(column[k]); };
-    const Vec3d to_light = Vec3d{at(s.lights.center[0]), at(s.lights.center[1]), at(s.lights.center[2])} - point;
-    sum += at(s.lights.power) * 0.25 / std::max(dot(to_light, to_light), size * size);
+    const Vec3d to_light = to_double(s.lights.center[k]) - point;
+    sum += static_cast<double>(s.lights.power[k]) * 0.25 / std::max(dot(to_light, to_light), size * size);
   }
   return std::max(sum, 1e-30);
 }

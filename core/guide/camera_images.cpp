@@ -115,10 +115,8 @@ class CameraPath {
 class Finder {
  public:
   explicit Finder(const SceneView& s) : s_(s), things_(list_things(s)) {
-    for (int light = 0; light < std::min(s.lights.count(), max_guide_lights); ++light) {
-      const auto at = [&](int axis) { return static_cast<double>(s.lights.center[axis][light]); };
-      lights_.push_back({at(0), at(1), at(2)});
-    }
+    for (int light = 0; light < std::min(s.lights.count(), max_guide_lights); ++light)
+      lights_.push_back(to_double(s.lights.center[light]));
   }
 
   /// What the camera sees straight.

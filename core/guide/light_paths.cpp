@@ -27,9 +27,6 @@ SinCos<double> random_angle(double u) {
 
 /// Transmittance of the media along a ray, by the kernels' polynomials.
 double transmitted(const SceneView& s, const Ray<double>& ray, double distance) {
-  const auto to_float = [](Vec3d v) {
-    return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-  };
   const Ray<float> same{to_float(ray.origin), to_float(ray.direction), static_cast<float>(ray.time), ray.from};
   return static_cast<double>(pass_media<float>(s, same, static_cast<float>(distance), true));
 }
@@ -61,7 +58,7 @@ Vec3d LightPaths::direction_in_cone(Vec3d axis, double one_minus_cos) {
 Vec3d LightPaths::middle_of(int light, double time) const {
   const Lights& l = scene_.lights;
   if (l.kind[light] == Lights::sphere) return sphere_light_center(load_light<double>(l, light), time);
-  return {at(l.center[0], light), at(l.center[1], light), at(l.center[2], light)};
+  return to_double(l.center[light]);
 }
 
 /// Draws a path from a light's middle towards a thing. Returns false if it leads along the light.
@@ -177,8 +174,7 @@ bool LightPaths::meet(std::int32_t element, double t, const OrderedEvents<double
       thing.is_sphere, p.inverted, inside, thing.center + f.start.time * thing.motion, p.point, p.normal, 0, 0, true};
   m.radius = std::sqrt(squared_length(p.point - m.center));
   if (has_trait<&BsdfTraits::glossy>(scene_, scene_.materials.kind[p.material])) {
-    f.weight *= std::max({at(scene_.materials.red, p.material), at(scene_.materials.green, p.material),
-                          at(scene_.materials.blue, p.material)});
+    f.weight *= static_cast<double>(max_component(scene_.materials.colour[p.material]));
   } else {
     Incident<double> in{};
     in.direction = ray.direction, in.normal = p.normal, in.facing = exiting ? -p.normal : p.normal;

@@ -48,8 +48,7 @@ void complete(const SceneView& s, Thing& thing) {
   const Vec3d edges = cross(thing.u, thing.v);
   const double area = thing.is_sphere ? pi * thing.radius * thing.radius : std::sqrt(dot(edges, edges));
   for (int k = 0; k < std::min(s.lights.count(), max_guide_lights); ++k) {
-    const Vec3d light{at(s.lights.center[0], k), at(s.lights.center[1], k), at(s.lights.center[2], k)};
-    const Vec3d to_middle = middle - light;
+    const Vec3d to_middle = middle - to_double(s.lights.center[k]);
     thing.power += at(s.lights.power, k) * std::min(area / std::max(dot(to_middle, to_middle), 1e-30), 4 * pi);
   }
   if (s.specular.pairs() == 0) return;
@@ -64,8 +63,8 @@ void list_spheres(const SceneView& s, const Spheres& spheres, bool moving, std::
     if (!is_near_specular(s, spheres.element[i])) continue;
     Thing thing;
     thing.element = spheres.element[i], thing.is_sphere = true, thing.radius = at(spheres.radius, i);
-    thing.center = {at(spheres.x, i), at(spheres.y, i), at(spheres.z, i)};
-    if (moving) thing.motion = {at(spheres.move_x, i), at(spheres.move_y, i), at(spheres.move_z, i)};
+    thing.center = to_double(spheres.center[i]);
+    if (moving) thing.motion = to_double(spheres.move[i]);
     things.push_back(thing);
   }
 }

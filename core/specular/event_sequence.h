@@ -22,10 +22,9 @@ struct SpecularSphere {
 
 template <class F>
 TYNDALL_INLINE SpecularSphere<F> load_sphere(const SpecularPairs& c, IntOf<F> sphere, F time) {
-  const auto value = [&](const float* column) { return lookup<F>(column, c.spheres(), sphere); };
+  const auto value = [&](const auto& column) { return lookup<F>(column, c.spheres(), sphere); };
   SpecularSphere<F> b;
-  b.center = point_at(Vec3<F>{value(c.center[0]), value(c.center[1]), value(c.center[2])}, time,
-                      Vec3<F>{value(c.move[0]), value(c.move[1]), value(c.move[2])});
+  b.center = point_at(value(c.center), time, value(c.move));
   b.radius = value(c.radius), b.inner_radius = value(c.inner_radius);
   const F index = value(c.index);
   b.mirror = equal(index, F(0.0f));

@@ -55,7 +55,7 @@ TYNDALL_INLINE F mirror_worth(const SpecularPairs& c, int k, Vec3<F> point) {
   const MirrorRecord& m = c.mirrors[c.sphere[k] - c.first_mirror];
   const Vec3<F> normal = splat<F>(m.normal);
   const F offset = splat<F>(m.height);
-  const Vec3<F> light = splat<F>(Vec3f{c.choice.center[0][k], c.choice.center[1][k], c.choice.center[2][k]});
+  const Vec3<F> light = splat<F>(c.choice.center[k]);
   const F near = dot(normal, point) + offset, far = dot(normal, light) + offset;
   const F height = max(abs(near) + abs(far), F(1e-30f)), up_to_plane = abs(near) / height;  // fraction of the path
   const Vec3<F> to_light = point_at(light, F(-2.0f) * far, normal) - point, at = point_at(point, up_to_plane, to_light);

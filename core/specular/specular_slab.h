@@ -273,8 +273,7 @@ TYNDALL_INLINE SlabSequence<F> slab_sequence_of(const SpecularSlab<F>& slab, Spe
 template <class F>
 TYNDALL_INLINE F slab_worth(const SpecularPairs& c, int k, Vec3<F> point) {
   const int sphere = c.sphere[k];
-  const auto column = [&](const Column<float>(&v)[3], int i) { return splat<F>(Vec3f{v[0][i], v[1][i], v[2][i]}); };
-  const Vec3<F> to_light = column(c.choice.center, k) - point, arm = column(c.center, sphere) - point;
+  const Vec3<F> to_light = splat<F>(c.choice.center[k]) - point, arm = splat<F>(c.center[sphere]) - point;
   const F distance2 = dot(to_light, to_light), reach2 = splat<F>(c.choice.reach2[k]);
   const F nearest = min(max(dot(arm, to_light) / max(distance2, F(1e-30f)), F(0.0f)), F(1.0f));  // on the segment
   const Vec3<F> off = point_at(arm, -nearest, to_light);

@@ -213,9 +213,8 @@ struct MediumFlight {
 /// The distribution of distances for a flight that is ended by angle for a light.
 template <class F>
 TYNDALL_INLINE Equiangular<F> distances_past(const Lights& l, IntOf<F> light, const MediumFlight<F>& flight) {
-  const auto at = [&](const float* column) { return lookup<F>(column, l.count(), light); };
-  const Vec3<F> center{at(l.center[0]), at(l.center[1]), at(l.center[2])};
-  return equiangular(center - flight.origin, at(l.reach2), flight.direction, flight.begin, flight.end);
+  const Vec3<F> to_center = lookup<F>(l.center, l.count(), light) - flight.origin;
+  return equiangular(to_center, lookup<F>(l.reach2, l.count(), light), flight.direction, flight.begin, flight.end);
 }
 
 /// The term q² of the power heuristic in direct_light(). q: the pdf with which this flight is ended by angle for

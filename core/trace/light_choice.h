@@ -9,7 +9,7 @@ namespace tyndall {
 /// radius count as the radius.
 template <class F>
 TYNDALL_INLINE F light_worth(const Lights& l, int k, Vec3<F> point) {
-  const Vec3<F> way = splat<F>(Vec3f{l.center[0][k], l.center[1][k], l.center[2][k]}) - point;
+  const Vec3<F> way = splat<F>(l.center[k]) - point;
   return splat<F>(l.power[k]) / max(dot(way, way), splat<F>(l.reach2[k]));
 }
 
@@ -37,7 +37,7 @@ struct LightChoice {
 template <class F>
 TYNDALL_INLINE Pair<F> probabilities_of_pair(const LightTree& t, IntOf<F> first, Vec3<F> point) {
   const auto worth = [&](IntOf<F> node) {
-    const Vec3<F> center{gather<F>(t.center[0], node), gather<F>(t.center[1], node), gather<F>(t.center[2], node)};
+    const Vec3<F> center{gather<F>(t.center.x, node), gather<F>(t.center.y, node), gather<F>(t.center.z, node)};
     const Vec3<F> to_node = center - point;
     return gather<F>(t.power, node) / max(dot(to_node, to_node), gather<F>(t.reach2, node)) + F(1e-30f);
   };

@@ -21,17 +21,17 @@ TYNDALL_INLINE F light_value(const Lights& l, const float* column, IntOf<F> k) {
 }
 
 template <class F>
-TYNDALL_INLINE Vec3<F> light_vector(const Lights& l, const Column<float> (&columns)[3], IntOf<F> k) {
-  return {light_value<F>(l, columns[0], k), light_value<F>(l, columns[1], k), light_value<F>(l, columns[2], k)};
+TYNDALL_INLINE Vec3<F> light_value(const Lights& l, const VectorColumn& column, IntOf<F> k) {
+  return l.count() == 1 ? splat<F>(column[0]) : lookup<F>(column, l.count(), k);
 }
 
 template <class F>
 TYNDALL_INLINE LightColumns<F> load_light(const Lights& l, IntOf<F> k) {
   return {l.count() == 1 ? IntOf<F>(l.kind[0]) : lookup_int<F>(l.kind, l.count(), k),
-          light_vector<F>(l, l.corner, k),
-          light_vector<F>(l, l.edge_u, k),
-          light_vector<F>(l, l.edge_v, k),
-          light_vector<F>(l, l.normal, k),
+          light_value<F>(l, l.corner, k),
+          light_value<F>(l, l.edge_u, k),
+          light_value<F>(l, l.edge_v, k),
+          light_value<F>(l, l.normal, k),
           light_value<F>(l, l.length_u, k),
           light_value<F>(l, l.length_v, k),
           light_value<F>(l, l.area, k)};

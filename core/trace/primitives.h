@@ -61,16 +61,14 @@ template <class F, class Q>
 TYNDALL_INLINE void test_spheres(const Spheres& s, int first, int last, const Ray<F>& ray, const Q& query,
                                  Hit<F>& best) {
   for (int i = first; i < last; ++i)
-    test_sphere(splat<F>(Vec3f{s.x[i], s.y[i], s.z[i]}), splat<F>(s.radius[i]), splat_int<F>(s.element[i]), ray, query,
-                best);
+    test_sphere(splat<F>(s.center[i]), splat<F>(s.radius[i]), splat_int<F>(s.element[i]), ray, query, best);
 }
 
 template <class F, class Q>
 TYNDALL_INLINE void test_moving_spheres(const Spheres& s, int first, int last, const Ray<F>& ray, const Q& query,
                                         Hit<F>& best) {
   for (int i = first; i < last; ++i) {
-    const Vec3<F> motion = splat<F>(Vec3f{s.move_x[i], s.move_y[i], s.move_z[i]});
-    const Vec3<F> center = point_at(splat<F>(Vec3f{s.x[i], s.y[i], s.z[i]}), ray.time, motion);
+    const Vec3<F> center = point_at(splat<F>(s.center[i]), ray.time, splat<F>(s.move[i]));
     test_sphere(center, splat<F>(s.radius[i]), splat_int<F>(s.element[i]), ray, query, best);
   }
 }

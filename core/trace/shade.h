@@ -39,21 +39,15 @@ TYNDALL_INLINE SurfacePoint<F> surface_at(const SceneView& s, const Ray<F>& ray,
   p.element = select(less(element, IntOf<F>(0)), IntOf<F>(0), element);
   p.point = point_at(ray.origin, safe_t, ray.direction);
   p.material = lookup_int<F>(s.elements.material, s.elements.count(), p.element);
-  Vec3<F> column{lookup<F>(s.elements.x, s.elements.count(), p.element),
-                 lookup<F>(s.elements.y, s.elements.count(), p.element),
-                 lookup<F>(s.elements.z, s.elements.count(), p.element)};
+  Vec3<F> column = lookup<F>(s.elements.center_or_normal, s.elements.count(), p.element);
   p.normal = column;
   p.inverted = less(F(1.0f), F(0.0f));
   if (!s.features.spheres && !s.features.moving_spheres) return p;
   const F inverse_radius = lookup<F>(s.elements.inverse_radius, s.elements.count(), p.element);
   const auto round = mask_not(equal(inverse_radius, F(0.0f)));
   if (!any(round)) return p;
-  if (s.features.moving_spheres) {
-    const Vec3<F> motion{lookup<F>(s.elements.move_x, s.elements.count(), p.element),
-                         lookup<F>(s.elements.move_y, s.elements.count(), p.element),
-                         lookup<F>(s.elements.move_z, s.elements.count(), p.element)};
-    column = point_at(column, ray.time, motion);
-  }
+  if (s.features.moving_spheres)
+    column = point_at(column, ray.time, lookup<F>(s.elements.move, s.elements.count(), p.element));
   const Vec3<F> arm = p.point - column;
   const F scale = copy_sign(F(1.0f) / sqrt(max(dot(arm, arm), F(1e-37f))), inverse_radius);
   p.normal = select(round, scale * arm, p.normal);
@@ -130,18 +124,14 @@ template <class F>
 TYNDALL_INLINE Vec3<F> texture_point(const SceneView& s, const SurfacePoint<F>& p) {
   const auto flat = equal(lookup<F>(s.elements.inverse_radius, s.elements.count(), p.element), F(0.0f));
   if (!any(flat)) return p.point;
-  const Vec3<F> normal{lookup<F>(s.elements.x, s.elements.count(), p.element),
-                       lookup<F>(s.elements.y, s.elements.count(), p.element),
-                       lookup<F>(s.elements.z, s.elements.count(), p.element)};
+  const Vec3<F> normal = lookup<F>(s.elements.center_or_normal, s.elements.count(), p.element);
   const F gap = lookup<F>(s.elements.plane, s.elements.count(), p.element) - dot(normal, p.point);
   return select(flat, point_at(p.point, gap, normal), p.point);
 }
 
 template <class F>
 TYNDALL_INLINE Vec3<F> surface_colour(const auto& s, const SurfacePoint<F>& p, MaskOf<F> lanes) {
-  const Vec3<F> colour{lookup<F>(s.materials.red, s.materials.count(), p.material),
-                       lookup<F>(s.materials.green, s.materials.count(), p.material),
-                       lookup<F>(s.materials.blue, s.materials.count(), p.material)};
+  const Vec3<F> colour = lookup<F>(s.materials.colour, s.materials.count(), p.material);
   if (!s.has_textures()) return colour;
   const IntOf<F> texture = lookup_int<F>(s.materials.texture, s.materials.count(), p.material);
   if (!any(mask_and(lanes, less_equal(IntOf<F>(0), texture)))) return colour;
@@ -158,9 +148,7 @@ TYNDALL_INLINE Vec3<F> light_radiance(const auto& s, IntOf<F> element, Vec3<F> p
   p.inverted = less(F(1.0f), F(0.0f));
   p.normal = zero3<F>();
   if (s.has_image_textures()) {
-    const Vec3<F> arm = point - Vec3<F>{lookup<F>(s.elements.x, s.elements.count(), element),
-                                        lookup<F>(s.elements.y, s.elements.count(), element),
-                                        lookup<F>(s.elements.z, s.elements.count(), element)};
+    const Vec3<F> arm = point - lookup<F>(s.elements.center_or_normal, s.elements.count(), element);
     p.normal = (F(1.0f) / sqrt(max(dot(arm, arm), F(1e-37f)))) * arm;  // outward; only spheres use it
   }
   return surface_colour(s, p, lanes);

@@ -120,9 +120,11 @@ struct SingleRay {
       const auto column = [&](const float* values) __attribute__((always_inline)) {
         return load_some<R>(values + i, count);
       };
-      Vec3<R> center{column(s.x), column(s.y), column(s.z)};
-      if constexpr (moving)
-        center = point_at(center, ray.time, Vec3<R>{column(s.move_x), column(s.move_y), column(s.move_z)});
+      const auto vector = [&](const VectorColumn& v) __attribute__((always_inline)) {
+        return Vec3<R>{column(v.x), column(v.y), column(v.z)};
+      };
+      Vec3<R> center = vector(s.center);
+      if constexpr (moving) center = point_at(center, ray.time, vector(s.move));
       Hit<R> each = best;
       test_sphere(center, column(s.radius), load_some_int<R>(s.element + i, count), ray, query, each);
       take_best(each, (1u << count) - 1u);

@@ -165,7 +165,7 @@ TYNDALL_INLINE F sky_probability(const auto& s, Vec3<F> point) {
   if (l.count() <= max_lights_by_contribution) {
     others = total_worth(l, point);
   } else {
-    const Vec3<F> to_root = splat<F>(Vec3f{l.tree.center[0][0], l.tree.center[1][0], l.tree.center[2][0]}) - point;
+    const Vec3<F> to_root = splat<F>(l.tree.center[0]) - point;
     others = splat<F>(l.tree.power[0]) / max(dot(to_root, to_root), splat<F>(l.tree.reach2[0]));
   }
   const F own = splat<F>(s.sky.irradiance);

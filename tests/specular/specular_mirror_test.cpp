@@ -98,7 +98,7 @@ TEST_CASE(
   const MirrorScene scene;
   const SpecularPairs& specular = scene.view.view().specular;
   const SpecularMirror<double> m = load_mirror<double>(specular, 0);
-  const Vec3d lamp = exact({specular.choice.center[0][0], specular.choice.center[1][0], specular.choice.center[2][0]});
+  const Vec3d lamp = exact(specular.choice.center[0]);
   const double power = static_cast<double>(specular.choice.power[0]);
   Engine engine(7);
   int seen = 0;

@@ -19,11 +19,10 @@ inline bool same(const Flats& a, const Flats& b) {
                     [](const Affine& x, const Affine& y) { return same(x, y); });
 }
 inline bool same(const Spheres& a, const Spheres& b) {
-  return a.x == b.x && a.y == b.y && a.z == b.z && a.radius == b.radius && a.move_x == b.move_x &&
-         a.move_y == b.move_y && a.move_z == b.move_z && a.element == b.element;
+  return a.center == b.center && a.radius == b.radius && a.move == b.move && a.element == b.element;
 }
 inline bool same(const Elements& a, const Elements& b) {
-  return a.x == b.x && a.y == b.y && a.z == b.z && a.inverse_radius == b.inverse_radius && a.move_x == b.move_x &&
+  return a.center_or_normal == b.center_or_normal && a.inverse_radius == b.inverse_radius && a.move == b.move &&
          a.material == b.material && a.uv == b.uv && a.disk == b.disk && a.object == b.object;
 }
 inline bool same(const CameraColumns& a, const CameraColumns& b) {
@@ -32,7 +31,7 @@ inline bool same(const CameraColumns& a, const CameraColumns& b) {
          a.shutter_length == b.shutter_length && a.surface.element == b.surface.element;
 }
 inline bool same(const Materials& a, const Materials& b) {
-  return a.kind == b.kind && a.red == b.red && a.green == b.green && a.blue == b.blue && a.texture == b.texture &&
+  return a.kind == b.kind && a.colour == b.colour && a.texture == b.texture &&
          std::equal(std::begin(a.parameter), std::end(a.parameter), b.parameter);
 }
 inline bool same(const Column<MediumColumns>& a, const Column<MediumColumns>& b) {

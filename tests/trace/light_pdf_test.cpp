@@ -13,11 +13,9 @@ namespace {
 
 Sampler<float> sampler_of(std::uint32_t i) { return Sampler<float>::of(1, i, i >> 12, i * 7u); }
 
-Vec3d vector_of(const Column<float> (&columns)[3], int k) { return {columns[0][k], columns[1][k], columns[2][k]}; }
-
 /// Distance at which a line from the point meets light k; 0: it does not.
 double distance_to(const Lights& lights, int k, Vec3d point, Vec3d direction) {
-  const Vec3d to_corner = vector_of(lights.corner, k) - point;
+  const Vec3d to_corner = to_double(lights.corner[k]) - point;
   if (lights.kind[k] == Lights::sphere) {
     const double middle = dot(to_corner, direction), radius = lights.length_u[k];
     const Vec3d across = to_corner - middle * direction;
@@ -26,7 +24,7 @@ double distance_to(const Lights& lights, int k, Vec3d point, Vec3d direction) {
     const double near = middle - std::sqrt(square);
     return near > 0 ? near : std::max(middle + std::sqrt(square), 0.0);
   }
-  const Vec3d u = vector_of(lights.edge_u, k), v = vector_of(lights.edge_v, k), n = cross(u, v);
+  const Vec3d u = to_double(lights.edge_u[k]), v = to_double(lights.edge_v[k]), n = cross(u, v);
   const double t = dot(to_corner, n) / dot(direction, n);
   const Vec3d at = t * direction - to_corner;
   const double a = dot(cross(at, v), n) / dot(n, n), b = dot(cross(u, at), n) / dot(n, n);
