@@ -1,9 +1,9 @@
 #pragma once
-#include "core/base/column.h"
 #include "core/base/kinds.h"
 #include "core/base/random.h"
 #include "core/base/vec.h"
 #include "core/compile/bvh.h"
+#include "core/compile/column.h"
 #include "core/compile/sky_columns.h"
 #include "core/materials/materials.h"
 #include "core/scene/integrator.h"

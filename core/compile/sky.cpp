@@ -139,12 +139,12 @@ SkyColumns sky_columns(const Background& background, bool is_sampled, const SkyC
   out.irradiance = static_cast<float>(distribution.irradiance * sky->scale);
   if (!out.is_sampled()) return out;
   out.distribution = distribution;
-  const auto turned = [&](Vec3d v) {
+  const auto in_scene = [&](Vec3d v) {
     const auto c = static_cast<double>(out.cos), s = static_cast<double>(out.sin);
     return to_float(Vec3d{c * v.x + s * v.z, v.y, c * v.z - s * v.x});
   };
   const SkySun& sun = distribution.sun;
-  out.sun_axis = turned(sun.axis), out.sun_edge_u = turned(sun.edge_u), out.sun_edge_v = turned(sun.edge_v);
+  out.sun_axis = in_scene(sun.axis), out.sun_edge_u = in_scene(sun.edge_u), out.sun_edge_v = in_scene(sun.edge_v);
   out.sun_tangent = static_cast<float>(sun.tangent);
   return out;
 }

@@ -1,6 +1,6 @@
 #pragma once
-#include "core/base/column.h"
 #include "core/base/vec.h"
+#include "core/compile/column.h"
 #include "core/textures/image.h"
 
 #include <cstdint>

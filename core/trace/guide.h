@@ -1,5 +1,5 @@
 #pragma once
-#include "core/base/column.h"
+#include "core/compile/column.h"
 
 /// The guide of a scene; core/guide explains and makes it.
 namespace tyndall {
