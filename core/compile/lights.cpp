@@ -259,8 +259,7 @@ Lights collect_lights(const Scene& scene, const Flattened& flat, const std::vect
     std::visit(Collector{out, shape.placement, origin, {brightness, first_element[i]}}, shape.shape);
   }
   elements.light.assign(elements.material.size(), -1);
-  for (int k = 0; k < out.count(); ++k)
-    elements.light[static_cast<std::size_t>(out.element[static_cast<std::size_t>(k)])] = k;
+  for (int k = 0; k < out.count(); ++k) elements.light[out.element[k]] = k;
   if (!out.inner.empty()) out.inner.resize(out.kind.size());
   build_light_tree(out);
   return out;
@@ -268,17 +267,14 @@ Lights collect_lights(const Scene& scene, const Flattened& flat, const std::vect
 
 NearLights find_near_lights(const RenderScene& s) {
   NearLights near;
-  for (std::size_t m = 0; m < s.media.size(); ++m)
-    for (std::size_t k = 0; k < s.lights.kind.size(); ++k) {
-      if (!pays(s.media[m], s.lights.center[k], std::sqrt(s.lights.reach2[k]), s.camera.center)) continue;
-      near.medium.push_back(static_cast<std::int32_t>(m));
-      near.light.push_back(static_cast<std::int32_t>(k));
-    }
+  for (int m = 0; m < s.media.count(); ++m)
+    for (int k = 0; k < s.lights.count(); ++k)
+      if (pays(s.media[m], s.lights.center[k], std::sqrt(s.lights.reach2[k]), s.camera.center))
+        near.medium.push_back(m), near.light.push_back(k);
   if (near.medium.empty()) return near;
   near.probability.assign(s.media.size() * s.lights.kind.size(), 0);
-  for (std::size_t i = 0; i < near.medium.size(); ++i)
-    near.probability[static_cast<std::size_t>(near.medium[i]) * s.lights.kind.size() +
-                     static_cast<std::size_t>(near.light[i])] = 1 / static_cast<float>(near.medium.size());
+  for (int i = 0; i < near.medium.count(); ++i)
+    near.probability[near.medium[i] * s.lights.count() + near.light[i]] = 1 / static_cast<float>(near.medium.size());
   return near;
 }
 

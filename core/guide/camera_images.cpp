@@ -6,7 +6,7 @@
 #include "core/guide/things.h"
 #include "core/trace/camera.h"
 #include "core/trace/intersect.h"
-#include "core/trace/light_columns.h"
+#include "core/trace/light_choice.h"
 #include "core/trace/shade.h"
 
 #include <algorithm>

@@ -125,8 +125,8 @@ double chance_of_sky_caustics(const Scene& scene, const RenderScene& compiled) {
   const SpecularPairs& specular = compiled.specular;
   const auto has_sun_pair = [&](const CausticPart& thing) {
     if (specular.sun_pair_of.empty()) return false;
-    const std::int32_t sphere = specular.sphere_of[static_cast<std::size_t>(elements[thing.shape])];
-    return sphere >= 0 && specular.sun_pair_of[static_cast<std::size_t>(sphere / 2)] >= 0;
+    const std::int32_t sphere = specular.sphere_of[elements[thing.shape]];
+    return sphere >= 0 && specular.sun_pair_of[sphere / 2] >= 0;
   };
   const SkyDistribution& sky = compiled.sky.distribution;
   for (const CausticPart& thing : list_caustic_parts(scene, flat).smooth) {
@@ -167,13 +167,12 @@ double chance_of_caustics(const Scene& scene, const RenderScene& compiled, const
   const bool guided = guide && guide->lobes() > 0;
   if (specular.sphere.empty() && !guided) return chance_of_caustics(scene);
   const std::vector<std::int32_t> elements = first_elements(flatten(scene));
-  const std::size_t lights = compiled.lights.kind.size();
   const auto is_pair = [&](std::size_t light, std::size_t thing) {
     if (guided && guide->thing_of[thing] >= 0) return true;
     if (specular.sphere.empty()) return false;
     const std::int32_t light_index = compiled.elements.light[light], sphere = specular.sphere_of[thing];
     if (light_index < 0 || sphere < 0) return false;
-    return specular.pair_of[static_cast<std::size_t>(sphere / 2) * lights + static_cast<std::size_t>(light_index)] >= 0;
+    return specular.pair_of[sphere / 2 * compiled.lights.count() + light_index] >= 0;
   };
   return chance_of_caustics(scene, [&](std::size_t light, std::size_t shape) {
     for (std::int32_t i = elements[light]; i < elements[light + 1]; ++i)

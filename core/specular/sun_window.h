@@ -1,6 +1,6 @@
 #pragma once
 #include "core/specular/event_sequence.h"
-#include "core/trace/light_columns.h"
+#include "core/trace/light_choice.h"
 #include "core/trace/sky.h"
 
 /// The sun of a picture of the sky as specular paths at spheres know it.

@@ -159,7 +159,7 @@ struct SingleRay {
     else if (s.has_outlined() && leaf.kind == PrimitiveKind::outlined)
       best = test_outlined(s.outlined, leaf.first, last, ray, query, best);
     else
-      test_quads(s.quads, leaf.first, last, ray, query, best);
+      test_flats<false>(s.quads, leaf.first, last, ray, query, best);
   }
 
   TYNDALL_INLINE void run(const auto& s) {
