@@ -102,15 +102,11 @@ TYNDALL_INLINE Hit<F> closest_of_all(const auto& s, const Ray<F>& ray, MaskOf<F>
 }
 
 template <class F>
-TYNDALL_INLINE Hit<F> closest_in_tree(const auto& s, const Ray<F>& ray, MaskOf<F> active) {
+TYNDALL_INLINE Hit<F> closest(const auto& s, const Ray<F>& ray, MaskOf<F> active) {
+  if (s.bvh.nodes.empty()) return closest_of_all(s, ray, active);
   Hit<F> best{select(active, F(__builtin_inff()), F(-1.0f)), IntOf<F>(-1)};
   test_tree(s, ray, RayQuery<F, false, true>{F(0.0f), IntOf<F>(-1), -1}, best);
   return best;
-}
-
-template <class F>
-TYNDALL_INLINE Hit<F> closest(const auto& s, const Ray<F>& ray, MaskOf<F> active) {
-  return s.bvh.nodes ? closest_in_tree(s, ray, active) : closest_of_all(s, ray, active);
 }
 
 /// Lanes that hit anything but element `aim` before `distance`. If `aim` is a face of a box, the box's other faces do
@@ -119,10 +115,10 @@ template <class F>
 TYNDALL_INLINE MaskOf<F> blocked_towards(const auto& s, const Ray<F>& ray, F distance, IntOf<F> aim,
                                          std::int32_t common_aim, MaskOf<F> active) {
   Hit<F> best{select(active, distance, F(-1.0f)), IntOf<F>(-1)};
-  if (s.bvh.nodes)
-    test_tree(s, ray, RayQuery<F, true, true>{F(0.0f), aim, common_aim}, best);
-  else
+  if (s.bvh.nodes.empty())
     test_all(s, ray, RayQuery<F, true, false>{F(0.0f), aim, common_aim}, best);
+  else
+    test_tree(s, ray, RayQuery<F, true, true>{F(0.0f), aim, common_aim}, best);
   return less_equal(IntOf<F>(0), best.element);
 }
 

@@ -52,11 +52,12 @@ struct SubpixelLights {
   const SubpixelLight *first, *last;
 };
 
-/// Returns those in the rows [begin, end), from subpixel lights sorted by row.
-TYNDALL_INLINE SubpixelLights subpixel_lights_in_rows(SubpixelLights all, int begin, int end) {
-  while (all.first != all.last && all.first->y < static_cast<float>(begin)) ++all.first;
-  while (all.first != all.last && (all.last - 1)->y >= static_cast<float>(end)) --all.last;
-  return all;
+/// Returns those in the rows [begin, end). all: sorted by row.
+TYNDALL_INLINE SubpixelLights subpixel_lights_in_rows(const Column<SubpixelLight>& all, int begin, int end) {
+  SubpixelLights in{all, all + all.count()};
+  while (in.first != in.last && in.first->y < static_cast<float>(begin)) ++in.first;
+  while (in.first != in.last && (in.last - 1)->y >= static_cast<float>(end)) --in.last;
+  return in;
 }
 
 /// What samples in pixels with subpixel lights carry.
