@@ -10,6 +10,9 @@ double lens_radius(const Camera& camera);
 /// Fills in all but the surface on which the camera stands: see surroundings.h.
 CameraColumns camera_columns(const Camera& camera, int width, int height, Vec3d origin);
 BackgroundColumns background_columns(const Background& background);
+/// The columns of a picture of the sky. They are empty for other backgrounds. before: those of an earlier scene, whose
+/// distribution is taken over if the picture is the same; or null. is_sampled: the integrator samples lights.
+SkyColumns sky_columns(const Background& background, bool is_sampled, const SkyColumns* before);
 Materials material_columns(const std::vector<Material>& materials);
 Column<TextureColumns> texture_columns(const std::vector<Texture>& textures, Vec3d origin);
 /// 256 unit vectors for gradient noise, 3 floats each: the project's fixed table.

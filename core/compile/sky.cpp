@@ -1,5 +1,3 @@
-#include "core/compile/sky.h"
-
 #include "core/base/math.h"
 #include "core/compile/columns.h"
 #include "core/compile/sky_texels.h"
