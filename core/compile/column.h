@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+/// What compiled scenes are made of, for whoever fills it and for kernels.
 namespace tyndall {
 
 /// A list of values that kernels read where it lies. It grows like a std::vector. Copies share their values until one
