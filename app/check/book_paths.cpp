@@ -79,18 +79,15 @@ BookDirection scatter_glass(const Dielectric<float>& glass, const BookRules& rul
   return {out.direction, 1, false, out.flags.transmitted};
 }
 
-Vec3d to_double(Vec3f v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
-
 /// The distance above 0 at which the books' programs find an element, in their arithmetic, whose rounding puts a point
 /// of a surface a little outside or inside; negative: they do not find it. point: one of the element.
 double book_distance(const SceneView& s, std::int32_t element, Vec3f point, Vec3d origin, Vec3d direction, float time) {
-  const Vec3f at{s.x[element], s.y[element], s.z[element]};
-  if (s.inverse_radius[element] == 0)
+  const Vec3f at = s.elements.center_or_normal[element];
+  if (s.elements.inverse_radius[element] == 0)
     return dot(to_double(at), to_double(point) - origin) / dot(to_double(at), direction);
-  const Vec3f move =
-      s.features.moving_spheres ? Vec3f{s.move_x[element], s.move_y[element], s.move_z[element]} : Vec3f{};
+  const Vec3f move = s.features.moving_spheres ? s.elements.move[element] : Vec3f{};
   const Vec3d to_center = to_double(at + time * move) - origin;
-  const double radius = 1 / static_cast<double>(s.inverse_radius[element]);
+  const double radius = 1 / static_cast<double>(s.elements.inverse_radius[element]);
   const double a = dot(direction, direction), h = dot(direction, to_center);
   const double c = dot(to_center, to_center) - radius * radius, root = std::sqrt(std::max(0.0, h * h - a * c));
   return (h - root) / a > 0 ? (h - root) / a : (h + root) / a;
@@ -183,7 +180,7 @@ class BookPaths {
   bool meet_surface(BookPath& p, const TraceHit& hit) {
     const SurfacePoint<float> at = surface_at(s_, p.ray, hit.t, hit.element);
     const Vec3f colour = surface_colour(s_, at, true);
-    const std::int32_t kind = s_.kind[at.material];
+    const std::int32_t kind = s_.materials.kind[at.material];
     if (has_trait<&BsdfTraits::emits>(kind)) return find_light(p, colour);
     if (p.depth >= s_.max_depth) return false;
     const float towards = dot(p.ray.direction, at.normal);
@@ -219,8 +216,7 @@ class BookPaths {
   }
 
   bool moves(std::int32_t element) const {
-    return s_.features.moving_spheres &&
-           (s_.move_x[element] != 0 || s_.move_y[element] != 0 || s_.move_z[element] != 0);
+    return s_.features.moving_spheres && !(s_.elements.move[element] == Vec3f{});
   }
 
   BookDirection scatter(const BookPath& p, const SurfacePoint<float>& at, std::int32_t kind,
@@ -246,10 +242,8 @@ class BookPaths {
 
 std::vector<BookSample> book_samples(const BookProgram& program, const Lattice& lattice, int count, ThreadPool& threads,
                                      const std::function<bool()>& go_on) {
-  RenderScene columns = compile(program.scene);
-  if (program.columns) program.columns(columns);
-  const std::vector<TextureView> textures = texture_views(columns);
-  const SceneView scene = view_of(columns, textures);
+  SceneView scene{compile(program.scene)};
+  if (program.columns) program.columns(scene);
   const Kernels kernels = *choose_kernels("");
   std::vector<BookSample> samples(lattice.pixels() * static_cast<std::size_t>(count));
   const int pixels = static_cast<int>(lattice.pixels()), pixels_per_job = std::max(1, paths_per_job / count);

@@ -22,7 +22,7 @@ int seen_medium(const SceneView& view, int x, int y, float distance) {
       camera_ray(view.camera, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, Pair<float>{0, 0}, time);
   int seen = -1;
   float max_depth = seen_depth;
-  for (int k = 0; k < view.medium_count; ++k) {
+  for (int k = 0; k < view.media.count(); ++k) {
     const MediumColumns& medium = view.media[k];
     const Interval<float> inside = medium_interval(medium, ray.origin, ray.direction, ray.from);
     if (!inside.hit) continue;
@@ -56,18 +56,16 @@ SeenObjects::Object describe(const Scene& scene, const std::vector<int>& path) {
 }  // namespace
 
 SeenObjects seen_objects(const Scene& scene, const Lattice& lattice) {
-  const RenderScene columns = compile(scene);
-  const std::vector<TextureView> textures = texture_views(columns);
-  const SceneView view = view_of(columns, textures);
+  const SceneView view{compile(scene)};
   const Kernels kernels = *choose_kernels("");
   SeenObjects seen{{{"the sky", "sky"}}, {}};  // the media follow, and the others as they are seen
   for (const std::vector<int>& path : media_of(scene)) seen.objects.push_back(describe(scene, path));
   std::map<std::int32_t, int> numbers;
   const auto number_of = [&](std::int32_t element) {
     if (element < 0) return 0;
-    const std::int32_t object = columns.elements.object[static_cast<std::size_t>(element)];
+    const std::int32_t object = view.elements.object[element];
     const auto [place, is_new] = numbers.try_emplace(object, static_cast<int>(seen.objects.size()));
-    if (is_new) seen.objects.push_back(describe(scene, columns.objects.path(object)));
+    if (is_new) seen.objects.push_back(describe(scene, view.objects.path(object)));
     return place->second;
   };
   std::vector<FirstHit> hits(static_cast<std::size_t>(lattice.width));

@@ -9,6 +9,7 @@
 #include "core/base/text.h"
 #include "core/compile/compile.h"
 #include "core/film/film.h"
+#include "core/guide/find_guide.h"
 #include "core/render/prepare.h"
 
 #include <fmt/core.h>
@@ -41,7 +42,7 @@ std::string listed(const std::map<std::string, int>& counts, bool nouns) {
 }
 
 /// The objects that elements belong to, the first few by name.
-std::string named(const Report& report, const std::vector<std::int32_t>& elements) {
+std::string named(const Report& report, const auto& elements) {
   constexpr std::size_t maximum = 3;
   std::string text;
   for (std::size_t i = 0; i < std::min(elements.size(), maximum); ++i)
@@ -72,7 +73,7 @@ std::string specular_paths_text(const Report& report) {
   for (const float index : specular.index) mirrors += index == 0 ? 1 : 0;
   for (const float radius : specular.inner_radius) shells += radius > 0 ? 1 : 0;
   const int solid = specular.first_mirror - mirrors - shells;
-  std::vector<std::int32_t> lights = specular.light;
+  std::vector<std::int32_t> lights(specular.light.begin(), specular.light.end());
   std::sort(lights.begin(), lights.end());
   lights.erase(std::unique(lights.begin(), lights.end()), lights.end());
   std::string text;
@@ -144,7 +145,7 @@ std::string background_text(const Report& report) {
          fmt::format(
              ", sampled as a light; as bright as if its light filled {:.2g} of all directions; by chance: through "
              "and off glass and mirrors{}",
-             report.prepared->columns().sky.distribution->spread,
+             report.prepared->columns().sky.distribution.spread,
              report.prepared->columns().specular.sun_pair_of.empty() ? "" : ", but for what chains find");
 }
 
@@ -236,9 +237,10 @@ void add_methods(const Report& report, const Kernels& kernels, bool measure, Ans
   answer.add("background", background_text(report), {{"background", c.background}});
   answer.add("motion", c.motion ? "yes" : "no", {{"motion", c.motion}});
   answer.add("defocus", c.defocus ? "yes" : "no", {{"defocus", c.defocus}});
+  const bool in_tree = !columns.bvh.nodes.empty();
   answer.add("primitives",
-             std::to_string(columns.primitives()) + (columns.bvh ? ", in a tree" : ", each tested for every ray"),
-             {{"primitives", columns.primitives()}, {"tree", columns.bvh != nullptr}});
+             std::to_string(columns.primitives()) + (in_tree ? ", in a tree" : ", each tested for every ray"),
+             {{"primitives", columns.primitives()}, {"tree", in_tree}});
   const auto models = names_of(columns.features);
   answer.add("models", joined(models), {{"kernel_features", models}});
   const char* kernel = name_of(kernels.set_for(report.prepared->view()));

@@ -2,7 +2,6 @@
 #include "core/base/kinds.h"
 #include "core/base/text.h"
 #include "core/compile/columns.h"
-#include "core/compile/sky.h"
 #include "core/trace/sky.h"
 
 #include <fmt/core.h>
@@ -42,8 +41,7 @@ Vec3d direction_of(double x, double y) {
 /// A sky's picture, in the layout that pbrt reads: a square that has about as many pixels. Each pixel is a mean over
 /// some of its area, so that a sun of one texel keeps its light.
 LinearImage square_sky(const SkyPicture& picture) {
-  const SkyColumns columns = sky_columns(picture, false, nullptr);
-  const SkyView sky = view_of(columns);
+  const SkyColumns sky = sky_columns(picture, false, nullptr);
   constexpr int parts = 4;
   int edge = 512;
   while (edge < picture.pixels->width && edge < 4096) edge *= 2;

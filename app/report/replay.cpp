@@ -12,8 +12,6 @@
 namespace tyndall {
 namespace {
 
-Vec3d exact(Vec3f v) { return {v.x, v.y, v.z}; }
-
 std::string text_of(Vec3d v) { return fmt::format("{:.9g} {:.9g} {:.9g}", v.x, v.y, v.z); }
 
 const char* fate_text(Fate fate) {
@@ -86,17 +84,17 @@ std::string replay_text(const Scene& scene, const RenderScene& compiled, const P
   std::string text;
   const auto row = [&text](const char* name, Vec3d v) { text += std::string("    ") + name + text_of(v) + "\n"; };
   text += "0 camera\n";
-  row("point       ", exact(path.origin) + compiled.origin);
+  row("point       ", to_double(path.origin) + compiled.origin);
   int number = 0;
   for (const PathVertex& v : path.vertices) {
     text += std::to_string(++number) + " " + branch_text(v) + heading(scene, compiled, v) + "\n";
-    if (v.met != Met::nothing) row("point       ", exact(v.point) + compiled.origin);
-    row("came by     ", exact(v.direction));
-    row("throughput  ", exact(v.throughput));
+    if (v.met != Met::nothing) row("point       ", to_double(v.point) + compiled.origin);
+    row("came by     ", to_double(v.direction));
+    row("throughput  ", to_double(v.throughput));
     if (v.kept != 1)
       text += fmt::format("    by smoke    {:.3g} of what it carried before\n", static_cast<double>(v.kept));
-    row("radiance    ", exact(v.radiance));
-    if (!(v.by_specular_paths == Vec3f{})) row("by chains   ", exact(v.by_specular_paths));
+    row("radiance    ", to_double(v.radiance));
+    if (!(v.by_specular_paths == Vec3f{})) row("by chains   ", to_double(v.by_specular_paths));
     if (v.chance < 1)
       text += fmt::format("    by chance   this lamp counts {:.3g}, as chains find it, too\n",
                           static_cast<double>(v.chance));
@@ -107,7 +105,7 @@ std::string replay_text(const Scene& scene, const RenderScene& compiled, const P
     text +=
         "shared: instead of what comes by way of its own second vertex, the sample takes a part of what leaves "
         "those of eight pixels\n";
-  return text + "sample " + text_of(exact(path.radiance)) + "\n";
+  return text + "sample " + text_of(to_double(path.radiance)) + "\n";
 }
 
 NoisyPath find_noisy_path(const SceneView& scene, int x, int y, std::uint32_t samples,
@@ -132,7 +130,7 @@ std::vector<PathStop> stops_of(const Scene& scene, const RenderScene& compiled, 
     PathStop stop;
     stop.before = v.before;
     stop.away = v.met == Met::nothing;
-    stop.point = stop.away ? exact(v.direction) : exact(v.point) + compiled.origin;
+    stop.point = stop.away ? to_double(v.direction) : to_double(v.point) + compiled.origin;
     const bool continues = v.before >= 0 && !v.branch;
     const Vec3f gained =
         v.radiance - (continues ? path.vertices[static_cast<std::size_t>(v.before)].radiance : Vec3f{});

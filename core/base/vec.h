@@ -22,6 +22,11 @@ requires(lanes_of<F> > 1) struct Vec3<F> {
 using Vec3f = Vec3<float>;
 using Vec3d = Vec3<double>;
 
+inline Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+inline Vec3d to_double(Vec3f v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
+
 template <class F>
 TYNDALL_INLINE Vec3<F> operator+(Vec3<F> a, Vec3<F> b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <utility>
 
 namespace tyndall {
 namespace {
@@ -36,7 +35,7 @@ class Widener {
       int binary, node, depth;
     };
     weigh();
-    out_.nodes.emplace_back();
+    out_.nodes.push_back({});
     std::vector<Task> tasks{{0, 0, 1}};
     while (!tasks.empty()) {
       const Task task = tasks.back();
@@ -51,7 +50,7 @@ class Widener {
           node.child[c] = ~make_leaf(binary(children[c]));
         } else {
           node.child[c] = static_cast<std::int32_t>(out_.nodes.size());
-          out_.nodes.emplace_back();
+          out_.nodes.push_back({});
           tasks.push_back({children[c], node.child[c], task.depth + 1});
         }
       }
@@ -155,10 +154,10 @@ class Widener {
 
 }  // namespace
 
-Bvh build_bvh(std::vector<BvhInput> input) {
+Bvh build_bvh(const Column<BvhInput>& input) {
   assert(!input.empty() && input.size() <= bvh_max_primitives);
   Bvh bvh;
-  bvh.input = std::move(input);
+  bvh.input = input;
   const BinaryTree tree = build_binary_tree(bvh.input);
   Widener(tree, bvh).run();
   return bvh;

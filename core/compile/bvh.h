@@ -2,7 +2,6 @@
 #include "core/compile/bvh_binary.h"
 
 #include <cstdint>
-#include <vector>
 
 /// The bounding volume hierarchy (BVH): a tree of boxes by which rays find the few primitives that they may hit.
 namespace tyndall {
@@ -30,18 +29,18 @@ struct BvhLeaf {
 /// A tree of axis-parallel boxes over primitives. The boxes of children lie exactly within their parent's box, also in
 /// float; the traversal relies on this.
 struct Bvh {
-  std::vector<BvhNode> nodes;  ///< node 0 is the root; never empty
-  std::vector<BvhLeaf> leaves;
-  std::vector<std::int32_t> order;  ///< the inputs in the order of the tree's leaves; the columns of each kind of
-                                    ///< primitive (RenderScene) are filled in this order
-  std::vector<BvhInput> input;      ///< what it was built from: equal input, equal tree
-  int depth = 0;                    ///< of the deepest node, root 1: bounds the traversal's stack
+  Column<BvhNode> nodes;  ///< node 0 is the root; empty: there is no tree
+  Column<BvhLeaf> leaves;
+  Column<std::int32_t> order;  ///< the inputs in the order of the tree's leaves; the columns of each kind of primitive
+                               ///< (RenderScene) are filled in this order
+  Column<BvhInput> input;      ///< what it was built from: equal input, equal tree
+  int depth = 0;               ///< of the deepest node, root 1: bounds the traversal's stack
 };
 
 /// Builds with the surface area heuristic (J. MacDonald, K. Booth, Heuristics for Ray Tracing Using Space Subdivision,
 /// The Visual Computer 6(3), 1990) over bins (I. Wald, On Fast Construction of SAH-based Bounding Volume Hierarchies,
 /// IEEE Symposium on Interactive Ray Tracing, 2007). A pure function of the input. Identical centroids are split in the
 /// middle of the list.
-Bvh build_bvh(std::vector<BvhInput> input);
+Bvh build_bvh(const Column<BvhInput>& input);
 
 }  // namespace tyndall

@@ -57,7 +57,7 @@ struct Plane {
 
 class Builder {
  public:
-  explicit Builder(const std::vector<BvhInput>& input) {
+  explicit Builder(const Column<BvhInput>& input) {
     items_.reserve(input.size());
     for (const BvhInput& one : input) items_.push_back({one, static_cast<int>(items_.size())});
     scratch_ = items_;
@@ -266,6 +266,6 @@ float half_area(const Bounds& b) {
   return d.x * d.y + d.y * d.z + d.z * d.x;
 }
 
-BinaryTree build_binary_tree(const std::vector<BvhInput>& input) { return Builder(input).build(); }
+BinaryTree build_binary_tree(const Column<BvhInput>& input) { return Builder(input).build(); }
 
 }  // namespace tyndall

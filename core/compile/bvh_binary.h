@@ -1,5 +1,6 @@
 #pragma once
 #include "core/base/vec.h"
+#include "core/compile/column.h"
 
 #include <cstdint>
 #include <vector>
@@ -39,6 +40,6 @@ float half_area(const Bounds& b);
 
 /// Splits by the surface area heuristic over bins. Several threads build large subtrees; the result is a pure function
 /// of the input.
-BinaryTree build_binary_tree(const std::vector<BvhInput>& input);
+BinaryTree build_binary_tree(const Column<BvhInput>& input);
 
 }  // namespace tyndall

@@ -47,6 +47,7 @@ void fill(TextureColumns& out, const Image& image, Vec3d) {
   out.width = image.pixels->width;
   out.height = image.pixels->height;
   out.pixels = image.pixels;
+  out.texels = image.pixels->rgb.data();
 }
 
 void set_row(Affine& map, int i, Vec3d row, Vec3d zero_at) {
@@ -62,10 +63,9 @@ struct Appender {
   const Checker<>* checker;
   Elements& to;
 
-  void append(Vec3f xyz, float inverse_radius, Vec3f move, double plane) const {
-    to.x.push_back(xyz.x), to.y.push_back(xyz.y), to.z.push_back(xyz.z);
-    to.inverse_radius.push_back(inverse_radius);
-    if (more.motion) to.move_x.push_back(move.x), to.move_y.push_back(move.y), to.move_z.push_back(move.z);
+  void append(Vec3f center_or_normal, float inverse_radius, Vec3f move, double plane) const {
+    to.center_or_normal.push_back(center_or_normal), to.inverse_radius.push_back(inverse_radius);
+    if (more.motion) to.move.push_back(move);
     if (more.plane) to.plane.push_back(static_cast<float>(plane));
     if (more.disk) to.disk.push_back(std::holds_alternative<Disk<>>(shape.shape) ? 1 : 0);
     to.material.push_back(shape.material);
@@ -119,12 +119,6 @@ struct Appender {
 
 }  // namespace
 
-void push(std::vector<float> (&columns)[3], Vec3d v) {
-  columns[0].push_back(static_cast<float>(v.x));
-  columns[1].push_back(static_cast<float>(v.y));
-  columns[2].push_back(static_cast<float>(v.z));
-}
-
 double lens_radius(const Camera& camera) {
   return focus_distance(camera) * tangent(0.5 * camera.defocus_angle * radians);
 }
@@ -172,10 +166,7 @@ Materials material_columns(const std::vector<Material>& materials) {
     out.kind.push_back(static_cast<std::int32_t>(material.kind.index()));
     const auto* texture = std::get_if<TextureIndex>(&material.colour);
     const bool coloured = colour_name(material.kind) != nullptr;
-    const Vec3f colour = coloured && !texture ? to_float(std::get<Vec3d>(material.colour)) : Vec3f{1, 1, 1};
-    out.red.push_back(colour.x);
-    out.green.push_back(colour.y);
-    out.blue.push_back(colour.z);
+    out.colour.push_back(coloured && !texture ? to_float(std::get<Vec3d>(material.colour)) : Vec3f{1, 1, 1});
     out.texture.push_back(coloured && texture ? texture->index : -1);
     for (auto& column : out.parameter) column.push_back(0);
     std::visit(
@@ -189,24 +180,24 @@ Materials material_columns(const std::vector<Material>& materials) {
   return out;
 }
 
-std::vector<TextureColumns> texture_columns(const std::vector<Texture>& textures, Vec3d origin) {
-  std::vector<TextureColumns> out;
+Column<TextureColumns> texture_columns(const std::vector<Texture>& textures, Vec3d origin) {
+  Column<TextureColumns> out;
   for (const Texture& texture : textures) {
     TextureColumns columns;
     columns.kind = static_cast<std::int32_t>(texture.kind.index());
     std::visit([&](const auto& t) { fill(columns, t, origin); }, texture.kind);
-    out.push_back(std::move(columns));
+    out.push_back(columns);
   }
   return out;
 }
 
-std::shared_ptr<const std::vector<float>> gradient_table() {
-  auto table = std::make_shared<std::vector<float>>();
+Column<float> gradient_table() {
+  Column<float> table;
   for (std::uint32_t i = 0; i < 256; ++i) {
     const double z = 1 - 2 * unit_interval<double>(hash(2 * i + 1)),
                  phi = 2 * pi * unit_interval<double>(hash(2 * i + 2));
     const double r = std::sqrt(1 - z * z);
-    for (const double c : {r * cosine(phi), r * sine(phi), z}) table->push_back(static_cast<float>(c));
+    for (const double c : {r * cosine(phi), r * sine(phi), z}) table.push_back(static_cast<float>(c));
   }
   return table;
 }

@@ -5,20 +5,18 @@
 /// The second half of compiling: converts each part of the scene to columns of floats.
 namespace tyndall {
 
-inline Vec3f to_float(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
-
-/// Appends a vector to its three columns.
-void push(std::vector<float> (&columns)[3], Vec3d v);
-
 /// Of the whole lens, scene units; 0: a pinhole.
 double lens_radius(const Camera& camera);
 /// Fills in all but the surface on which the camera stands: see surroundings.h.
 CameraColumns camera_columns(const Camera& camera, int width, int height, Vec3d origin);
 BackgroundColumns background_columns(const Background& background);
+/// The columns of a picture of the sky. They are empty for other backgrounds. before: those of an earlier scene, whose
+/// distribution is taken over if the picture is the same; or null. is_sampled: the integrator samples lights.
+SkyColumns sky_columns(const Background& background, bool is_sampled, const SkyColumns* before);
 Materials material_columns(const std::vector<Material>& materials);
-std::vector<TextureColumns> texture_columns(const std::vector<Texture>& textures, Vec3d origin);
+Column<TextureColumns> texture_columns(const std::vector<Texture>& textures, Vec3d origin);
 /// 256 unit vectors for gradient noise, 3 floats each: the project's fixed table.
-std::shared_ptr<const std::vector<float>> gradient_table();
+Column<float> gradient_table();
 
 /// For a point p = corner + a u + b v: a and b are the dot products of p - corner with the members a and b.
 struct Reciprocal {

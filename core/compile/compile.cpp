@@ -3,7 +3,6 @@
 #include "core/compile/columns.h"
 #include "core/compile/flatten.h"
 #include "core/compile/lights.h"
-#include "core/compile/sky.h"
 #include "core/compile/specular_pairs.h"
 #include "core/compile/surroundings.h"
 #include "core/film/film.h"
@@ -11,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace tyndall {
@@ -73,20 +73,18 @@ struct SlotFiller {
 
   void operator()(const Sphere<>& s) const {
     Spheres& to = s.center_end ? out.moving_spheres : out.spheres;
-    const Vec3f center = to_float(place(placement, s.center) - out.origin);
-    to.x.push_back(center.x), to.y.push_back(center.y), to.z.push_back(center.z);
+    to.center.push_back(to_float(place(placement, s.center) - out.origin));
     to.radius.push_back(static_cast<float>(std::abs(s.radius)));
     to.element.push_back(element);
-    if (!s.center_end) return;
-    const Vec3f motion = to_float(rotate(placement, *s.center_end - s.center));
-    to.move_x.push_back(motion.x), to.move_y.push_back(motion.y), to.move_z.push_back(motion.z);
+    if (s.center_end) to.move.push_back(to_float(rotate(placement, *s.center_end - s.center)));
   }
   void operator()(const Quad<>& q) const {
     out.quads.map.push_back(quad_map(q, placement, out.origin));
     out.quads.element.push_back(element);
   }
   void operator()(const Box<>& b) const {
-    const Affine& map = out.boxes.map.emplace_back(box_map(b, placement, out.origin));
+    const Affine map = box_map(b, placement, out.origin);
+    out.boxes.map.push_back(map);
     for (std::size_t row = 0; row < 3; ++row) {
       const Vec3f r = map.row[row];
       out.boxes.column[3 * row].push_back(r.x), out.boxes.column[3 * row + 1].push_back(r.y);
@@ -108,23 +106,23 @@ struct SlotFiller {
 
 /// Builds the tree if there are enough primitives, and returns the order in which primitives fill the columns. The tree
 /// of `before` is kept if the geometry is equal.
-std::vector<std::int32_t> choose_tree(const Flattened& flat, const Camera& camera, const RenderScene* before,
-                                      RenderScene& out) {
-  std::vector<std::int32_t> order(flat.shapes.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int32_t>(i);
+Column<std::int32_t> choose_tree(const Flattened& flat, const Camera& camera, const RenderScene* before,
+                                 RenderScene& out) {
   if (flat.shapes.size() <= max_by_brute_force) {
+    Column<std::int32_t> order;
+    order.resize(flat.shapes.size());
+    std::iota(order.begin(), order.end(), 0);
     const auto bounding = std::stable_partition(order.begin(), order.end(), [&](std::int32_t i) {
       return out.sky.pixels || !bounds_scene(flat, static_cast<std::size_t>(i), camera);  // the sky is behind walls
     });
     out.quads.bounding = static_cast<int>(order.end() - bounding);
     return order;
   }
-  std::vector<BvhInput> input;
+  Column<BvhInput> input;
   input.reserve(flat.shapes.size());
   for (const PlacedShape& s : flat.shapes) input.push_back({bounds_of(extent_of(s, camera), out.origin), kind_of(s)});
-  const bool kept = before && before->bvh && before->bvh->input == input;
-  out.bvh = kept ? before->bvh : std::make_shared<const Bvh>(build_bvh(std::move(input)));
-  return out.bvh->order;
+  out.bvh = before && before->bvh.input == input ? before->bvh : build_bvh(input);
+  return out.bvh.order;
 }
 
 /// The checker of a material; null: it has another texture or none.
@@ -232,7 +230,7 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
   out.materials = material_columns(scene.materials);
   out.textures = texture_columns(scene.textures, out.origin);
   for (const TextureColumns& t : out.textures)
-    if (t.kind == place_in<Noise<>, TextureKinds<double>> && !out.gradients) out.gradients = gradient_table();
+    if (t.kind == place_in<Noise<>, TextureKinds<double>> && out.gradients.empty()) out.gradients = gradient_table();
   fill_geometry(flat, scene, before, out);
   out.max_depth = scene.render.max_depth;
   out.seed = scene.render.seed;
@@ -254,8 +252,7 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
 }
 
 int RenderScene::primitives() const {
-  return static_cast<int>(spheres.x.size() + moving_spheres.x.size() + quads.map.size() + boxes.map.size() +
-                          outlined.map.size());
+  return spheres.count() + moving_spheres.count() + quads.count() + boxes.count() + outlined.count();
 }
 
 const char* name_of(KernelSet set) {
@@ -278,15 +275,14 @@ const char* name_of(KernelSet set) {
 
 std::size_t bytes_of(const RenderScene& s) {
   const std::size_t sphere = 5 * sizeof(float), element = 9 * sizeof(float);
-  std::size_t bytes = sizeof s + sphere * s.spheres.x.size() + (sphere + 12) * s.moving_spheres.x.size();
+  std::size_t bytes = sizeof s + sphere * s.spheres.radius.size() + (sphere + 12) * s.moving_spheres.radius.size();
   bytes += (sizeof(Affine) + 4) * (s.quads.map.size() + 2 * s.boxes.map.size());
   bytes += (sizeof(Affine) + sizeof(Outline) + 4) * s.outlined.map.size();
   bytes += element * static_cast<std::size_t>(s.elements.count()) + sizeof(float) * s.elements.uv.size();
-  if (s.bvh)
-    bytes += sizeof(BvhNode) * s.bvh->nodes.size() + sizeof(BvhLeaf) * s.bvh->leaves.size() +
-             (sizeof(BvhInput) + 4) * s.bvh->input.size();
+  bytes += sizeof(BvhNode) * s.bvh.nodes.size() + sizeof(BvhLeaf) * s.bvh.leaves.size() +
+           (sizeof(BvhInput) + 4) * s.bvh.input.size();
   if (s.sky.pixels) bytes += sizeof(float) * s.sky.pixels->rgb.size();
-  if (s.sky.distribution) bytes += sizeof(std::int32_t) * s.sky.distribution->column_ends.size();
+  bytes += sizeof(std::int32_t) * s.sky.distribution.column_ends.size();
   for (const TextureColumns& t : s.textures)
     if (t.pixels) bytes += sizeof(float) * t.pixels->rgb.size();
   return bytes;

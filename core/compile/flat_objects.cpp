@@ -195,7 +195,7 @@ std::vector<Receiver> list_receivers(const Flattened& flat, const Scene& scene) 
 
 double worth_of(const FlatMirror& m, const Lights& lights, std::size_t k, Vec3d origin,
                 const std::vector<Receiver>& receivers) {
-  const Vec3d light = Vec3d{lights.center[0][k], lights.center[1][k], lights.center[2][k]} + origin;
+  const Vec3d light = to_double(lights.center[k]) + origin;
   const Vec3d to_light = light - m.middle;
   const double height = dot(to_light, m.normal), reach = std::sqrt(static_cast<double>(lights.reach2[k]));
   if (height == 0) return 0;
@@ -213,13 +213,14 @@ double worth_of(const FlatMirror& m, const Lights& lights, std::size_t k, Vec3d 
   return static_cast<double>(lights.power[k]) * std::min(fraction, 1.0);
 }
 
-void append_numbers(const FlatMirror& m, Vec3d origin, std::vector<float>& numbers) {
+MirrorRecord record_of(const FlatMirror& m, Vec3d origin) {
   const Reciprocal r = reciprocal_edges(m.u, m.v);
-  const Vec3d middle = m.middle - origin, rows[] = {r.a, r.b, m.normal};
-  const auto add = [&](double value) { numbers.push_back(static_cast<float>(value)); };
-  for (const Vec3d& row : rows) add(row.x), add(row.y), add(row.z);
-  for (const Vec3d& row : rows) add(-dot(row, middle));
-  add(length(r.a)), add(length(r.b));
+  const auto offset = [&](Vec3d row) { return static_cast<float>(-dot(row, m.middle - origin)); };
+  return {{to_float(r.a), to_float(r.b)},
+          to_float(m.normal),
+          {offset(r.a), offset(r.b)},
+          offset(m.normal),
+          {static_cast<float>(length(r.a)), static_cast<float>(length(r.b))}};
 }
 
 std::vector<Slab> list_slabs(const Flattened& flat, const std::vector<Flat>& flats, const Scene& scene) {
@@ -242,7 +243,7 @@ std::vector<Slab> list_slabs(const Flattened& flat, const std::vector<Flat>& fla
 }
 
 double worth_of(const Slab& slab, const Lights& lights, std::size_t k, Vec3d origin) {
-  const Vec3d light = Vec3d{lights.center[0][k], lights.center[1][k], lights.center[2][k]} + origin;
+  const Vec3d light = to_double(lights.center[k]) + origin;
   const double distance = distance_to(slab, light), reach = std::sqrt(static_cast<double>(lights.reach2[k]));
   if (reach > widest_light * distance) return 0;
   double area = 0;  // as seen from the light
@@ -252,12 +253,15 @@ double worth_of(const Slab& slab, const Lights& lights, std::size_t k, Vec3d ori
   return static_cast<double>(lights.power[k]) * std::min(area / (distance * distance), 1.0);
 }
 
-void append_numbers(const Slab& p, Vec3d origin, std::vector<float>& numbers) {
-  const auto add = [&](double value) { numbers.push_back(static_cast<float>(value)); };
-  for (const Vec3d& edge : p.edge) add(edge.x), add(edge.y), add(edge.z);
-  for (const Vec3d& edge : p.edge) add(-dot(edge, p.middle - origin));
-  for (const double half : p.half) add(half);
-  add(p.index), add(p.medium_density), add(p.closed);
+SlabRecord record_of(const Slab& slab, Vec3d origin) {
+  SlabRecord out;
+  for (int k = 0; k < 3; ++k) {
+    out.row[k] = to_float(slab.edge[k]), out.half[k] = static_cast<float>(slab.half[k]);
+    out.offset[k] = static_cast<float>(-dot(slab.edge[k], slab.middle - origin));
+  }
+  out.index = static_cast<float>(slab.index), out.medium_density = static_cast<float>(slab.medium_density);
+  out.closed = slab.closed;
+  return out;
 }
 
 }  // namespace tyndall

@@ -33,8 +33,7 @@ std::vector<Receiver> list_receivers(const Flattened& flat, const Scene& scene);
 double worth_of(const FlatMirror& mirror, const Lights& lights, std::size_t light, Vec3d origin,
                 const std::vector<Receiver>& receivers);
 
-/// Appends its numbers; see MirrorNumber.
-void append_numbers(const FlatMirror& mirror, Vec3d origin, std::vector<float>& numbers);
+MirrorRecord record_of(const FlatMirror& mirror, Vec3d origin);
 
 /// A box of glass, in world space.
 struct Slab {
@@ -44,7 +43,7 @@ struct Slab {
   double half[3] = {};        ///< half lengths of the edges
   double index = 1.5;         ///< of refraction
   double medium_density = 0;  ///< density within
-  int closed = 0;             ///< see SlabNumber
+  int closed = 0;             ///< see SlabRecord
 };
 
 /// The least refractive index at which light that enters a box by one face cannot leave by a face at right angles to
@@ -59,7 +58,6 @@ std::vector<Slab> list_slabs(const Flattened& flat, const std::vector<Flat>& fla
 /// are chosen by it. 0: the light is so large that BSDF sampling finds it well enough.
 double worth_of(const Slab& slab, const Lights& lights, std::size_t light, Vec3d origin);
 
-/// Appends its numbers; see SlabNumber.
-void append_numbers(const Slab& slab, Vec3d origin, std::vector<float>& numbers);
+SlabRecord record_of(const Slab& slab, Vec3d origin);
 
 }  // namespace tyndall

@@ -20,7 +20,7 @@ struct Emitter {
 void push_common(Lights& out, const Emitter& e, double area, Vec3d center, double reach) {
   out.element.push_back(e.element);
   out.area.push_back(static_cast<float>(area));
-  push(out.center, center);
+  out.center.push_back(to_float(center));
   out.power.push_back(static_cast<float>(area * e.brightness));
   out.reach2.push_back(static_cast<float>(reach * reach));
 }
@@ -30,10 +30,10 @@ void add_flat(Lights& out, const Emitter& e, Vec3d corner, Vec3d u, Vec3d v) {
   const Vec3d n = cross(u, v);
   const bool square = std::abs(dot(u, v)) <= 1e-6 * a * b;
   out.kind.push_back(square ? Lights::rectangle : Lights::parallelogram);
-  push(out.corner, corner);
-  push(out.edge_u, (1 / a) * u);
-  push(out.edge_v, (1 / b) * v);
-  push(out.normal, (1 / length(n)) * n);
+  out.corner.push_back(to_float(corner));
+  out.edge_u.push_back(to_float((1 / a) * u));
+  out.edge_v.push_back(to_float((1 / b) * v));
+  out.normal.push_back(to_float((1 / length(n)) * n));
   out.length_u.push_back(static_cast<float>(a));
   out.length_v.push_back(static_cast<float>(b));
   push_common(out, e, length(n), corner + 0.5 * (u + v), 0.5 * std::max(length(u + v), length(u - v)));
@@ -70,10 +70,10 @@ struct Collector {
     const Vec3d center = place(placement, s.center) - origin;
     const Vec3d motion = s.center_end ? rotate(placement, *s.center_end - s.center) : Vec3d{};
     out.kind.push_back(Lights::sphere);
-    push(out.corner, center);
-    push(out.edge_u, motion);
-    push(out.edge_v, {});
-    push(out.normal, {});
+    out.corner.push_back(to_float(center));
+    out.edge_u.push_back(to_float(motion));
+    out.edge_v.push_back({});
+    out.normal.push_back({});
     out.length_u.push_back(static_cast<float>(r));
     out.length_v.push_back(0);
     push_common(out, emitter, 4 * pi * r * r, center + 0.5 * motion, r + 0.5 * length(motion));
@@ -153,19 +153,14 @@ class TreeBuilder {
   static constexpr double closeness = 1.0 / 6;
   static constexpr int deepest_by_cost = 48;  // below, ranges are halved, so that no tree is deeper than 80
 
-  Vec3d center(std::int32_t light) const {
-    const auto k = static_cast<std::size_t>(light);
-    return {lights_.center[0][k], lights_.center[1][k], lights_.center[2][k]};
-  }
-  void add(std::int32_t light, Sum& sum) const {
-    const auto k = static_cast<std::size_t>(light);
-    sum.add(center(light), std::sqrt(static_cast<double>(lights_.reach2[k])), static_cast<double>(lights_.power[k]));
-  }
+  Vec3d center(std::int32_t light) const { return to_double(lights_.center[light]); }
+  double power(std::int32_t light) const { return static_cast<double>(lights_.power[light]); }
+  double reach2(std::int32_t light) const { return static_cast<double>(lights_.reach2[light]); }
+  void add(std::int32_t light, Sum& sum) const { sum.add(center(light), std::sqrt(reach2(light)), power(light)); }
 
   std::size_t add_pair(std::int32_t parent) {
     const std::size_t first = tree_.power.size();
-    for (std::vector<float>* column :
-         {&tree_.center[0], &tree_.center[1], &tree_.center[2], &tree_.power, &tree_.reach2})
+    for (Column<float>* column : {&tree_.center.x, &tree_.center.y, &tree_.center.z, &tree_.power, &tree_.reach2})
       column->resize(first + 2);
     tree_.child.resize(first + 2, -1), tree_.parent.resize(first + 2, parent);
     return first;
@@ -173,16 +168,13 @@ class TreeBuilder {
 
   void fill(const Range& range) {
     const auto put = [&](Vec3d middle, double power, double reach2) {
-      tree_.center[0][range.node] = static_cast<float>(middle.x);
-      tree_.center[1][range.node] = static_cast<float>(middle.y);
-      tree_.center[2][range.node] = static_cast<float>(middle.z);
+      tree_.center.set(range.node, to_float(middle));
       tree_.power[range.node] = static_cast<float>(power), tree_.reach2[range.node] = static_cast<float>(reach2);
     };
     if (range.end - range.begin == 1) {
       const std::int32_t light = order_[range.begin];
-      const auto k = static_cast<std::size_t>(light);
-      tree_.child[range.node] = -1 - light, tree_.leaf[k] = static_cast<std::int32_t>(range.node);
-      return put(center(light), static_cast<double>(lights_.power[k]), static_cast<double>(lights_.reach2[k]));
+      tree_.child[range.node] = -1 - light, tree_.leaf[light] = static_cast<std::int32_t>(range.node);
+      return put(center(light), power(light), reach2(light));
     }
     Sum all;
     for (std::size_t i = range.begin; i < range.end; ++i) add(order_[i], all);
@@ -267,8 +259,7 @@ Lights collect_lights(const Scene& scene, const Flattened& flat, const std::vect
     std::visit(Collector{out, shape.placement, origin, {brightness, first_element[i]}}, shape.shape);
   }
   elements.light.assign(elements.material.size(), -1);
-  for (int k = 0; k < out.count(); ++k)
-    elements.light[static_cast<std::size_t>(out.element[static_cast<std::size_t>(k)])] = k;
+  for (int k = 0; k < out.count(); ++k) elements.light[out.element[k]] = k;
   if (!out.inner.empty()) out.inner.resize(out.kind.size());
   build_light_tree(out);
   return out;
@@ -276,18 +267,14 @@ Lights collect_lights(const Scene& scene, const Flattened& flat, const std::vect
 
 NearLights find_near_lights(const RenderScene& s) {
   NearLights near;
-  for (std::size_t m = 0; m < s.media.size(); ++m)
-    for (std::size_t k = 0; k < s.lights.kind.size(); ++k) {
-      const Vec3f center{s.lights.center[0][k], s.lights.center[1][k], s.lights.center[2][k]};
-      if (!pays(s.media[m], center, std::sqrt(s.lights.reach2[k]), s.camera.center)) continue;
-      near.medium.push_back(static_cast<std::int32_t>(m));
-      near.light.push_back(static_cast<std::int32_t>(k));
-    }
+  for (int m = 0; m < s.media.count(); ++m)
+    for (int k = 0; k < s.lights.count(); ++k)
+      if (pays(s.media[m], s.lights.center[k], std::sqrt(s.lights.reach2[k]), s.camera.center))
+        near.medium.push_back(m), near.light.push_back(k);
   if (near.medium.empty()) return near;
   near.probability.assign(s.media.size() * s.lights.kind.size(), 0);
-  for (std::size_t i = 0; i < near.medium.size(); ++i)
-    near.probability[static_cast<std::size_t>(near.medium[i]) * s.lights.kind.size() +
-                     static_cast<std::size_t>(near.light[i])] = 1 / static_cast<float>(near.medium.size());
+  for (int i = 0; i < near.medium.count(); ++i)
+    near.probability[near.medium[i] * s.lights.count() + near.light[i]] = 1 / static_cast<float>(near.medium.size());
   return near;
 }
 

@@ -110,12 +110,10 @@ Vec3d on_disc(Vec3d direction, double u, double v) {
   return place.x * across.s + place.y * across.t;
 }
 
-Vec3d column(const std::vector<float> (&of)[3], std::size_t k) { return {of[0][k], of[1][k], of[2][k]}; }
-
 Vec3d light_point_at(const Lights& l, std::size_t k, Vec3d to_sphere, double u, double v) {
   const double width = l.length_u[k], height = l.length_v[k];
-  if (l.kind[k] == Lights::sphere) return column(l.center, k) + width * on_disc(to_sphere, u, v);
-  return column(l.corner, k) + u * width * column(l.edge_u, k) + v * height * column(l.edge_v, k);
+  if (l.kind[k] == Lights::sphere) return to_double(l.center[k]) + width * on_disc(to_sphere, u, v);
+  return to_double(l.corner[k]) + u * width * to_double(l.edge_u[k]) + v * height * to_double(l.edge_v[k]);
 }
 
 bool blocks(const RoundBody& body, Vec3d from, Vec3d segment) {
@@ -253,7 +251,7 @@ Obstacles list_obstacles(const Flattened& flat) {
 
 double visible_fraction(const Obstacles& obstacles, const Lights& lights, std::size_t light, Vec3d origin,
                         const RoundBody& sphere) {
-  const Vec3d target = middle_of(sphere), light_center = column(lights.center, light) + origin;
+  const Vec3d target = middle_of(sphere), light_center = to_double(lights.center[light]) + origin;
   if (length(target - light_center) < sphere.radius) return 1;
   const double light_radius = std::sqrt(static_cast<double>(lights.reach2[light]));
   Obstacles near = list_near(obstacles, light_center, target, std::max(sphere.radius, light_radius));

@@ -3,6 +3,7 @@
 #include "core/base/random.h"
 #include "core/base/vec.h"
 #include "core/compile/bvh.h"
+#include "core/compile/column.h"
 #include "core/compile/sky_columns.h"
 #include "core/materials/materials.h"
 #include "core/scene/integrator.h"
@@ -11,7 +12,6 @@
 #include "core/textures/textures.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -37,7 +37,7 @@ class ObjectTree {
   /// The path of an object, from Scene::objects to itself.
   std::vector<int> path(std::int32_t object) const {
     std::vector<int> indices;
-    for (; object >= 0; object = step(object).group) indices.push_back(step(object).index);
+    for (; object >= 0; object = steps_[object].group) indices.push_back(steps_[object].index);
     std::reverse(indices.begin(), indices.end());
     return indices;
   }
@@ -46,9 +46,7 @@ class ObjectTree {
   struct Step {
     std::int32_t group, index;
   };
-  const Step& step(std::int32_t object) const { return steps_[static_cast<std::size_t>(object)]; }
-
-  std::vector<Step> steps_;
+  Column<Step> steps_;
 };
 
 /// The models that a scene contains. They select a kernel that leaves out other models; which kernel runs changes no
@@ -108,47 +106,51 @@ struct BackgroundColumns {
 
 /// Primitives of one kind, in the order of the tree's leaves. `element`: a primitive's first element, named by hits.
 struct Spheres {
-  std::vector<float> x, y, z, radius;         ///< radius > 0
-  std::vector<float> move_x, move_y, move_z;  ///< only for moving spheres: way from time 0 to 1
-  std::vector<std::int32_t> element;
+  VectorColumn center, move;  ///< move: only for moving spheres, way from time 0 to 1
+  Column<float> radius;       ///< > 0
+  Column<std::int32_t> element;
+  TYNDALL_INLINE int count() const { return element.count(); }
 };
 struct Flats {
-  std::vector<Affine> map;
-  std::vector<std::int32_t> element;  ///< a box owns six: its faces x-, x+, y-, y+, z-, z+
+  Column<Affine> map;
+  Column<std::int32_t> element;  ///< a box owns six: its faces x-, x+, y-, y+, z-, z+
   /// Boxes only: the numbers of `map` once more, in columns: x, y, z of the rows, then the offsets.
-  std::vector<float> column[affine_numbers];
-  std::vector<Outline> outline;  ///< triangles and disks only; `map`: see triangle_map(), or that of the frame
+  Column<float> column[affine_numbers];
+  Column<Outline> outline;  ///< triangles and disks only; `map`: see triangle_map(), or that of the frame
   int bounding = 0;  ///< how many at the end are quads that bound the scene: shadow rays skip them (surroundings.h)
+  TYNDALL_INLINE int count() const { return element.count(); }
 };
 
 /// Columns by element. An element is a sphere, a flat shape or a face of a box.
 struct Elements {
   /// Spheres: centre and 1 / signed radius. Flats: unit outward normal and 0.
-  std::vector<float> x, y, z, inverse_radius;
-  std::vector<float> move_x, move_y, move_z;  ///< filled only if some sphere moves
-  std::vector<std::int32_t> material;
-  std::vector<std::int32_t> light;  ///< index into Lights, or -1
+  VectorColumn center_or_normal;
+  Column<float> inverse_radius;
+  VectorColumn move;  ///< filled only if some sphere moves
+  Column<std::int32_t> material;
+  Column<std::int32_t> light;  ///< index into Lights, or -1
   /// For image textures; empty without image textures. Flats: u and v as affine functions of the point (8 floats).
   /// Spheres: cosine and sine of the rotation into the sphere's own frame, in the first two floats.
-  std::vector<float> uv;
+  Column<float> uv;
   /// For textures; empty without textures. Flats: distance from the origin, along the normal, of the plane in which the
   /// texture is looked up. This is the flat's own plane, unless the flat lies on the border between two layers of a
   /// checker: then the plane lies within the layer that floor() gives, so that rounding does not choose the cell.
   /// Spheres: 0.
-  std::vector<float> plane;
+  Column<float> plane;
   /// For image textures, in scenes with disks: 1 for disks, whose uv columns give fractions of the edges of their
   /// frame, see disk_uv(); 0 for others.
-  std::vector<std::int32_t> disk;
-  std::vector<std::int32_t> object;  ///< the number of the object that it belongs to, in RenderScene::objects
-  int count() const { return static_cast<int>(material.size()); }
+  Column<std::int32_t> disk;
+  Column<std::int32_t> object;  ///< the number of the object that it belongs to, in RenderScene::objects
+  TYNDALL_INLINE int count() const { return material.count(); }
 };
 
 /// Columns by material. parameter[i] holds the i-th field of the material's kind.
 struct Materials {
-  std::vector<std::int32_t> kind;  ///< index into MaterialKinds
-  std::vector<float> red, green, blue;
-  std::vector<std::int32_t> texture;  ///< index into RenderScene::textures, or -1
-  std::array<std::vector<float>, max_material_fields> parameter;
+  Column<std::int32_t> kind;  ///< index into MaterialKinds
+  VectorColumn colour;
+  Column<std::int32_t> texture;  ///< index into RenderScene::textures, or -1
+  Column<float> parameter[max_material_fields];
+  TYNDALL_INLINE int count() const { return kind.count(); }
 };
 
 struct TextureColumns {
@@ -159,7 +161,8 @@ struct TextureColumns {
   float z_scale = 0, z_offset = 0;  ///< marble: turns per unit of z, and the origin's
   NoiseStyle style = NoiseStyle::marble;
   int width = 0, height = 0;
-  std::shared_ptr<const Image::Pixels> pixels;  ///< the scene's own, which kernels read; null: no image
+  std::shared_ptr<const Image::Pixels> pixels;  ///< the scene's own; null: no image
+  const float* texels = nullptr;                ///< its numbers
 };
 
 struct MediumColumns {
@@ -178,57 +181,55 @@ struct MediumColumns {
 /// A binary tree of lights, from which one of many lights is chosen. Columns by node. Node 0 is the root, node 1 is not
 /// used, and the children of a node are neighbours: 2 k and 2 k + 1.
 struct LightTree {
-  std::vector<float> center[3];  ///< of a box that holds the node's lights
+  VectorColumn center;  ///< of a box that holds the node's lights
   /// Sum of the powers of the node's lights; lower limit of the squared distance from the centre.
-  std::vector<float> power, reach2;
-  std::vector<std::int32_t> child;  ///< >= 0: the first child; < 0: leaf of light -1 - child
-  std::vector<std::int32_t> parent;
-  std::vector<std::int32_t> leaf;  ///< by light: its node
+  Column<float> power, reach2;
+  Column<std::int32_t> child;  ///< >= 0: the first child; < 0: leaf of light -1 - child
+  Column<std::int32_t> parent;
+  Column<std::int32_t> leaf;  ///< by light: its node
 };
 
 /// Emitting primitives: spheres, flat shapes, faces of boxes. Columns by light.
 struct Lights {
   /// rectangle: edges at right angles; triangle, ring: those with an outline, see Outline
   enum Kind : std::int32_t { rectangle, parallelogram, sphere, triangle, ring };
-  std::vector<std::int32_t> kind, element;
+  Column<std::int32_t> kind, element;
   /// Flats: a corner and unit edges, of the frame if they have an outline. Spheres: the centre in corner, and its
   /// motion over the shutter in edge_u.
-  std::vector<float> corner[3], edge_u[3], edge_v[3], normal[3];
-  std::vector<float> length_u, length_v;  ///< spheres: the radius in length_u
-  std::vector<float> area;                ///< of what emits: of a triangle half of its frame's
-  std::vector<float> inner;               ///< rings: Outline::size; empty without triangles and rings
-  std::vector<float> center[3];           ///< a point in the middle, for choosing a light
-  std::vector<float> power;               ///< area times the largest component of the radiance
-  std::vector<float> reach2;              ///< squared radius of a sphere around center that holds the light
-  LightTree tree;                         ///< empty with at most max_lights_by_contribution
-  int count() const { return static_cast<int>(kind.size()); }
+  VectorColumn corner, edge_u, edge_v, normal;
+  Column<float> length_u, length_v;  ///< spheres: the radius in length_u
+  Column<float> area;                ///< of what emits: of a triangle half of its frame's
+  Column<float> inner;               ///< rings: Outline::size; empty without triangles and rings
+  VectorColumn center;               ///< a point in the middle, for choosing a light
+  Column<float> power;               ///< area times the largest component of the radiance
+  Column<float> reach2;              ///< squared radius of a sphere around center that holds the light
+  LightTree tree;                    ///< empty with at most max_lights_by_contribution
+  TYNDALL_INLINE int count() const { return kind.count(); }
 };
 inline constexpr int max_lights_by_contribution = 16;
 
 /// Pairs of a medium and a small light in or near it. The light scattered next to such a light has no upper bound
 /// (inverse square law), so integrator mis samples distances by equiangular sampling (core/trace/flight.h).
 struct NearLights {
-  std::vector<std::int32_t> medium, light;
-  std::vector<float> probability;  ///< of each pair to be chosen, by medium · number of lights + light
+  Column<std::int32_t> medium, light;
+  Column<float> probability;  ///< of each pair to be chosen, by medium · number of lights + light
 };
 
-/// A flat mirror as numbers.
-enum MirrorNumber {
-  mirror_rows = 0,     ///< as of an Affine: two that run from -1 to 1 across the face, and the unit normal
-  mirror_offsets = 9,  ///< added to these three
-  mirror_slopes = 12,  ///< lengths of the first two rows
-  numbers_of_mirror = 14
+/// A flat mirror.
+struct MirrorRecord {
+  Vec3f row[2], normal;     ///< row · p + offset runs from -1 to 1 across the face, for a point p; normal: unit
+  float offset[2], height;  ///< normal · p + height: distance of p from the mirror's plane, negative behind it
+  float slope[2];           ///< lengths of the rows
 };
 
-/// A slab as numbers.
-enum SlabNumber {
-  slab_rows = 0,             ///< the unit directions of its three edges
-  slab_offsets = 9,          ///< added to the products with these rows: places are measured from its middle
-  slab_halves = 12,          ///< half lengths of the edges
-  slab_index = 15,           ///< of refraction
-  slab_medium_density = 16,  ///< density of media within
-  slab_closed = 17,  ///< bit 2 · edge + (1: the upper face of the two at its ends): something else touches that face
-  numbers_of_slab = 18
+/// A slab.
+struct SlabRecord {
+  Vec3f row[3];          ///< the unit directions of its three edges
+  float offset[3];       ///< added to the products with these rows: places are measured from its middle
+  float half[3];         ///< half lengths of the edges
+  float index;           ///< of refraction
+  float medium_density;  ///< density of media within
+  std::int32_t closed;  ///< bit 2 · edge + (1: the upper face of the two at its ends): something else touches that face
 };
 
 /// Glass spheres, mirror spheres, flat mirrors and slabs, and for each the lights to which integrator mis solves for
@@ -237,20 +238,26 @@ enum SlabNumber {
 /// first face.
 struct SpecularPairs {
   // Columns by sphere: one sphere, or two around one centre.
-  std::vector<float> center[3], move[3];         ///< move: way from time 0 to 1
-  std::vector<float> radius, index;              ///< of the outer sphere; index within it over that outside, 0: metal
-  std::vector<float> inner_radius, inner_index;  ///< of the inner sphere, 0: none; index within it over that outside
-  std::vector<std::int32_t> outer, inner;        ///< elements of the spheres
-  std::vector<std::int32_t> overlapped;          ///< 1: surfaces or media other than its own are or reach into it
-  int first_mirror = 0, first_slab = 0;          ///< how many spheres there are; how many spheres and flat mirrors
-  std::vector<float> mirrors;                    ///< numbers_of_mirror for each flat mirror, see MirrorNumber
-  std::vector<float> slabs;                      ///< numbers_of_slab for each slab, see SlabNumber
+  VectorColumn center, move;                ///< move: way from time 0 to 1
+  Column<float> radius, index;              ///< of the outer sphere; index within it over that outside, 0: metal
+  Column<float> inner_radius, inner_index;  ///< of the inner sphere, 0: none; index within it over that outside
+  Column<std::int32_t> outer, inner;        ///< elements of the spheres
+  Column<std::int32_t> overlapped;          ///< 1: surfaces or media other than its own are or reach into it
+  int first_mirror = 0, first_slab = 0;     ///< how many spheres there are; how many spheres and flat mirrors
+  Column<MirrorRecord> mirrors;
+  Column<SlabRecord> slabs;
   // Pairs of a sphere and a light.
-  std::vector<std::int32_t> sphere, light;  ///< light: -1 for the sun of the sky's picture
-  Lights choice;                            ///< the pairs as what choose_light chooses from
-  std::vector<std::int32_t> pair_of;        ///< by sphere · number of lights + light: the pair, or -1
-  std::vector<std::int32_t> sphere_of;      ///< by element: 2 · sphere + (1: inner sphere), or -1
-  std::vector<std::int32_t> sun_pair_of;    ///< by sphere: its pair with the sun, or -1; empty: no pair has the sun
+  Column<std::int32_t> sphere, light;         ///< light: -1 for the sun of the sky's picture
+  Lights choice;                              ///< the pairs as what choose_light chooses from
+  Column<std::int32_t> pair_of;               ///< by sphere · number of lights + light: the pair, or -1
+  Column<std::int32_t> sphere_of;             ///< by element: 2 · sphere + (1: inner sphere), or -1
+  Column<std::int32_t> sun_pair_of;           ///< by sphere: its pair with the sun, or -1; empty: no pair has the sun
+  bool shells = false, has_overlaps = false;  ///< whether some sphere is a shell; is overlapped
+  TYNDALL_INLINE int pairs() const { return sphere.count(); }
+  TYNDALL_INLINE int spheres() const { return radius.count(); }
+  TYNDALL_INLINE bool has_spheres() const { return first_mirror > 0; }
+  TYNDALL_INLINE bool has_mirrors() const { return first_mirror < first_slab; }
+  TYNDALL_INLINE bool has_slabs() const { return first_slab < spheres(); }
 };
 
 /// The variants of the kernels, by the models that they leave out. A scene without these models gives the same picture
@@ -283,17 +290,17 @@ struct RenderScene {
   BackgroundColumns background;
   SkyColumns sky;
   Spheres spheres, moving_spheres;
-  Flats quads, boxes, outlined;    ///< outlined: triangles and disks
-  std::shared_ptr<const Bvh> bvh;  ///< null: few primitives, all are tested
+  Flats quads, boxes, outlined;  ///< outlined: triangles and disks
+  Bvh bvh;                       ///< empty: few primitives, all are tested
   Elements elements;
   ObjectTree objects;
   Lights lights;
   Materials materials;
-  std::vector<TextureColumns> textures;
-  std::vector<MediumColumns> media;
+  Column<TextureColumns> textures;
+  Column<MediumColumns> media;
   NearLights near;
   SpecularPairs specular;
-  std::shared_ptr<const std::vector<float>> gradients;  ///< of noise textures, 3·256
+  Column<float> gradients;  ///< of noise textures, 3·256
   int max_depth = 1000;
   std::uint32_t seed = 0;
   bool schlick = false;
@@ -309,9 +316,7 @@ struct RenderScene {
       false;  ///< second vertices may be shared between pixels; whether that pays: trace/scene_view.h
   int primitives() const;
   /// The path of the object that an element belongs to.
-  std::vector<int> object_of(std::int32_t element) const {
-    return objects.path(elements.object[static_cast<std::size_t>(element)]);
-  }
+  std::vector<int> object_of(std::int32_t element) const { return objects.path(elements.object[element]); }
 };
 
 }  // namespace tyndall

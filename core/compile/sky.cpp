@@ -1,11 +1,10 @@
-#include "core/compile/sky.h"
-
 #include "core/base/math.h"
-#include "core/compile/flatten.h"
+#include "core/compile/columns.h"
 #include "core/compile/sky_texels.h"
 #include "core/compile/sun.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace tyndall {
@@ -16,7 +15,7 @@ constexpr int min_rows = 128;  // so that few rows of texels still follow the si
 /// Shares SkyDistribution::draws among cells in proportion to their weights. Returns where each cell's draws begin, and
 /// behind the last cell where all end. A cell of positive weight gets at least one draw, so that it can be drawn; the
 /// rest of the division goes to the largest one.
-void append_ends(const std::vector<double>& weights, std::vector<std::int32_t>& out) {
+void append_ends(const std::vector<double>& weights, Column<std::int32_t>& out) {
   double total = 0;
   std::int64_t lit = 0;
   for (const double w : weights) total += w, lit += w > 0 ? 1 : 0;
@@ -46,6 +45,8 @@ struct Light {
   double spread() const { return squares > 0 ? std::min(1.0, irradiance * irradiance / (squares * 4 * pi)) : 1; }
 };
 
+int largest_power_of_two(int up_to) { return static_cast<int>(std::bit_floor(static_cast<unsigned>(up_to))); }
+
 constexpr double min_sun = 0.05;  // fraction of the sky's light from which on specular paths look for the sun
 
 class DistributionBuilder {
@@ -55,6 +56,7 @@ class DistributionBuilder {
     const int height = pixels.height;
     out_.rows_per_texel = 2 * std::max(1, (min_rows + 2 * height - 1) / (2 * height));
     out_.rows = height * out_.rows_per_texel;
+    out_.row_step = largest_power_of_two(out_.rows), out_.column_step = largest_power_of_two(pixels.width);
   }
 
   SkyDistribution build() {
@@ -124,14 +126,24 @@ SkyColumns sky_columns(const Background& background, bool is_sampled, const SkyC
   const auto* sky = std::get_if<SkyPicture>(&background);
   if (!sky) return out;
   out.pixels = sky->pixels;
+  out.texels = out.pixels->rgb.data(), out.width = out.pixels->width, out.height = out.pixels->height;
+  out.distribution.rows = 2 * out.height;
   const Vec3d rotated = rotate({sky->rotate_y, {}}, {1, 0, 0});  // as objects rotate: exact at multiples of 90 degrees
   out.cos = static_cast<float>(rotated.x), out.sin = static_cast<float>(-rotated.z);
   out.scale = static_cast<float>(sky->scale);
   if (!is_sampled) return out;
-  const bool kept = before && before->distribution && before->pixels == out.pixels;
-  out.distribution =
-      kept ? before->distribution : std::make_shared<const SkyDistribution>(DistributionBuilder(*sky->pixels).build());
-  out.irradiance = static_cast<float>(out.distribution->irradiance * sky->scale);
+  const bool kept = before && !before->distribution.row_ends.empty() && before->pixels == out.pixels;
+  const SkyDistribution distribution = kept ? before->distribution : DistributionBuilder(*sky->pixels).build();
+  out.irradiance = static_cast<float>(distribution.irradiance * sky->scale);
+  if (!out.is_sampled()) return out;
+  out.distribution = distribution;
+  const auto in_scene = [&](Vec3d v) {
+    const auto c = static_cast<double>(out.cos), s = static_cast<double>(out.sin);
+    return to_float(Vec3d{c * v.x + s * v.z, v.y, c * v.z - s * v.x});
+  };
+  const SkySun& sun = distribution.sun;
+  out.sun_axis = in_scene(sun.axis), out.sun_edge_u = in_scene(sun.edge_u), out.sun_edge_v = in_scene(sun.edge_v);
+  out.sun_tangent = static_cast<float>(sun.tangent);
   return out;
 }
 

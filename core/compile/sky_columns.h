@@ -1,10 +1,10 @@
 #pragma once
 #include "core/base/vec.h"
+#include "core/compile/column.h"
 #include "core/textures/image.h"
 
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 /// A picture of the sky as kernels read it.
 namespace tyndall {
@@ -20,10 +20,11 @@ struct SkySun {
 /// is drawn with a probability that is a whole number of `draws`. See core/trace/sky.h.
 struct SkyDistribution {
   static constexpr std::int32_t draws = 1 << 24;  ///< as many values as a random number has
-  int rows = 0;                                   ///< of cells, from the top; 0: the sky is black
+  int rows = 0;                                   ///< of cells, from the top
   int rows_per_texel = 2;                         ///< even, so that no cell reaches beyond the middle of a texel
-  std::vector<std::int32_t> row_ends;             ///< rows + 1: where the draws of each row begin
-  std::vector<std::int32_t> column_ends;          ///< width + 1 for each row: where those of each of its cells begin
+  int row_step = 0, column_step = 0;              ///< the largest powers of two up to rows and the picture's width
+  Column<std::int32_t> row_ends;                  ///< rows + 1: where the draws of each row begin
+  Column<std::int32_t> column_ends;               ///< width + 1 for each row: where those of each of its cells begin
   float to_one = 1;                               ///< power of two that brings the largest component to about 1
   double irradiance = 0;  ///< integral of the largest component over all directions, without the sky's scale
   /// Fraction of all directions that a sky of one radiance would fill that has the same integrals of the largest
@@ -41,12 +42,16 @@ TYNDALL_INLINE F sky_luminance(Vec3<F> rgb, F to_one) {
 
 /// The picture of the sky.
 struct SkyColumns {
-  std::shared_ptr<const Image::Pixels> pixels;          ///< the scene's own, which kernels read; null: there is none
-  std::shared_ptr<const SkyDistribution> distribution;  ///< null: no light is sampled
-  float cos = 1, sin = 0;                               ///< of the sky's turn about y
-  float scale = 1;                                      ///< factor on the picture's radiance
-  float irradiance = 0;                                 ///< that of the distribution, times the scale
-  bool is_sampled() const { return distribution && distribution->rows > 0 && irradiance > 0; }
+  std::shared_ptr<const Image::Pixels> pixels;  ///< the scene's own; null: there is none
+  const float* texels = nullptr;                ///< its numbers
+  int width = 0, height = 0;
+  SkyDistribution distribution;                  ///< without ends where no light is sampled
+  float cos = 1, sin = 0;                        ///< of the sky's turn about y
+  float scale = 1;                               ///< factor on the picture's radiance
+  float irradiance = 0;                          ///< that of the distribution, times the scale
+  Vec3f sun_axis{}, sun_edge_u{}, sun_edge_v{};  ///< see SkySun, after the sky's turn
+  float sun_tangent = 0;
+  TYNDALL_INLINE bool is_sampled() const { return irradiance > 0; }  ///< as a light
 };
 
 }  // namespace tyndall

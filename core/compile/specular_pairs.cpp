@@ -83,7 +83,7 @@ struct SpecularPair {
 /// Returns the worth of a pair of a sphere and a light, >= 0, roughly the power that the light sends to the sphere:
 /// pairs are chosen by it. 0: the light is so large as seen from the sphere that BSDF sampling finds it well enough.
 double worth_of(const RoundBody& body, bool solid_glass, const Lights& lights, std::size_t k, Vec3d origin) {
-  const Vec3d light = Vec3d{lights.center[0][k], lights.center[1][k], lights.center[2][k]} + origin;
+  const Vec3d light = to_double(lights.center[k]) + origin;
   const double reach = std::sqrt(static_cast<double>(lights.reach2[k])) + 0.5 * length(body.motion);
   const double apart = length(light - (body.center + 0.5 * body.motion)), distance = std::max(apart, body.radius);
   const bool through_glass = solid_glass && apart > body.radius;
@@ -117,8 +117,8 @@ Found look_for_all(const Flattened& flat, const Scene& scene) {
 
 /// The irradiance by the sun of the sky's picture; 0 if it has none.
 double irradiance_of_sun(const SkyColumns& sky) {
-  if (!sky.is_sampled() || sky.distribution->sun.tangent == 0) return 0;
-  return sky.distribution->sun.irradiance * static_cast<double>(sky.scale);
+  if (!sky.is_sampled() || sky.distribution.sun.tangent == 0) return 0;
+  return sky.distribution.sun.irradiance * static_cast<double>(sky.scale);
 }
 
 std::vector<SpecularPair> list_pairs(const Found& found, const RenderScene& compiled) {
@@ -180,16 +180,17 @@ class Filler {
   void add_sphere(const std::vector<Candidate>& list, const Candidate& outer) {
     const Candidate* inner = outer.holds < 0 ? nullptr : &list[static_cast<std::size_t>(outer.holds)];
     const int sphere = static_cast<int>(out.radius.size());
-    push(out.center, outer.body.center - compiled_.origin);
-    push(out.move, outer.body.motion);
+    out.center.push_back(to_float(outer.body.center - compiled_.origin));
+    out.move.push_back(to_float(outer.body.motion));
     out.radius.push_back(static_cast<float>(outer.body.radius));
     out.index.push_back(static_cast<float>(outer.index));
     out.inner_radius.push_back(inner ? static_cast<float>(inner->body.radius) : 0);
     out.inner_index.push_back(inner ? static_cast<float>(outer.index * inner->index) : 1);
     out.outer.push_back(name(outer, sphere, 0));
     out.inner.push_back(inner ? name(*inner, sphere, 1) : out.outer.back());
-    out.overlapped.push_back(is_overlapped(flat_, outer.body, {outer.shape, inner ? inner->shape : outer.shape}) ? 1
-                                                                                                                 : 0);
+    const bool overlapped = is_overlapped(flat_, outer.body, {outer.shape, inner ? inner->shape : outer.shape});
+    out.overlapped.push_back(overlapped ? 1 : 0);
+    out.has_overlaps |= overlapped, out.shells |= inner != nullptr;
     out.pair_of.resize(out.pair_of.size() + compiled_.lights.kind.size(), -1);
     ++out.first_mirror, ++out.first_slab;
   }
@@ -197,7 +198,7 @@ class Filler {
   /// After all spheres.
   void add_mirror(const FlatMirror& mirror) {
     add_flat(mirror.middle, 0, 0, first_element_[mirror.shape] + mirror.face, 1);
-    append_numbers(mirror, compiled_.origin, out.mirrors);
+    out.mirrors.push_back(record_of(mirror, compiled_.origin));
     ++out.first_slab;
   }
 
@@ -205,7 +206,7 @@ class Filler {
   void add_slab(const Slab& slab) {
     const double radius = length(Vec3d{slab.half[0], slab.half[1], slab.half[2]});
     add_flat(slab.middle, radius, slab.index, first_element_[slab.shape], 6);
-    append_numbers(slab, compiled_.origin, out.slabs);
+    out.slabs.push_back(record_of(slab, compiled_.origin));
   }
 
   void add_pair(const SpecularPair& pair) {
@@ -224,9 +225,7 @@ class Filler {
     const bool by_flat = static_cast<int>(sphere) >= out.first_mirror;
     out.choice.power.push_back(by_flat ? compiled_.lights.power[k] : static_cast<float>(pair.worth));
     out.choice.reach2.push_back(by_flat ? compiled_.lights.reach2[k] : out.radius[sphere] * out.radius[sphere]);
-    for (int i = 0; i < 3; ++i)
-      out.choice.center[i].push_back(by_flat ? compiled_.lights.center[i][k]
-                                             : out.center[i][sphere] + 0.5f * out.move[i][sphere]);
+    out.choice.center.push_back(by_flat ? compiled_.lights.center[k] : out.center[sphere] + 0.5f * out.move[sphere]);
   }
 
   SpecularPairs finish() {
@@ -240,8 +239,8 @@ class Filler {
  private:
   void add_flat(Vec3d middle, double radius, double index, std::int32_t element, int faces) {
     const int sphere = static_cast<int>(out.radius.size());
-    push(out.center, middle - compiled_.origin);
-    push(out.move, {});
+    out.center.push_back(to_float(middle - compiled_.origin));
+    out.move.push_back({});
     out.radius.push_back(static_cast<float>(radius)), out.index.push_back(static_cast<float>(index));
     out.inner_radius.push_back(0), out.inner_index.push_back(1);
     out.outer.push_back(element), out.inner.push_back(element), out.overlapped.push_back(0);

@@ -13,12 +13,12 @@ constexpr double wanted_fill = 0.35;  // middle cells with landings, over landin
 
 }  // namespace
 
-Coordinates coordinates_of(const GuideView& g, Vec3d point, int level) {
+Coordinates coordinates_of(const Guide& g, Vec3d point, int level) {
   const CellPlace<float> c = cell_at<float>(g, to_float(point), level);
   return {c.x, c.y, c.z};
 }
 
-void Bins::fill(const GuideView& g, const std::vector<Landing>& landings, int level) {
+void Bins::fill(const Guide& g, const std::vector<Landing>& landings, int level) {
   std::vector<std::pair<std::uint64_t, std::size_t>> keys;
   for (std::size_t i = 0; i < landings.size(); ++i)
     keys.emplace_back(coordinates_of(g, landings[i].point, level).key(), i);
@@ -69,7 +69,7 @@ double middle_size(const std::vector<Landing>& landings) {
   }
   const double diagonal = std::max(std::sqrt(dot(high - low, high - low)), 1e-6 * landings[0].length);
   std::vector<std::uint64_t> keys(landings.size());
-  GuideView g;
+  Guide g;
   const auto fills_few = [&](double size) {
     set_sizes(size, g.inverse_size);
     for (std::size_t i = 0; i < keys.size(); ++i)
@@ -89,10 +89,9 @@ double middle_size(const std::vector<Landing>& landings) {
 /// Irradiance at a point, roughly, from all lights as if nothing were in the way.
 double direct_light_at(const SceneView& s, Vec3d point, double size) {
   double sum = 0;
-  for (int k = 0; k < s.lights.count; ++k) {
-    const auto at = [&](const float* column) { return static_cast<double>(column[k]); };
-    const Vec3d to_light = Vec3d{at(s.lights.center[0]), at(s.lights.center[1]), at(s.lights.center[2])} - point;
-    sum += at(s.lights.power) * 0.25 / std::max(dot(to_light, to_light), size * size);
+  for (int k = 0; k < s.lights.count(); ++k) {
+    const Vec3d to_light = to_double(s.lights.center[k]) - point;
+    sum += static_cast<double>(s.lights.power[k]) * 0.25 / std::max(dot(to_light, to_light), size * size);
   }
   return std::max(sum, 1e-30);
 }

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/compile/columns.h"
 #include "core/guide/light_paths.h"
-#include "core/trace/guide_view.h"
+#include "core/trace/guide.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -23,7 +23,7 @@ struct Coordinates {
 };
 
 /// Coordinates of the cell in which a point is; only the guide's sizes are used.
-Coordinates coordinates_of(const GuideView& g, Vec3d point, int level);
+Coordinates coordinates_of(const Guide& g, Vec3d point, int level);
 
 /// The landings of each cell of one level.
 class Bins {
@@ -34,7 +34,7 @@ class Bins {
     std::size_t begin, end;  ///< in `order`
     std::size_t rest;        ///< see put_all_sequences_first()
   };
-  void fill(const GuideView& g, const std::vector<Landing>& landings, int level);
+  void fill(const Guide& g, const std::vector<Landing>& landings, int level);
   /// Reorders each bin: from begin to rest one landing after each sequence of events that has landed there, then the
   /// others. numbers: of the sequence of each landing, counted from 0.
   void put_all_sequences_first(const std::vector<std::int32_t>& numbers);
@@ -44,7 +44,7 @@ class Bins {
   std::vector<std::size_t> order;
 };
 
-/// Sets GuideView::inverse_size, or that of a Guide.
+/// Sets Guide::inverse_size, or that of a Guide.
 void set_sizes(double middle_size, float (&inverse_size)[guide_levels]);
 
 /// The size of middle cells: such that landings fill about a third as many cells as there are landings.

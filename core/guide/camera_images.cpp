@@ -6,7 +6,7 @@
 #include "core/guide/things.h"
 #include "core/trace/camera.h"
 #include "core/trace/intersect.h"
-#include "core/trace/light_columns.h"
+#include "core/trace/light_choice.h"
 #include "core/trace/shade.h"
 
 #include <algorithm>
@@ -73,8 +73,8 @@ class CameraPath {
   PictureBox box() const {
     double t;
     const std::int32_t element = closest_element(t);
-    if (element < 0 || s_.light_of[element] < 0) return {};
-    const LightColumns<double> light = load_light<double>(s_.lights, s_.light_of[element]);
+    if (element < 0 || s_.elements.light[element] < 0) return {};
+    const LightColumns<double> light = load_light<double>(s_.lights, s_.elements.light[element]);
     const double u = light.length_u, v = light.length_v;
     const double radius = light.kind == Lights::sphere ? u : 0.5 * std::sqrt(u * u + v * v);
     const Vec3d point = rays_[0].origin + t * rays_[0].direction;
@@ -115,10 +115,8 @@ class CameraPath {
 class Finder {
  public:
   explicit Finder(const SceneView& s) : s_(s), things_(list_things(s)) {
-    for (int light = 0; light < std::min(s.lights.count, max_guide_lights); ++light) {
-      const auto at = [&](int axis) { return static_cast<double>(s.lights.center[axis][light]); };
-      lights_.push_back({at(0), at(1), at(2)});
-    }
+    for (int light = 0; light < std::min(s.lights.count(), max_guide_lights); ++light)
+      lights_.push_back(to_double(s.lights.center[light]));
   }
 
   /// What the camera sees straight.
@@ -128,15 +126,13 @@ class Finder {
 
   /// The images that the guide knows.
   void add_known() {
-    const GuideView& g = s_.guide;
+    const Guide& g = s_.guide;
     std::set<std::pair<std::int32_t, Events>> known;
-    for (int i = 0; i < g.lobes; ++i) {
-      const std::int32_t* e = g.events + std::ptrdiff_t{i} * numbers_of_events;
-      const Events events = metal_events({e[events_next_low], e[events_next_high]});
-      if (e[events_image] < 0 || events.empty() || !known.insert({e[events_image], events}).second) continue;
-      const float* n = g.images + std::ptrdiff_t{e[events_image]} * numbers_of_image;
-      const auto place = [&](int k) { return to_double({n[k], n[k + 1], n[k + 2]}); };
-      const LightImage<double> image{place(image_light), place(image_sphere), static_cast<double>(n[image_radius])};
+    for (const GuideSequence& sequence : g.sequences) {
+      const Events events = metal_events({sequence.next_low, sequence.next_high});
+      if (sequence.image < 0 || events.empty() || !known.insert({sequence.image, events}).second) continue;
+      const LightImage<float>& i = g.images[sequence.image];
+      const LightImage<double> image{to_double(i.light), to_double(i.sphere), static_cast<double>(i.radius)};
       const SeenImage<double> seen = see_image(image, to_double(s_.camera.center));
       if (seen.exists) add_in_direction(events, seen.direction);
     }
@@ -146,7 +142,7 @@ class Finder {
 
  private:
   bool is_metal(const Thing& thing) const {
-    return has_trait<&BsdfTraits::glossy>(s_, s_.kind[s_.material[thing.element]]);
+    return has_trait<&BsdfTraits::glossy>(s_, s_.materials.kind[s_.elements.material[thing.element]]);
   }
 
   /// Empty if glass is among them.
@@ -183,7 +179,7 @@ class Finder {
 }  // namespace
 
 std::vector<PictureBox> find_camera_images(const SceneView& s) {
-  if (s.guide.lobes == 0 || s.features.lens || s.features.shutter) return {};
+  if (s.guide.lobes() == 0 || s.features.lens || s.features.shutter) return {};
   Finder finder(s);
   finder.add_lights();
   finder.add_known();

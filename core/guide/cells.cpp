@@ -4,7 +4,6 @@
 #include "core/guide/lobes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -86,8 +85,7 @@ class CellMaker {
   CellMaker(const SceneView& scene, const LightPaths& paths, Guide& guide)
       : scene_(scene), paths_(paths), landings_(paths.landings()), guide_(guide) {
     set_sizes(middle_size(landings_), guide_.inverse_size);
-    sizes_ = guide_.view();
-    for (int level = 0; level < guide_levels; ++level) bins_[level].fill(sizes_, landings_, level);
+    for (int level = 0; level < guide_levels; ++level) bins_[level].fill(guide_, landings_, level);
     std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> known;
     for (const Landing& l : landings_)
       numbers_.push_back(
@@ -104,14 +102,12 @@ class CellMaker {
   }
 
  private:
-  struct Cell {
+  struct Cell : GuideCell {
     std::uint64_t key;
     Coordinates at;
-    std::int32_t first = 0, end = 0, refined = 0;
-    double query_probability = 0;
   };
 
-  double size(int level) const { return 1 / static_cast<double>(sizes_.inverse_size[level]); }
+  double size(int level) const { return 1 / static_cast<double>(guide_.inverse_size[level]); }
   bool has_cells(int level, const Bins::Bin& bin) const {
     return level >= guide_middle_level || bin.end - bin.begin >= min_in_fine_cell;
   }
@@ -121,7 +117,7 @@ class CellMaker {
     std::vector<Cell>& cells = cells_[level];
     for (const Bins::Bin& bin : bins_[level].bins)
       if (has_cells(level, bin))
-        for (const auto& step : steps) cells.push_back({bin.at.stepped(step).key(), bin.at.stepped(step)});
+        for (const auto& step : steps) cells.push_back({{}, bin.at.stepped(step).key(), bin.at.stepped(step)});
     std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.key < b.key; });
     cells.erase(std::unique(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.key == b.key; }),
                 cells.end());
@@ -141,7 +137,7 @@ class CellMaker {
     for (int coarser = level; coarser < guide_levels; ++coarser, factor *= coarse_factor) {
       const std::size_t known = count_;
       if (known >= max_sequences_in_cell) break;
-      const Coordinates home = coordinates_of(sizes_, middle, coarser);
+      const Coordinates home = coordinates_of(guide_, middle, coarser);
       for (const auto& step : steps)
         if (const Bins::Bin* bin = bins_[coarser].find(home.stepped(step)))
           add_landings(coarser, *bin, &step == &steps[0], known, factor);
@@ -191,26 +187,24 @@ class CellMaker {
     for (std::size_t q = 0; q < count_; ++q) total += sequences_[q].power;
     const std::vector<const Sequence*> used = strongest();
     for (const Sequence* s : used) sum += std::max(s->power, min_weight * total);
-    cell.first = static_cast<std::int32_t>(guide_.events.size() / numbers_of_events);
+    cell.first = guide_.lobes();
     for (const Sequence* s : used) add_sequence(*s, middle, std::max(s->power, min_weight * total) / sum);
-    cell.end = static_cast<std::int32_t>(guide_.events.size() / numbers_of_events);
+    cell.end = guide_.lobes();
     const double h = size(level), brought = total / paths_.paths_of_pair() / (h * h);
-    cell.query_probability =
-        std::clamp(eagerness * brought / direct_light_at(scene_, middle, h), min_query_probability, 1.0);
+    cell.query_probability = static_cast<float>(
+        std::clamp(eagerness * brought / direct_light_at(scene_, middle, h), min_query_probability, 1.0));
   }
 
   /// Numbers the images of lights. Landings after the same events, of the same light, have the same one.
   void list_images() {
-    std::map<std::array<float, numbers_of_image>, std::int32_t> known;
+    Column<LightImage<float>>& images = guide_.images;
     for (const Landing& l : landings_) {
       image_of_.push_back(-1);
       if (!l.image) continue;
-      const Vec3f light = to_float(l.image->light), sphere = to_float(l.image->sphere);
-      const std::array<float, numbers_of_image> numbers{
-          light.x, light.y, light.z, sphere.x, sphere.y, sphere.z, static_cast<float>(l.image->radius)};
-      const auto [entry, is_new] = known.try_emplace(numbers, static_cast<std::int32_t>(known.size()));
-      if (is_new) guide_.images.insert(guide_.images.end(), numbers.begin(), numbers.end());
-      image_of_.back() = entry->second;
+      const LightImage<float> image{to_float(l.image->light), to_float(l.image->sphere),
+                                    static_cast<float>(l.image->radius)};
+      image_of_.back() = static_cast<std::int32_t>(std::find(images.begin(), images.end(), image) - images.begin());
+      if (image_of_.back() == images.count()) images.push_back(image);
     }
   }
 
@@ -218,15 +212,12 @@ class CellMaker {
     const std::size_t nearest = nearest_landing(s.own.empty() ? s.others : s.own, middle);
     add_lobe(s, nearest);
     const Landing& l = *s.first;
-    for (const std::int32_t v :
-         {l.events.low, l.events.high, l.next.low, l.next.high, l.count, image_of_[nearest], 0, 0})
-      guide_.events.push_back(v);
     const std::int32_t code = (l.next.low & 63) >> 1;
     const Thing& thing = paths_.things()[static_cast<std::size_t>(code - 1)];
     const Vec3f center = thing.is_sphere ? to_float(thing.center + 0.5 * thing.motion) : Vec3f{};
     const float radius = thing.is_sphere ? static_cast<float>(thing.radius) : 0;
-    for (const float v : {static_cast<float>(weight), center.x, center.y, center.z, radius, 0.0f, 0.0f, 0.0f})
-      guide_.weights.push_back(v);
+    guide_.sequences.push_back({l.events.low, l.events.high, l.next.low, l.next.high, l.count, image_of_[nearest],
+                                static_cast<float>(weight), radius, center});
   }
 
   std::size_t nearest_landing(const std::vector<std::size_t>& from, Vec3d point) const {
@@ -242,7 +233,8 @@ class CellMaker {
     return (image_of_[by] >= 0 && image_of_[by] == image_of_[landing]) || predict(landings_[by], l.point, flight);
   }
 
-  /// How well a lobe tells the directions of other landings: half of their mean squared difference, see LobeNumber.
+  /// How well a lobe tells the directions of other landings: half of their mean squared difference, see
+  /// GuideLobe::error.
   double error_of(const Sequence& s, std::size_t own) const {
     double sum = 0, weights = 0;
     int count = 0;
@@ -267,11 +259,10 @@ class CellMaker {
 
   void add_lobe(const Sequence& s, std::size_t index) {
     const Landing l = along_axes(landings_[index]);
-    const double numbers[numbers_of_lobe] = {l.point.x,     l.point.y,      l.point.z,          l.flight.x,
-                                             l.flight.y,    l.flight.z,     l.axis.x,           l.axis.y,
-                                             l.axis.z,      l.curvature.xx, l.curvature.xy,     l.curvature.yy,
-                                             l.variance.xx, l.variance.yy,  error_of(s, index), s.inverse_size2};
-    for (const double v : numbers) guide_.lobe.push_back(static_cast<float>(v));
+    guide_.lobe.push_back({to_float(l.point), to_float(l.flight), to_float(l.axis),
+                           to_float({l.curvature.xx, l.curvature.xy, l.curvature.yy}),
+                           static_cast<float>(l.variance.xx), static_cast<float>(l.variance.yy),
+                           static_cast<float>(error_of(s, index)), static_cast<float>(s.inverse_size2)});
   }
 
   /// Marks the cells that hold finer ones.
@@ -279,11 +270,11 @@ class CellMaker {
     for (int level = 0; level < guide_middle_level; ++level)
       for (const Cell& fine : cells_[level])
         for (int coarser = level + 1; coarser <= guide_middle_level; ++coarser) {
-          const std::uint64_t key = coordinates_of(sizes_, middle_of(level, fine.at), coarser).key();
+          const std::uint64_t key = coordinates_of(guide_, middle_of(level, fine.at), coarser).key();
           std::vector<Cell>& cells = cells_[coarser];
           const auto at = std::lower_bound(cells.begin(), cells.end(), key,
                                            [](const Cell& c, std::uint64_t k) { return c.key < k; });
-          if (at != cells.end() && at->key == key) at->refined = 1;
+          if (at != cells.end() && at->key == key) at->is_refined = 1;
         }
   }
 
@@ -292,31 +283,25 @@ class CellMaker {
     for (const std::vector<Cell>& cells : cells_) count += cells.size();
     while (slots < 2 * count) slots *= 2;
     guide_.slot_mask = static_cast<std::int32_t>(slots - 1);
-    guide_.cells.assign(slots * numbers_of_cell, 0);
-    guide_.query_probability.assign(slots, 0);
+    guide_.cells.resize(slots);
     for (int level = 0; level < guide_levels; ++level)
       for (const Cell& cell : cells_[level]) insert(tag_of<float>({cell.at.x, cell.at.y, cell.at.z}, level), cell);
   }
 
   /// A cell whose tag is taken shares the other one's slot.
   void insert(std::uint32_t tag, const Cell& cell) {
-    auto slot = static_cast<std::size_t>(tag >> 1) & static_cast<std::size_t>(guide_.slot_mask);
-    const auto column = [&](int k) -> std::int32_t& {
-      return guide_.cells[slot * numbers_of_cell + static_cast<std::size_t>(k)];
-    };
-    while (column(cell_tag) != 0 && column(cell_tag) != static_cast<std::int32_t>(tag))
-      slot = (slot + 1) & static_cast<std::size_t>(guide_.slot_mask);
-    if (column(cell_tag) != 0) return;
-    column(cell_tag) = static_cast<std::int32_t>(tag), column(cell_first) = cell.first, column(cell_end) = cell.end;
-    column(cell_is_refined) = cell.refined;
-    guide_.query_probability[slot] = static_cast<float>(cell.query_probability);
+    const auto name = static_cast<std::int32_t>(tag);
+    auto slot = static_cast<std::int32_t>(tag >> 1) & guide_.slot_mask;
+    while (guide_.cells[slot].tag != 0 && guide_.cells[slot].tag != name) slot = (slot + 1) & guide_.slot_mask;
+    if (guide_.cells[slot].tag != 0) return;
+    guide_.cells[slot] = cell;
+    guide_.cells[slot].tag = name;
   }
 
   const SceneView& scene_;
   const LightPaths& paths_;
   const std::vector<Landing>& landings_;
   Guide& guide_;
-  GuideView sizes_;
   Bins bins_[guide_levels];
   std::vector<Cell> cells_[guide_levels];
   static constexpr std::size_t nowhere = ~std::size_t{0};

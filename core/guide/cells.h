@@ -1,5 +1,4 @@
 #pragma once
-#include "core/guide/guide.h"
 #include "core/guide/light_paths.h"
 
 /// Sorts the landings of light paths into cells, and makes lobes of them.

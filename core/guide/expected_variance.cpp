@@ -32,7 +32,7 @@ std::vector<Found> list_found(const Bins& bins, const Bins::Bin& bin, const std:
 
 double brightest_light(const SceneView& s) {
   double radiance = 0;
-  for (int k = 0; k < s.lights.count; ++k)
+  for (int k = 0; k < s.lights.count(); ++k)
     radiance = std::max(
         radiance, static_cast<double>(s.lights.power[k]) / std::max(static_cast<double>(s.lights.area[k]), 1e-37));
   return radiance;
@@ -49,7 +49,7 @@ double background_light(const BackgroundColumns& b) {
 double expected_variance(const SceneView& scene, const LightPaths& paths) {
   const std::vector<Landing>& landings = paths.landings();
   if (landings.empty()) return 0;
-  GuideView sizes;
+  Guide sizes;
   set_sizes(middle_size(landings), sizes.inverse_size);
   const int level = guide_middle_level + 1;  // cells of the middle level hold too few landings for a square
   const double h = 1 / static_cast<double>(sizes.inverse_size[level]), radiance = brightest_light(scene);

@@ -1,16 +1,9 @@
 #pragma once
-#include "core/base/vec.h"
+#include "core/trace/guide.h"
 
 /// Where a point sees the middle of a light by way of flat mirrors and at most one reflection off the outside of a
 /// sphere. Other sequences of events have no such image: only a lobe's first order tells where the light is seen.
 namespace tyndall {
-
-/// A light's middle, and the sphere that reflects it, both mirrored in the flats through which a point sees them.
-template <class F>
-struct LightImage {
-  Vec3<F> light, sphere;
-  F radius;  ///< of the sphere; 0: there are flat mirrors only
-};
 
 /// The direction towards a light's middle.
 template <class F>

@@ -27,9 +27,6 @@ SinCos<double> random_angle(double u) {
 
 /// Transmittance of the media along a ray, by the kernels' polynomials.
 double transmitted(const SceneView& s, const Ray<double>& ray, double distance) {
-  const auto to_float = [](Vec3d v) {
-    return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-  };
   const Ray<float> same{to_float(ray.origin), to_float(ray.direction), static_cast<float>(ray.time), ray.from};
   return static_cast<double>(pass_media<float>(s, same, static_cast<float>(distance), true));
 }
@@ -37,7 +34,7 @@ double transmitted(const SceneView& s, const Ray<double>& ray, double distance) 
 }  // namespace
 
 LightPaths::LightPaths(const SceneView& scene, std::vector<Thing> things)
-    : scene_(scene), things_(std::move(things)), thing_of_(static_cast<std::size_t>(scene.element_count), -1) {
+    : scene_(scene), things_(std::move(things)), thing_of_(static_cast<std::size_t>(scene.elements.count()), -1) {
   for (std::size_t i = 0; i < things_.size(); ++i)
     thing_of_[static_cast<std::size_t>(things_[i].element)] = static_cast<std::int32_t>(i);
 }
@@ -59,14 +56,14 @@ Vec3d LightPaths::direction_in_cone(Vec3d axis, double one_minus_cos) {
 }
 
 Vec3d LightPaths::middle_of(int light, double time) const {
-  const LightView& l = scene_.lights;
+  const Lights& l = scene_.lights;
   if (l.kind[light] == Lights::sphere) return sphere_light_center(load_light<double>(l, light), time);
-  return {at(l.center[0], light), at(l.center[1], light), at(l.center[2], light)};
+  return to_double(l.center[light]);
 }
 
 /// Draws a path from a light's middle towards a thing. Returns false if it leads along the light.
 bool LightPaths::aim(int light, int index, Start& start) {
-  const LightView& l = scene_.lights;
+  const Lights& l = scene_.lights;
   const Thing& thing = things_[static_cast<std::size_t>(index)];
   start.light = light, start.thing = index;
   start.time =
@@ -94,7 +91,7 @@ bool LightPaths::aim(int light, int index, Start& start) {
 }
 
 void LightPaths::begin(const Start& start) {
-  const LightView& l = scene_.lights;
+  const Lights& l = scene_.lights;
   const LightColumns<double> columns = load_light<double>(l, start.light);
   const bool round = l.kind[start.light] == Lights::sphere;
   const Vec3d d = start.direction;
@@ -126,7 +123,7 @@ void LightPaths::trace(const Start& start, const OrderedEvents<double>* wanted) 
     const std::int32_t aimed = things_[static_cast<std::size_t>(start.thing)].element;
     if (depth == 0 && hit.element != aimed) return;
     if (scene_.has_media()) f.weight *= transmitted(scene_, ray, hit.t);
-    const std::int32_t kind = scene_.kind[scene_.material[hit.element]];
+    const std::int32_t kind = scene_.materials.kind[scene_.elements.material[hit.element]];
     if (has_trait<&BsdfTraits::diffuse>(scene_, kind)) return land(ray.origin + hit.t * ray.direction, wanted);
     if (thing_of_[static_cast<std::size_t>(hit.element)] < 0 || !meet(hit.element, hit.t, wanted)) return;
   }
@@ -176,8 +173,8 @@ bool LightPaths::meet(std::int32_t element, double t, const OrderedEvents<double
   MetSurface m{
       thing.is_sphere, p.inverted, inside, thing.center + f.start.time * thing.motion, p.point, p.normal, 0, 0, true};
   m.radius = std::sqrt(squared_length(p.point - m.center));
-  if (has_trait<&BsdfTraits::glossy>(scene_, scene_.kind[p.material])) {
-    f.weight *= std::max({at(scene_.red, p.material), at(scene_.green, p.material), at(scene_.blue, p.material)});
+  if (has_trait<&BsdfTraits::glossy>(scene_, scene_.materials.kind[p.material])) {
+    f.weight *= static_cast<double>(max_component(scene_.materials.colour[p.material]));
   } else {
     Incident<double> in{};
     in.direction = ray.direction, in.normal = p.normal, in.facing = exiting ? -p.normal : p.normal;
@@ -244,7 +241,7 @@ void LightPaths::land(Vec3d point, const OrderedEvents<double>* wanted) {
 }
 
 void LightPaths::trace_pairs(int count) {
-  const int lights = std::min(scene_.lights.count, max_guide_lights), things = static_cast<int>(things_.size());
+  const int lights = std::min(scene_.lights.count(), max_guide_lights), things = static_cast<int>(things_.size());
   const int each = std::max(count / std::max(lights * things, 1), 1);
   paths_of_pair_ += each;
   for (int light = 0; light < lights; ++light)

@@ -22,7 +22,7 @@ struct CellPlace {
   IntOf<F> x, y, z;
 };
 template <class F>
-TYNDALL_INLINE CellPlace<F> cell_at(const GuideView& g, Vec3<F> point, int level) {
+TYNDALL_INLINE CellPlace<F> cell_at(const Guide& g, Vec3<F> point, int level) {
   const F scale = splat<F>(g.inverse_size[level]);
   const auto whole = [&](F v) { return to_int(floor(min(max(mul_add(v, scale, F(0.37f)), F(-1e9f)), F(1e9f)))); };
   return {whole(point.x), whole(point.y), whole(point.z)};
@@ -39,13 +39,13 @@ TYNDALL_INLINE UintOf<F> tag_of(const CellPlace<F>& c, int level) {
 
 /// The slot of the cell of a point at one level, in the lanes `wanted`; -1: there is none.
 template <class F>
-TYNDALL_INLINE IntOf<F> find_slot(const GuideView& g, Vec3<F> point, int level, MaskOf<F> wanted) {
+TYNDALL_INLINE IntOf<F> find_slot(const Guide& g, Vec3<F> point, int level, MaskOf<F> wanted) {
   using I = IntOf<F>;
   const UintOf<F> name = tag_of<F>(cell_at(g, point, level), level);
   const I tag = as_int(name), mask = splat_int<F>(g.slot_mask);
   I at = as_int(shift_right<1>(name)) & mask, found = I(-1);
   for (auto open = wanted; any(open); at = (at + I(1)) & mask) {
-    const I here = gather_int<F>(g.cells + cell_tag, at * I(numbers_of_cell));
+    const I here = record_in<F>(g.cells, at)(&GuideCell::tag);
     const auto same = mask_and(open, equal(here, tag));
     found = select(same, at, found);
     open = mask_and_not(mask_and_not(open, same), equal(here, I(0)));
@@ -55,7 +55,7 @@ TYNDALL_INLINE IntOf<F> find_slot(const GuideView& g, Vec3<F> point, int level, 
 
 /// The slot of the finest cell that holds a point; -1: there is none.
 template <class F>
-TYNDALL_INLINE IntOf<F> find_cell(const GuideView& g, Vec3<F> point, MaskOf<F> wanted) {
+TYNDALL_INLINE IntOf<F> find_cell(const Guide& g, Vec3<F> point, MaskOf<F> wanted) {
   using I = IntOf<F>;
   const I middle = find_slot(g, point, guide_middle_level, wanted);
   auto refined = mask_and(wanted, less_equal(I(0), middle));
@@ -66,8 +66,8 @@ TYNDALL_INLINE IntOf<F> find_cell(const GuideView& g, Vec3<F> point, MaskOf<F> w
     found = select(missing, find_slot(g, point, level, missing), found);
   }
   for (int level = guide_middle_level - 1; level >= 0; --level) {
-    const I safe = select(refined, found, I(0)) * I(numbers_of_cell);
-    refined = mask_and(refined, equal(gather_int<F>(g.cells + cell_is_refined, safe), I(1)));
+    const auto cell = record_in<F>(g.cells, select(refined, found, I(0)));
+    refined = mask_and(refined, equal(cell(&GuideCell::is_refined), I(1)));
     if (!any(refined)) break;
     const I finer = find_slot(g, point, level, refined);
     refined = mask_and(refined, less_equal(I(0), finer));
@@ -81,7 +81,8 @@ template <class F>
 [[gnu::noinline]] static F guided_query_probability(const SceneView& s, Vec3<F> point, MaskOf<F> wanted) {
   const IntOf<F> cell = find_cell(s.guide, point, wanted);
   const auto found = mask_and(wanted, less_equal(IntOf<F>(0), cell));
-  return select(found, gather<F>(s.guide.query_probability, select(found, cell, IntOf<F>(0))), F(0.0f));
+  const auto its = record_in<F>(s.guide.cells, select(found, cell, IntOf<F>(0)));
+  return select(found, its(&GuideCell::query_probability), F(0.0f));
 }
 
 /// A lobe as a point sees it: an ellipse of heavy tails in the plane across `center`.
@@ -110,25 +111,23 @@ TYNDALL_INLINE SeenImage<F> see_by_front(Vec3<F> offset, Vec3<F> flight, Vec3<F>
 /// How a point sees the lobe of a sequence: around the light's image if the sequence has one, else around the direction
 /// that the wave front tells.
 template <class F>
-TYNDALL_INLINE SeenLobe<F> see_lobe(const GuideView& g, IntOf<F> sequence, Vec3<F> point) {
+TYNDALL_INLINE SeenLobe<F> see_lobe(const Guide& g, IntOf<F> sequence, Vec3<F> point) {
   using I = IntOf<F>;
-  const I row = sequence * I(numbers_of_lobe);
-  const auto at = [&](int k) __attribute__((always_inline)) { return gather<F>(g.lobe + k, row); };
-  const auto vector = [&](int k) __attribute__((always_inline)) { return Vec3<F>{at(k), at(k + 1), at(k + 2)}; };
-  const Vec3<F> offset = point - vector(lobe_point), flight = vector(lobe_flight), axis = vector(lobe_axis);
-  const I image = gather_int<F>(g.events + events_image, sequence * I(numbers_of_events));
+  const auto lobe = record_in<F>(g.lobe, sequence);
+  const Vec3<F> offset = point - lobe(&GuideLobe::point), flight = lobe(&GuideLobe::flight),
+                axis = lobe(&GuideLobe::axis);
+  const I image = record_in<F>(g.sequences, sequence)(&GuideSequence::image);
   const auto by_image = less_equal(I(0), image);
   SeenImage<F> light{-flight, by_image};
-  if (any(mask_not(by_image)))
-    light = see_by_front(offset, flight, axis, at(lobe_curvature), at(lobe_curvature + 1), at(lobe_curvature + 2));
+  if (any(mask_not(by_image))) {
+    const Vec3<F> curvature = lobe(&GuideLobe::curvature);
+    light = see_by_front(offset, flight, axis, curvature.x, curvature.y, curvature.z);
+  }
   if (any(by_image)) {
-    const I of = select(by_image, image, I(0)) * I(numbers_of_image);
-    const auto number = [&](int k) __attribute__((always_inline)) { return gather<F>(g.images + k, of); };
-    const auto place = [&](int k) __attribute__((always_inline)) {
-      return Vec3<F>{number(k), number(k + 1), number(k + 2)};
-    };
+    using Record = LightImage<float>;
+    const auto its = record_in<F>(g.images, select(by_image, image, I(0)));
     const SeenImage<F> seen =
-        see_image(LightImage<F>{place(image_light), place(image_sphere), number(image_radius)}, point);
+        see_image(LightImage<F>{its(&Record::light), its(&Record::sphere), its(&Record::radius)}, point);
     light.direction = select(by_image, seen.direction, light.direction);
     light.exists = mask_or(mask_and_not(light.exists, by_image), mask_and(seen.exists, by_image));
   }
@@ -141,10 +140,10 @@ TYNDALL_INLINE SeenLobe<F> see_lobe(const GuideView& g, IntOf<F> sequence, Vec3<
   const F rotation = F(-1.0f) / max(cosine, F(1e-3f));
   seen.u = point_at(axis, rotation * dot(axis, seen.center), both);
   seen.v = point_at(other, rotation * dot(other, seen.center), both);
-  const F far = dot(offset, offset) * at(lobe_inverse_size2);
-  const F error = mul_add(at(lobe_error), F(0.05f) + far, F(min_lobe_variance));
-  seen.length_u = F(lobe_widening) * sqrt(at(lobe_variance) + error);
-  seen.length_v = F(lobe_widening) * sqrt(at(lobe_variance + 1) + error);
+  const F far = dot(offset, offset) * lobe(&GuideLobe::inverse_size2);
+  const F error = mul_add(lobe(&GuideLobe::error), F(0.05f) + far, F(min_lobe_variance));
+  seen.length_u = F(lobe_widening) * sqrt(lobe(&GuideLobe::variance_u) + error);
+  seen.length_v = F(lobe_widening) * sqrt(lobe(&GuideLobe::variance_v) + error);
   return seen;
 }
 
@@ -177,11 +176,11 @@ struct FirstCone {
   MaskOf<F> exists;
 };
 template <class F>
-TYNDALL_INLINE FirstCone<F> first_cone(const GuideView& g, IntOf<F> sequence, Vec3<F> point) {
-  const IntOf<F> row = sequence * IntOf<F>(numbers_of_weights);
-  const auto at = [&](int k) __attribute__((always_inline)) { return gather<F>(g.weights + k, row); };
-  const Vec3<F> to_center = Vec3<F>{at(cone_center), at(cone_center + 1), at(cone_center + 2)} - point;
-  const F radius = at(cone_radius), d2 = max(dot(to_center, to_center), F(1e-30f)), sine2 = radius * radius / d2;
+TYNDALL_INLINE FirstCone<F> first_cone(const Guide& g, IntOf<F> sequence, Vec3<F> point) {
+  const auto its = record_in<F>(g.sequences, sequence);
+  const Vec3<F> to_center = its(&GuideSequence::cone_center) - point;
+  const F radius = its(&GuideSequence::cone_radius), d2 = max(dot(to_center, to_center), F(1e-30f)),
+          sine2 = radius * radius / d2;
   const auto exists = mask_and(less(F(0.0f), radius), less(sine2, F(0.999f)));
   const F safe = select(exists, sine2, F(0.5f));
   return {(F(1.0f) / sqrt(d2)) * to_center, safe, safe / (F(1.0f) + sqrt(F(1.0f) - safe)), exists};
@@ -196,8 +195,7 @@ struct GuidedDirections {
   MaskOf<F> exists;  ///< there is a sequence
 };
 template <class F>
-TYNDALL_INLINE GuidedDirections<F> guided_directions(const GuideView& g, const GuidedSequence<F>& sequence,
-                                                     Vec3<F> point) {
+TYNDALL_INLINE GuidedDirections<F> guided_directions(const Guide& g, const GuidedSequence<F>& sequence, Vec3<F> point) {
   const auto exists = less_equal(IntOf<F>(0), sequence.index);
   const IntOf<F> safe = select(exists, sequence.index, IntOf<F>(0));
   return {see_lobe(g, safe, point), first_cone(g, safe, point), sequence.probability, exists};
@@ -217,40 +215,40 @@ TYNDALL_INLINE F guided_pdf(const GuidedDirections<F>& d, Vec3<F> direction) {
 
 /// The sequence of a point's cell with the given events.
 template <class F>
-TYNDALL_INLINE GuidedSequence<F> find_sequence(const GuideView& g, Vec3<F> point, const OrderedEvents<F>& events,
+TYNDALL_INLINE GuidedSequence<F> find_sequence(const Guide& g, Vec3<F> point, const OrderedEvents<F>& events,
                                                MaskOf<F> wanted) {
   using I = IntOf<F>;
   const I cell = find_cell(g, point, wanted);
   auto open = mask_and(wanted, less_equal(I(0), cell));
-  const I safe = select(open, cell, I(0)), row = safe * I(numbers_of_cell);
-  I at = gather_int<F>(g.cells + cell_first, row), found = I(-1);
-  const I end = gather_int<F>(g.cells + cell_end, row);
+  const auto own = record_in<F>(g.cells, select(open, cell, I(0)));
+  I at = own(&GuideCell::first), found = I(-1);
+  const I end = own(&GuideCell::end);
   for (open = mask_and(open, less(at, end)); any(open); open = mask_and(open, less(at, end))) {
-    const I of = select(open, at, I(0)) * I(numbers_of_events);
-    const OrderedEvents<F> its{gather_int<F>(g.events + events_low, of), gather_int<F>(g.events + events_high, of)};
-    const auto same = mask_and(open, same_events(its, events));
+    const auto its = record_in<F>(g.sequences, select(open, at, I(0)));
+    const OrderedEvents<F> its_events{its(&GuideSequence::low), its(&GuideSequence::high)};
+    const auto same = mask_and(open, same_events(its_events, events));
     found = select(same, at, found);
     open = mask_and_not(open, same);
     at = at + I(1);
   }
   const auto exists = less_equal(I(0), found);
-  const F weight = gather<F>(g.weights + weight_of_events, select(exists, found, I(0)) * I(numbers_of_weights));
-  return {found, gather<F>(g.query_probability, safe) * weight};
+  const F weight = record_in<F>(g.sequences, select(exists, found, I(0)))(&GuideSequence::weight);
+  return {found, own(&GuideCell::query_probability) * weight};
 }
 
 /// Draws a sequence of a point's cell by u in [0, 1).
 template <class F>
-TYNDALL_INLINE GuidedSequence<F> draw_guided_sequence(const GuideView& g, Vec3<F> point, F u, MaskOf<F> wanted) {
+TYNDALL_INLINE GuidedSequence<F> draw_guided_sequence(const Guide& g, Vec3<F> point, F u, MaskOf<F> wanted) {
   using I = IntOf<F>;
   const I cell = find_cell(g, point, wanted);
   auto open = mask_and(wanted, less_equal(I(0), cell));
-  const I safe = select(open, cell, I(0)), row = safe * I(numbers_of_cell);
-  I at = gather_int<F>(g.cells + cell_first, row);
-  const I end = gather_int<F>(g.cells + cell_end, row);
-  GuidedSequence<F> drawn{I(-1), gather<F>(g.query_probability, safe)};
+  const auto own = record_in<F>(g.cells, select(open, cell, I(0)));
+  I at = own(&GuideCell::first);
+  const I end = own(&GuideCell::end);
+  GuidedSequence<F> drawn{I(-1), own(&GuideCell::query_probability)};
   F weight = F(0.0f);
   for (open = mask_and(open, less(at, end)); any(open); open = mask_and(open, less(at, end))) {
-    const F its = gather<F>(g.weights + weight_of_events, select(open, at, I(0)) * I(numbers_of_weights));
+    const F its = record_in<F>(g.sequences, select(open, at, I(0)))(&GuideSequence::weight);
     const auto here = mask_and(open, less(u, its));
     drawn.index = select(here, at, drawn.index);
     weight = select(here, its, weight);

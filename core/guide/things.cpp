@@ -11,7 +11,7 @@ namespace {
 constexpr double max_fuzz = 0.3;  // of metal that counts as near-specular
 
 bool is_near_specular(const SceneView& s, std::int32_t element) {
-  const std::int32_t material = s.material[element], kind = s.kind[material];
+  const std::int32_t material = s.elements.material[element], kind = s.materials.kind[material];
   if (has_trait<&BsdfTraits::smooth_boundary>(s, kind)) return true;
   return has_trait<&BsdfTraits::glossy>(s, kind) && lobe_width_of(s, material) < max_fuzz;
 }
@@ -40,32 +40,31 @@ Thing flat_thing(const Affine& map, std::int32_t element, int face) {
 }
 
 void complete(const SceneView& s, Thing& thing) {
-  const std::int32_t material = s.material[thing.element];
-  const bool metal = has_trait<&BsdfTraits::glossy>(s, s.kind[material]);
+  const std::int32_t material = s.elements.material[thing.element];
+  const bool metal = has_trait<&BsdfTraits::glossy>(s, s.materials.kind[material]);
   thing.fuzz = metal ? lobe_width_of(s, material) : 0;
   if (thing.fuzz <= static_cast<double>(min_sampled_fuzz)) thing.fuzz = 0;
   const Vec3d middle = thing.is_sphere ? thing.center : thing.corner + 0.5 * (thing.u + thing.v);
   const Vec3d edges = cross(thing.u, thing.v);
   const double area = thing.is_sphere ? pi * thing.radius * thing.radius : std::sqrt(dot(edges, edges));
-  for (int k = 0; k < std::min(s.lights.count, max_guide_lights); ++k) {
-    const Vec3d light{at(s.lights.center[0], k), at(s.lights.center[1], k), at(s.lights.center[2], k)};
-    const Vec3d to_middle = middle - light;
+  for (int k = 0; k < std::min(s.lights.count(), max_guide_lights); ++k) {
+    const Vec3d to_middle = middle - to_double(s.lights.center[k]);
     thing.power += at(s.lights.power, k) * std::min(area / std::max(dot(to_middle, to_middle), 1e-30), 4 * pi);
   }
-  if (s.specular.pairs == 0) return;
+  if (s.specular.pairs() == 0) return;
   const std::int32_t object = s.specular.sphere_of[thing.element] >> 1;
   if (object < 0) return;
-  for (int k = 0; k < s.lights.count; ++k)
-    if (s.specular.pair_of[object * s.lights.count + k] >= 0) thing.object = object;
+  for (int k = 0; k < s.lights.count(); ++k)
+    if (s.specular.pair_of[object * s.lights.count() + k] >= 0) thing.object = object;
 }
 
-void list_spheres(const SceneView& s, const SphereView& spheres, bool moving, std::vector<Thing>& things) {
-  for (int i = 0; i < spheres.count; ++i) {
+void list_spheres(const SceneView& s, const Spheres& spheres, bool moving, std::vector<Thing>& things) {
+  for (int i = 0; i < spheres.count(); ++i) {
     if (!is_near_specular(s, spheres.element[i])) continue;
     Thing thing;
     thing.element = spheres.element[i], thing.is_sphere = true, thing.radius = at(spheres.radius, i);
-    thing.center = {at(spheres.x, i), at(spheres.y, i), at(spheres.z, i)};
-    if (moving) thing.motion = {at(spheres.move_x, i), at(spheres.move_y, i), at(spheres.move_z, i)};
+    thing.center = to_double(spheres.center[i]);
+    if (moving) thing.motion = to_double(spheres.move[i]);
     things.push_back(thing);
   }
 }
@@ -81,12 +80,12 @@ bool has_any(const SceneView& s) {
 std::vector<Thing> list_things(const SceneView& s) {
   std::vector<Thing> things;
   const bool some = has_any<&BsdfTraits::glossy>(s) || has_any<&BsdfTraits::smooth_boundary>(s);
-  if (!some || s.lights.count == 0 || !has_any<&BsdfTraits::diffuse>(s)) return things;
+  if (!some || s.lights.count() == 0 || !has_any<&BsdfTraits::diffuse>(s)) return things;
   list_spheres(s, s.spheres, false, things);
   list_spheres(s, s.moving_spheres, true, things);
-  for (int i = 0; i < s.quads.count; ++i)
+  for (int i = 0; i < s.quads.count(); ++i)
     if (is_near_specular(s, s.quads.element[i])) things.push_back(flat_thing(s.quads.map[i], s.quads.element[i], -1));
-  for (int i = 0; i < 6 * s.boxes.count; ++i) {
+  for (int i = 0; i < 6 * s.boxes.count(); ++i) {
     const std::int32_t element = s.boxes.element[i / 6] + i % 6;
     if (is_near_specular(s, element)) things.push_back(flat_thing(s.boxes.map[i / 6], element, i % 6));
   }

@@ -13,10 +13,6 @@ inline double at(const float* column, int i) { return static_cast<double>(column
 
 inline constexpr int max_guide_lights = 16;  ///< that light paths start from: the first ones
 
-inline Vec3d to_double(Vec3f v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
-
 /// A near-specular element: a sphere, a quad or a face of a box.
 struct Thing {
   std::int32_t element = 0;

@@ -34,7 +34,7 @@ SceneView with_larger_pixels(SceneView scene, int step) {
   camera.corner = camera.corner + 0.5f * (1 - size) * (camera.du + camera.dv);
   camera.du = size * camera.du, camera.dv = size * camera.dv;
   scene.width = (scene.width + step - 1) / step, scene.height = (scene.height + step - 1) / step;
-  scene.subpixel_light_count = 0;  // they were found for the pixels as they are
+  scene.subpixel_lights = {};  // they were found for the pixels as they are
   return scene;
 }
 

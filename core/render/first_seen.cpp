@@ -12,7 +12,7 @@ namespace {
 /// Whether rays that hit a surface end there (matt surfaces, lights) or continue as off a mirror. False for glass and
 /// wide lobes.
 bool is_sharp(const SceneView& scene, std::int32_t element) {
-  const std::int32_t material = scene.material[element], kind = scene.kind[material];
+  const std::int32_t material = scene.elements.material[element], kind = scene.materials.kind[material];
   if (has_trait<&BsdfTraits::transmissive>(kind)) return false;
   return !has_trait<&BsdfTraits::glossy>(kind) || lobe_width_of(scene, material) <= min_sampled_fuzz;
 }

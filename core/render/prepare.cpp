@@ -125,10 +125,10 @@ double chance_of_sky_caustics(const Scene& scene, const RenderScene& compiled) {
   const SpecularPairs& specular = compiled.specular;
   const auto has_sun_pair = [&](const CausticPart& thing) {
     if (specular.sun_pair_of.empty()) return false;
-    const std::int32_t sphere = specular.sphere_of[static_cast<std::size_t>(elements[thing.shape])];
-    return sphere >= 0 && specular.sun_pair_of[static_cast<std::size_t>(sphere / 2)] >= 0;
+    const std::int32_t sphere = specular.sphere_of[elements[thing.shape]];
+    return sphere >= 0 && specular.sun_pair_of[sphere / 2] >= 0;
   };
-  const SkyDistribution& sky = *compiled.sky.distribution;
+  const SkyDistribution& sky = compiled.sky.distribution;
   for (const CausticPart& thing : list_caustic_parts(scene, flat).smooth) {
     const double spread = has_sun_pair(thing) ? sky.spread_without_sun : sky.spread;
     minimum = std::min(minimum, spread + fraction_of_directions(thing.fuzz, 1));
@@ -167,13 +167,12 @@ double chance_of_caustics(const Scene& scene, const RenderScene& compiled, const
   const bool guided = guide && guide->lobes() > 0;
   if (specular.sphere.empty() && !guided) return chance_of_caustics(scene);
   const std::vector<std::int32_t> elements = first_elements(flatten(scene));
-  const std::size_t lights = compiled.lights.kind.size();
   const auto is_pair = [&](std::size_t light, std::size_t thing) {
     if (guided && guide->thing_of[thing] >= 0) return true;
     if (specular.sphere.empty()) return false;
     const std::int32_t light_index = compiled.elements.light[light], sphere = specular.sphere_of[thing];
     if (light_index < 0 || sphere < 0) return false;
-    return specular.pair_of[static_cast<std::size_t>(sphere / 2) * lights + static_cast<std::size_t>(light_index)] >= 0;
+    return specular.pair_of[sphere / 2 * compiled.lights.count() + light_index] >= 0;
   };
   return chance_of_caustics(scene, [&](std::size_t light, std::size_t shape) {
     for (std::int32_t i = elements[light]; i < elements[light + 1]; ++i)
@@ -183,25 +182,20 @@ double chance_of_caustics(const Scene& scene, const RenderScene& compiled, const
   });
 }
 
-PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, RenderScene columns,
-                             std::shared_ptr<const Guide> guide)
-    : scene_(std::move(scene)),
-      columns_(std::move(columns)),
-      textures_(texture_views(columns_)),
-      view_(view_of(columns_, textures_)) {
-  if (!guide) guide = std::make_shared<const Guide>(columns_.may_guide_paths ? find_guide(view_) : Guide{});
-  guide_ = std::move(guide);
-  view_.guide = guide_->view();
-  if (guide_->lobes() > 0) {
+PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, const RenderScene& columns, const Guide* guide)
+    : scene_(std::move(scene)), view_{columns} {
+  if (guide)
+    view_.guide = *guide;
+  else if (columns.may_guide_paths)
+    view_.guide = find_guide(view_);
+  if (view_.has_guide()) {
     const bool plain =
-        columns_.kernel == KernelSet::specular_paths_only || columns_.kernel == KernelSet::no_media_no_textures;
-    columns_.kernel = view_.kernel = plain ? KernelSet::guided_paths_only : KernelSet::everything;
+        view_.kernel == KernelSet::specular_paths_only || view_.kernel == KernelSet::no_media_no_textures;
+    view_.kernel = plain ? KernelSet::guided_paths_only : KernelSet::everything;
   }
-  subpixel_lights_ = find_subpixel_lights(view_, find_camera_images(view_));
-  view_.subpixel_light_count = static_cast<int>(subpixel_lights_.size());
-  view_.subpixel_lights = subpixel_lights_.data();
+  view_.subpixel_lights = find_subpixel_lights(view_, find_camera_images(view_));
   // Guided light is not shared: its sums would depend on the order in which waiting requests are answered.
-  const bool may_reuse_paths = columns_.may_reuse_paths && guide_->lobes() == 0;
+  const bool may_reuse_paths = columns.may_reuse_paths && !view_.has_guide();
   if (may_reuse_paths) reuse_gain_ = probe_reuse(view_, trace_groups);
   view_.reuses_paths = may_reuse_paths && is_worthwhile(reuse_gain_);
 }
@@ -209,17 +203,15 @@ PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, RenderScene col
 double PreparedScene::caustic_chance() const {
   std::call_once(caustic_chance_found_, [this] {
     caustic_chance_ =
-        std::min(chance_of_caustics(*scene_, columns_, guide_.get()), chance_of_sky_caustics(*scene_, columns_));
+        std::min(chance_of_caustics(*scene_, view_, &view_.guide), chance_of_sky_caustics(*scene_, view_));
   });
   return caustic_chance_;
 }
 
 std::shared_ptr<const PreparedScene> prepare(std::shared_ptr<const Scene> scene, const PreparedScene* before) {
-  RenderScene columns = compile(*scene, before ? &before->columns() : nullptr);
-  std::shared_ptr<const Guide> guide;
-  if (before && before->guide().light_paths > 0 && !change_between(before->scene(), *scene).light)
-    guide = before->shared_guide();  // its light paths are those of the scene
-  return std::make_shared<const PreparedScene>(std::move(scene), std::move(columns), std::move(guide));
+  const RenderScene columns = compile(*scene, before ? &before->columns() : nullptr);
+  const bool kept = before && before->guide().light_paths > 0 && !change_between(before->scene(), *scene).light;
+  return std::make_shared<const PreparedScene>(std::move(scene), columns, kept ? &before->guide() : nullptr);
 }
 
 std::shared_ptr<const PreparedScene> prepare(const Scene& scene) {
@@ -229,7 +221,7 @@ std::shared_ptr<const PreparedScene> prepare(const Scene& scene) {
 std::shared_ptr<const PreparedScene> prepare_without_splitting(const Scene& scene) {
   RenderScene columns = compile(scene);
   columns.splits_paths = false;
-  return std::make_shared<const PreparedScene>(std::make_shared<const Scene>(scene), std::move(columns));
+  return std::make_shared<const PreparedScene>(std::make_shared<const Scene>(scene), columns);
 }
 
 }  // namespace tyndall

@@ -1,6 +1,5 @@
 #pragma once
 #include "core/compile/render_scene.h"
-#include "core/guide/guide.h"
 #include "core/reuse/probe.h"
 #include "core/scene/scene.h"
 #include "core/trace/scene_view.h"
@@ -43,30 +42,25 @@ class PreparedScene {
  public:
   /// columns: compiled from `scene`. guide: of the scene; null: it is made here. Except to measure changed columns,
   /// call prepare() instead.
-  PreparedScene(std::shared_ptr<const Scene> scene, RenderScene columns, std::shared_ptr<const Guide> guide = nullptr);
+  PreparedScene(std::shared_ptr<const Scene> scene, const RenderScene& columns, const Guide* guide = nullptr);
 
   const Scene& scene() const { return *scene_; }
-  const RenderScene& columns() const { return columns_; }
-  /// What kernels read; valid as long as this object.
+  const RenderScene& columns() const { return view_; }
+  /// What kernels read.
   const SceneView& view() const { return view_; }
   /// Whether second vertices are reused between pixels: it is allowed, possible, and pays.
   bool reuses_paths() const { return view_.reuses_paths; }
   /// What reuse would gain; not probed where it is not allowed or not possible.
   const ReuseGain& reuse_gain() const { return reuse_gain_; }
   /// Directions from which light comes by way of several near-specular surfaces or off metal of little fuzz.
-  const Guide& guide() const { return *guide_; }
-  const std::shared_ptr<const Guide>& shared_guide() const { return guide_; }
+  const Guide& guide() const { return view_.guide; }
   /// See chance_of_caustics(). Computed at the first call, as only pictures of many samples need it.
   double caustic_chance() const;
 
  private:
   std::shared_ptr<const Scene> scene_;
-  RenderScene columns_;
-  std::vector<TextureView> textures_;
-  std::shared_ptr<const Guide> guide_;
-  std::vector<SubpixelLight> subpixel_lights_;
-  ReuseGain reuse_gain_;
   SceneView view_;
+  ReuseGain reuse_gain_;
   mutable std::once_flag caustic_chance_found_;
   mutable double caustic_chance_ = 1;
 };

@@ -44,11 +44,10 @@ Renderer::Pick Renderer::pick(int x, int y) const {
   if (hit.element < 0) return {};
   const auto column = static_cast<double>(x) + 0.5, row = static_cast<double>(y) + 0.5;
   const CameraColumns& c = scene->camera;
-  const auto widen = [](Vec3f v) { return Vec3d{v.x, v.y, v.z}; };
-  const Vec3d offset = widen(c.corner) + column * widen(c.du) + row * widen(c.dv);
-  const double scale = static_cast<double>(hit.depth) / dot(offset, widen(c.axis));
+  const Vec3d offset = to_double(c.corner) + column * to_double(c.du) + row * to_double(c.dv);
+  const double scale = static_cast<double>(hit.depth) / dot(offset, to_double(c.axis));
   return {scene->object_of(hit.element), static_cast<double>(hit.depth),
-          scene->origin + widen(c.center) + scale * offset};
+          scene->origin + to_double(c.center) + scale * offset};
 }
 
 }  // namespace tyndall

@@ -58,7 +58,7 @@ LevelsOf levels_of(const Film& film, const RenderEngine& engine, PixelLevels& le
 std::vector<std::size_t> pixels_with_subpixel_lights(const SceneView& scene, const Film& film) {
   constexpr std::size_t maximum = 32;
   std::set<std::size_t> places;
-  for (int i = 0; i < scene.subpixel_light_count && places.size() <= maximum; ++i) {
+  for (int i = 0; i < scene.subpixel_lights.count() && places.size() <= maximum; ++i) {
     const int x = static_cast<int>(scene.subpixel_lights[i].x), y = static_cast<int>(scene.subpixel_lights[i].y);
     const Region& r = film.region;
     if (x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1) places.insert(film.index(x, y));

@@ -287,8 +287,7 @@ TYNDALL_INLINE void render_tile_reusing(const auto& s, const TileJob& job, const
   ReusedPaths reused;
   ReuseGroups groups(s, job);
   const SubpixelLights subpixel_lights =
-      subpixel_lights_in_rows({s.subpixel_lights, s.subpixel_lights + s.subpixel_light_count},
-                              block_start(job.tile.y0, block_height), job.tile.y1 + block_height);
+      subpixel_lights_in_rows(s.subpixel_lights, block_start(job.tile.y0, block_height), job.tile.y1 + block_height);
   while (groups.next(reused)) {
     GroupSamples samples(reused, subpixel_lights, film);
     follow(samples);

@@ -9,7 +9,7 @@
 /// index between them and inside the inner one.
 namespace tyndall {
 
-/// One sphere per lane, read from the columns of SpecularView.
+/// One sphere per lane, read from the columns of SpecularPairs.
 template <class F>
 struct SpecularSphere {
   Vec3<F> center;
@@ -21,18 +21,17 @@ struct SpecularSphere {
 };
 
 template <class F>
-TYNDALL_INLINE SpecularSphere<F> load_sphere(const SpecularView& c, IntOf<F> sphere, F time) {
-  const auto value = [&](const float* column) { return lookup<F>(column, c.spheres, sphere); };
+TYNDALL_INLINE SpecularSphere<F> load_sphere(const SpecularPairs& c, IntOf<F> sphere, F time) {
+  const auto value = [&](const auto& column) { return lookup<F>(column, c.spheres(), sphere); };
   SpecularSphere<F> b;
-  b.center = point_at(Vec3<F>{value(c.center[0]), value(c.center[1]), value(c.center[2])}, time,
-                      Vec3<F>{value(c.move[0]), value(c.move[1]), value(c.move[2])});
+  b.center = point_at(value(c.center), time, value(c.move));
   b.radius = value(c.radius), b.inner_radius = value(c.inner_radius);
   const F index = value(c.index);
   b.mirror = equal(index, F(0.0f));
   b.index = select(b.mirror, F(1.0f), index), b.inner_index = value(c.inner_index);
   b.hollow = less(F(0.0f), b.inner_radius);
-  b.outer = lookup_int<F>(c.outer, c.spheres, sphere), b.inner = lookup_int<F>(c.inner, c.spheres, sphere);
-  b.overlapped = equal(lookup_int<F>(c.overlapped, c.spheres, sphere), IntOf<F>(1));
+  b.outer = lookup_int<F>(c.outer, c.spheres(), sphere), b.inner = lookup_int<F>(c.inner, c.spheres(), sphere);
+  b.overlapped = equal(lookup_int<F>(c.overlapped, c.spheres(), sphere), IntOf<F>(1));
   return b;
 }
 
@@ -110,7 +109,7 @@ struct SpecularDeflection {
 /// the path goes there inside of that sphere, and takes it away for each side outside of it. R, Ri: outer and inner
 /// radius; n, m: index inside each.
 template <class F>
-TYNDALL_INLINE SpecularDeflection<F> deflection_of(const SpecularView& c, const SpecularSphere<F>& b,
+TYNDALL_INLINE SpecularDeflection<F> deflection_of(const SpecularPairs& c, const SpecularSphere<F>& b,
                                                    const PathEnds<F>& e, const EventSequence<F>& w,
                                                    const EndSigns<F>& sign) {
   const F outside = e.outside, glass = F(2.0f) * w.outer - outside;

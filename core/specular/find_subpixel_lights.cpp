@@ -61,7 +61,7 @@ class Finder {
   /// Adds the boxes of all lights that a specular object may show, as the camera sees them directly and by the object.
   void find() {
     std::set<std::int32_t> seen;
-    for (int k = 0; k < std::min(s_.specular.pairs, max_pairs); ++k) {
+    for (int k = 0; k < std::min(s_.specular.pairs(), max_pairs); ++k) {
       const std::int32_t sphere = s_.specular.sphere[k], light = s_.specular.light[k];
       light_ = light < 0 ? sun_window(s_.sky, load_sphere<float>(s_.specular, sphere, 0.0f))
                          : load_light<float>(s_.lights, light);

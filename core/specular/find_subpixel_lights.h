@@ -1,5 +1,4 @@
 #pragma once
-#include "core/trace/picture_box.h"
 #include "core/trace/scene_view.h"
 #include "core/trace/subpixel_lights.h"
 

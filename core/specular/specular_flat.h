@@ -21,11 +21,13 @@ struct SpecularMirror {
 
 /// Reads a mirror. mirror: index among the flat mirrors.
 template <class F>
-TYNDALL_INLINE SpecularMirror<F> load_mirror(const SpecularView& c, IntOf<F> mirror) {
-  const IntOf<F> at = mirror * IntOf<F>(numbers_of_mirror);
-  const auto value = [&](int k) { return gather<F>(c.mirrors + k, at); };
-  const auto row = [&](int k) { return Vec3<F>{value(3 * k), value(3 * k + 1), value(3 * k + 2)}; };
-  return {{row(0), row(1)}, row(2), {value(mirror_offsets), value(mirror_offsets + 1)}, value(mirror_offsets + 2)};
+TYNDALL_INLINE SpecularMirror<F> load_mirror(const SpecularPairs& c, IntOf<F> mirror) {
+  using Record = MirrorRecord;
+  const auto its = record_in<F>(c.mirrors, mirror);
+  return {{its(&Record::row, 0), its(&Record::row, 1)},
+          its(&Record::normal),
+          {its(&Record::offset, 0), its(&Record::offset, 1)},
+          its(&Record::height)};
 }
 
 /// The mirror image of a point.
@@ -49,23 +51,21 @@ inline constexpr float min_mirror_worth = 1e-3f;
 /// Estimated contribution, > 0, of pair k of a mirror and a light at a point: light_worth() of the light's mirror
 /// image.
 template <class F>
-TYNDALL_INLINE F mirror_worth(const SpecularView& c, int k, Vec3<F> point) {
-  const float* number = c.mirrors + std::ptrdiff_t{numbers_of_mirror} * (c.sphere[k] - c.first_mirror);
-  const auto row = [&](std::ptrdiff_t i) {
-    return splat<F>(Vec3f{number[3 * i], number[3 * i + 1], number[3 * i + 2]});
-  };
-  const auto value = [&](int i) { return splat<F>(number[i]); };
-  const Vec3<F> light = splat<F>(Vec3f{c.choice.center[0][k], c.choice.center[1][k], c.choice.center[2][k]});
-  const F near = dot(row(2), point) + value(mirror_offsets + 2), far = dot(row(2), light) + value(mirror_offsets + 2);
+TYNDALL_INLINE F mirror_worth(const SpecularPairs& c, int k, Vec3<F> point) {
+  const MirrorRecord& m = c.mirrors[c.sphere[k] - c.first_mirror];
+  const Vec3<F> normal = splat<F>(m.normal);
+  const F offset = splat<F>(m.height);
+  const Vec3<F> light = splat<F>(c.choice.center[k]);
+  const F near = dot(normal, point) + offset, far = dot(normal, light) + offset;
   const F height = max(abs(near) + abs(far), F(1e-30f)), up_to_plane = abs(near) / height;  // fraction of the path
-  const Vec3<F> to_light = point_at(light, F(-2.0f) * far, row(2)) - point, at = point_at(point, up_to_plane, to_light);
+  const Vec3<F> to_light = point_at(light, F(-2.0f) * far, normal) - point, at = point_at(point, up_to_plane, to_light);
   const F distance2 = dot(to_light, to_light), reach2 = splat<F>(c.choice.reach2[k]);
   const F blur =
       up_to_plane * sqrt(reach2 * distance2) / height;  // how far from `at` other points of the light may be seen
   auto seen = less(F(0.0f), near * far);
   for (int i = 0; i < 2; ++i) {
-    const F place = abs(dot(row(i), at) + value(mirror_offsets + i));
-    seen = mask_and(seen, less_equal(place, mul_add(blur, value(mirror_slopes + i), F(1.0f))));
+    const F place = abs(dot(splat<F>(m.row[i]), at) + splat<F>(m.offset[i]));
+    seen = mask_and(seen, less_equal(place, mul_add(blur, splat<F>(m.slope[i]), F(1.0f))));
   }
   return splat<F>(c.choice.power[k]) / max(distance2, reach2) * select(seen, F(1.0f), F(min_mirror_worth));
 }
@@ -110,16 +110,14 @@ struct SpecularSlab {
 
 /// Reads a slab. slab: index among the slabs.
 template <class F>
-TYNDALL_INLINE SpecularSlab<F> load_slab(const SpecularView& c, IntOf<F> slab) {
-  const IntOf<F> at = slab * IntOf<F>(numbers_of_slab);
-  const auto value = [&](int k) { return gather<F>(c.slabs + k, at); };
+TYNDALL_INLINE SpecularSlab<F> load_slab(const SpecularPairs& c, IntOf<F> slab) {
+  using Record = SlabRecord;
+  const auto its = record_in<F>(c.slabs, slab);
   SpecularSlab<F> p;
-  for (int k = 0; k < 3; ++k) {
-    p.row[k] = {value(3 * k), value(3 * k + 1), value(3 * k + 2)};
-    p.offset[k] = value(slab_offsets + k), p.half[k] = value(slab_halves + k);
-  }
-  p.index = value(slab_index), p.medium_density = value(slab_medium_density), p.closed = to_int(value(slab_closed));
-  p.element = lookup_int<F>(c.outer, c.spheres, slab + IntOf<F>(c.first_slab));
+  for (int k = 0; k < 3; ++k)
+    p.row[k] = its(&Record::row, k), p.offset[k] = its(&Record::offset, k), p.half[k] = its(&Record::half, k);
+  p.index = its(&Record::index), p.medium_density = its(&Record::medium_density), p.closed = its(&Record::closed);
+  p.element = lookup_int<F>(c.outer, c.spheres(), slab + IntOf<F>(c.first_slab));
   return p;
 }
 

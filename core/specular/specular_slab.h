@@ -271,10 +271,9 @@ TYNDALL_INLINE SlabSequence<F> slab_sequence_of(const SpecularSlab<F>& slab, Spe
 /// Estimated contribution, > 0, of pair k of a slab and a light at a point: that of the light alone if the straight
 /// segment to it meets the sphere around the slab, else 0.15 times as much, because reflections may still bring light.
 template <class F>
-TYNDALL_INLINE F slab_worth(const SpecularView& c, int k, Vec3<F> point) {
+TYNDALL_INLINE F slab_worth(const SpecularPairs& c, int k, Vec3<F> point) {
   const int sphere = c.sphere[k];
-  const auto column = [&](const float* const* v, int i) { return splat<F>(Vec3f{v[0][i], v[1][i], v[2][i]}); };
-  const Vec3<F> to_light = column(c.choice.center, k) - point, arm = column(c.center, sphere) - point;
+  const Vec3<F> to_light = splat<F>(c.choice.center[k]) - point, arm = splat<F>(c.center[sphere]) - point;
   const F distance2 = dot(to_light, to_light), reach2 = splat<F>(c.choice.reach2[k]);
   const F nearest = min(max(dot(arm, to_light) / max(distance2, F(1e-30f)), F(0.0f)), F(1.0f));  // on the segment
   const Vec3<F> off = point_at(arm, -nearest, to_light);
@@ -286,7 +285,7 @@ TYNDALL_INLINE F slab_worth(const SpecularView& c, int k, Vec3<F> point) {
 /// Estimated contribution, > 0, of pair k of a sphere, mirror or slab and a light at a point: see light_worth() of
 /// lights.
 template <class F>
-TYNDALL_INLINE F light_worth(const SpecularView& c, int k, Vec3<F> point) {
+TYNDALL_INLINE F light_worth(const SpecularPairs& c, int k, Vec3<F> point) {
   if (c.sphere[k] < c.first_mirror) return light_worth(c.choice, k, point);
   return c.sphere[k] < c.first_slab ? mirror_worth(c, k, point) : slab_worth(c, k, point);
 }

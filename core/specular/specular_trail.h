@@ -22,7 +22,7 @@ TYNDALL_INLINE SpecularHistory<F> meet_object(const SceneView& s, const Specular
                                               IntOf<F> element, MaskOf<F> reflected) {
   using I = IntOf<F>;
   const I code =
-      lookup_int<F>(s.specular.sphere_of, s.element_count, element);  // 2 · object, + 1 for an inner sphere; or -1
+      lookup_int<F>(s.specular.sphere_of, s.elements.count(), element);  // 2 · object, + 1 for an inner sphere; or -1
   const auto none = mask_or(less(code, I(0)), less(trail.met.packed, I(0)));
   const I safe = select(none, I(0), code);
   const I object = as_int(shift_right<1>(as_uint(safe)));
@@ -32,7 +32,7 @@ TYNDALL_INLINE SpecularHistory<F> meet_object(const SceneView& s, const Specular
   HistoryEvent<F> event = event_at_sphere<F>(before.packed, equal(safe & I(1), I(1)), reflected, away);
   if (s.specular.has_slabs()) {
     const auto by_slab = less_equal(I(s.specular.first_slab), object);
-    const I first = lookup_int<F>(s.specular.outer, s.specular.spheres, object);
+    const I first = lookup_int<F>(s.specular.outer, s.specular.spheres(), object);
     const auto at = event_at_slab<F>(before.packed, as_int(shift_right<1>(as_uint(element - first))));
     event.start = select(by_slab, at.start, event.start), event.count = select(by_slab, at.count, event.count);
     event.is_full = mask_or(mask_and(by_slab, at.is_full), mask_and_not(event.is_full, by_slab));
@@ -45,8 +45,8 @@ TYNDALL_INLINE SpecularHistory<F> meet_object(const SceneView& s, const Specular
 /// there are more lights or pairs than max_lights_by_contribution.
 template <class F>
 [[gnu::noinline]] static F connect_probability(const SceneView& s, Vec3<F> point) {
-  const LightView &pairs = s.specular.choice, &lights = s.lights;
-  if (pairs.count > max_lights_by_contribution || lights.count > max_lights_by_contribution) return F(1.0f);
+  const Lights &pairs = s.specular.choice, &lights = s.lights;
+  if (pairs.count() > max_lights_by_contribution || lights.count() > max_lights_by_contribution) return F(1.0f);
   F direct = total_worth(lights, point);
   if (s.samples_sky()) direct = direct + splat<F>(s.sky.irradiance);
   return min(max(total_worth(s.specular, point) / direct, F(0.03f)), F(1.0f));
@@ -87,7 +87,7 @@ struct BsdfHitPath {
 };
 
 template <class F>
-TYNDALL_INLINE BsdfHitPath<F> bsdf_hit_by_sphere(const SpecularView& c, const SpecularTrail<F>& trail,
+TYNDALL_INLINE BsdfHitPath<F> bsdf_hit_by_sphere(const SpecularPairs& c, const SpecularTrail<F>& trail,
                                                  const Ray<F>& ray, IntOf<F> sphere, const LightColumns<F>& light,
                                                  Vec3<F> point) {
   const SpecularSphere<F> b = load_sphere<F>(c, sphere, ray.time);
@@ -112,7 +112,7 @@ TYNDALL_INLINE BsdfHitPath<F> bsdf_hit_by_sphere(const SpecularView& c, const Sp
 }
 
 template <class F>
-TYNDALL_INLINE BsdfHitPath<F> bsdf_hit_by_mirror(const SpecularView& c, const SpecularTrail<F>& trail,
+TYNDALL_INLINE BsdfHitPath<F> bsdf_hit_by_mirror(const SpecularPairs& c, const SpecularTrail<F>& trail,
                                                  const Ray<F>& ray, IntOf<F> mirror, const LightColumns<F>& light,
                                                  Vec3<F> point) {
   const SpecularMirror<F> m = load_mirror<F>(c, mirror);
@@ -123,7 +123,7 @@ TYNDALL_INLINE BsdfHitPath<F> bsdf_hit_by_mirror(const SpecularView& c, const Sp
 }
 
 template <class F>
-TYNDALL_INLINE BsdfHitPath<F> bsdf_hit_by_slab(const SpecularView& c, const SpecularTrail<F>& trail, const Ray<F>& ray,
+TYNDALL_INLINE BsdfHitPath<F> bsdf_hit_by_slab(const SpecularPairs& c, const SpecularTrail<F>& trail, const Ray<F>& ray,
                                                IntOf<F> slab, const LightColumns<F>& light, Vec3<F> point) {
   const SpecularSlab<F> p = load_slab<F>(c, slab);
   const SlabSequence<F> sequence = slab_sequence_of(p, trail.met, ray.direction);
@@ -156,7 +156,7 @@ TYNDALL_INLINE void put(MaskOf<F> here, const BsdfHitPath<F>& from, BsdfHitPath<
 
 /// Weight, by the power heuristic, of a path that BSDF sampling found beside the specular path that could have.
 template <class F>
-TYNDALL_INLINE F weight_beside(const SpecularView& c, const SpecularTrail<F>& trail, const BsdfHitPath<F>& hit_path,
+TYNDALL_INLINE F weight_beside(const SpecularPairs& c, const SpecularTrail<F>& trail, const BsdfHitPath<F>& hit_path,
                                IntOf<F> pair, MaskOf<F> could) {
   const F probability = choice_probability(c, trail.start, pair);
   const F query_pdf = hit_path.pdf * probability * hit_path.expected_queries;
@@ -175,10 +175,10 @@ template <class F>
   using I = IntOf<F>;
   auto could = mask_and(mask_and(lit, less_equal(I(0), light)), trail.met.has_object());
   if (!any(could)) return F(1.0f);
-  const SpecularView& c = s.specular;
+  const SpecularPairs& c = s.specular;
   const I sphere = select(could, trail.met.object(), I(0));
   const I safe_light = select(could, light, I(0));
-  const I pair = gather_int<F>(c.pair_of, sphere * I(s.lights.count) + safe_light);
+  const I pair = gather_int<F>(c.pair_of, sphere * I(s.lights.count()) + safe_light);
   could = mask_and(could, less_equal(I(0), pair));
   if (!any(could)) return F(1.0f);
   const LightColumns<F> columns = load_light<F>(s.lights, safe_light);
@@ -199,11 +199,11 @@ template <class F>
 [[gnu::noinline]] static F mis_weight_of_sun_hit(const SceneView& s, SpecularTrail<F> trail, Ray<F> ray,
                                                  MaskOf<F> escaped) {
   using I = IntOf<F>;
-  const SpecularView& c = s.specular;
+  const SpecularPairs& c = s.specular;
   auto could = mask_and(escaped, trail.met.has_object());
   if (!any(could)) return F(1.0f);
   const I sphere = select(could, trail.met.object(), I(0));
-  const I pair = lookup_int<F>(c.sun_pair_of, c.spheres, sphere);
+  const I pair = lookup_int<F>(c.sun_pair_of, c.spheres(), sphere);
   could = mask_and(could, less_equal(I(0), pair));
   if (!any(could)) return F(1.0f);
   const LightColumns<F> window = sun_window(s.sky, load_sphere<F>(c, sphere, ray.time));

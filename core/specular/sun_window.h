@@ -1,6 +1,6 @@
 #pragma once
 #include "core/specular/event_sequence.h"
-#include "core/trace/light_columns.h"
+#include "core/trace/light_choice.h"
 #include "core/trace/sky.h"
 
 /// The sun of a picture of the sky as specular paths at spheres know it.
@@ -18,7 +18,7 @@ inline constexpr float sun_distance = 256;
 
 /// The window of a sphere, as a light: a rectangle.
 template <class F>
-TYNDALL_INLINE LightColumns<F> sun_window(const SkyView& sky, const SpecularSphere<F>& b) {
+TYNDALL_INLINE LightColumns<F> sun_window(const SkyColumns& sky, const SpecularSphere<F>& b) {
   const F distance = F(sun_distance) * b.radius;
   const F half = distance * splat<F>(sky.sun_tangent + 1 / sun_distance);
   LightColumns<F> w;
@@ -53,7 +53,7 @@ TYNDALL_INLINE LightColumns<F> load_light_or_sun(const auto& s, IntOf<F> light, 
   if (!s.has_sun_paths()) return load_light<F>(s.lights, light);
   const LightColumns<F> sun = sun_window(s.sky, b);
   const auto far = is_sky<F>(light);
-  if (s.lights.count == 0 || all(far)) return sun;
+  if (s.lights.count() == 0 || all(far)) return sun;
   const LightColumns<F> near = load_light<F>(s.lights, select(far, IntOf<F>(0), light));
   return {select(far, sun.kind, near.kind),         select(far, sun.corner, near.corner),
           select(far, sun.edge_u, near.edge_u),     select(far, sun.edge_v, near.edge_v),

@@ -24,10 +24,12 @@ Kernels kernels_of(Target target) {
 
 void Kernels::render_tile(const SceneView& scene, const TileJob& job, double film_quantum, FilmPixel* pixels,
                           TileCounts& counts, EmissionSums* emission) const {
-  SceneView view = scene;
-  // The pixels of a coarse pass are too far apart for reuse.
-  view.reuses_paths = scene.reuses_paths && job.step == 1;
-  render[static_cast<int>(set_for(view))](view, job, film_quantum, pixels, emission, counts);
+  if (scene.reuses_paths && job.step > 1) {  // the pixels of a coarse pass are too far apart for reuse
+    SceneView alone = scene;
+    alone.reuses_paths = false;
+    return render_tile(alone, job, film_quantum, pixels, counts, emission);
+  }
+  render[static_cast<int>(set_for(scene))](scene, job, film_quantum, pixels, emission, counts);
 }
 
 KernelSet Kernels::set_for(const SceneView& scene) const {

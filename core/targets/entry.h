@@ -142,12 +142,12 @@ static void render_tile_entry(const SceneView& scene, const TileJob& job, double
   // The question which samples they are would cost cheap scenes up to a seventh of their time.
   if constexpr (has_reuse_loop(set))
     if (scene.reuses_paths) {
-      const SceneViewFor<set, Reuse::always> s{{scene}};
+      const auto& s = view_for<set, Reuse::always>(scene);
       return render_tile_reusing<F>(
           s, job,
           film, [&](auto& samples) __attribute__((always_inline)) { follow_paths<F>(s, samples, counts, recorder); });
     }
-  const SceneViewFor<set, Reuse::never> s{{scene}};
+  const auto& s = view_for<set, Reuse::never>(scene);
   AloneSamples samples(s, job, film);
   follow_paths<F>(s, samples, counts, recorder);
 }

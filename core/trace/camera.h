@@ -48,13 +48,6 @@ TYNDALL_INLINE Ray<F> ray_through(const SceneView& s, F x, F y, const Sampler<F>
   return camera_ray(s.camera, x, y, lens, time);
 }
 
-/// The ray of one sample of the pixel (x, y), if it has no subpixel lights.
-template <class F>
-TYNDALL_INLINE Ray<F> sample_ray(const SceneView& s, F x, F y, const Sampler<F>& sampler) {
-  const Pair<F> in_pixel = sampler.next_2d(dimension::pixel);
-  return ray_through(s, x + in_pixel.x, y + in_pixel.y, sampler);
-}
-
 inline constexpr int max_tile_pixels = 4096;
 
 /// The samples to take next, one in each lane.
@@ -117,8 +110,7 @@ struct TileSamples {
 };
 
 TYNDALL_INLINE void list_samples(const SceneView& s, const TileJob& job, TileSamples& list) {
-  list.subpixel_lights = subpixel_lights_in_rows({s.subpixel_lights, s.subpixel_lights + s.subpixel_light_count},
-                                                 job.tile.y0, job.tile.y1);
+  list.subpixel_lights = subpixel_lights_in_rows(s.subpixel_lights, job.tile.y0, job.tile.y1);
   list.pixels = 0;
   const auto first_multiple = [&](int from) { return (from + job.step - 1) / job.step * job.step; };
   for (int y = first_multiple(job.tile.y0); y < job.tile.y1; y += job.step)

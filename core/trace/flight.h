@@ -77,7 +77,7 @@ template <class F>
 TYNDALL_INLINE void fly_through_media(const auto& s, const Ray<F>& ray, const Sampler<F>& sampler, MaskOf<F> active,
                                       F& nearest, MediumEvent<F>& event) {
   const F infinity = F(__builtin_inff());
-  for (int k = 0; k < s.medium_count; ++k) {
+  for (int k = 0; k < s.media.count(); ++k) {
     const MediumColumns& m = s.media[k];
     if (m.weighs) continue;
     const Interval<F> inside = medium_interval(m, ray.origin, ray.direction, ray.from);
@@ -108,7 +108,7 @@ TYNDALL_INLINE void fly_through_media(const auto& s, const Ray<F>& ray, const Sa
 template <class F>
 TYNDALL_INLINE F pass_media(const SceneView& s, const Ray<F>& ray, F distance, MaskOf<F> active) {
   F depth = F(0.0f);
-  for (int k = 0; k < s.medium_count; ++k) {
+  for (int k = 0; k < s.media.count(); ++k) {
     const Interval<F> inside = medium_interval(s.media[k], ray.origin, ray.direction, ray.from);
     const F begin = max(inside.near, F(0.0f)), end = min(inside.far, distance);
     const auto crosses = mask_and(mask_and(inside.hit, active), less(begin, end));
@@ -128,7 +128,7 @@ template <class F>
 TYNDALL_INLINE F transmitted_by_absorbers(const SceneView& s, const Ray<F>& ray, const Sampler<F>& sampler, F distance,
                                           MaskOf<F> active) {
   F kept = F(1.0f);
-  for (int k = 0; k < s.medium_count; ++k) {
+  for (int k = 0; k < s.media.count(); ++k) {
     const MediumColumns& m = s.media[k];
     if (!m.weighs) continue;
     const Interval<F> inside = medium_interval(m, ray.origin, ray.direction, ray.from);
@@ -212,10 +212,9 @@ struct MediumFlight {
 
 /// The distribution of distances for a flight that is ended by angle for a light.
 template <class F>
-TYNDALL_INLINE Equiangular<F> distances_past(const LightView& l, IntOf<F> light, const MediumFlight<F>& flight) {
-  const auto at = [&](const float* column) { return lookup<F>(column, l.count, light); };
-  const Vec3<F> center{at(l.center[0]), at(l.center[1]), at(l.center[2])};
-  return equiangular(center - flight.origin, at(l.reach2), flight.direction, flight.begin, flight.end);
+TYNDALL_INLINE Equiangular<F> distances_past(const Lights& l, IntOf<F> light, const MediumFlight<F>& flight) {
+  const Vec3<F> to_center = lookup<F>(l.center, l.count(), light) - flight.origin;
+  return equiangular(to_center, lookup<F>(l.reach2, l.count(), light), flight.direction, flight.begin, flight.end);
 }
 
 /// The term q² of the power heuristic in direct_light(). q: the pdf with which this flight is ended by angle for
@@ -224,8 +223,8 @@ TYNDALL_INLINE Equiangular<F> distances_past(const LightView& l, IntOf<F> light,
 template <class F>
 TYNDALL_INLINE F by_angle_odds(const SceneView& s, const MediumFlight<F>& flight, IntOf<F> light, F probability) {
   const auto in_medium = less_equal(IntOf<F>(0), flight.medium);
-  const IntOf<F> pair = select(in_medium, flight.medium * IntOf<F>(s.lights.count) + light, IntOf<F>(0));
-  const F chosen = select(in_medium, gather<F>(s.near_probability, pair), F(0.0f));
+  const IntOf<F> pair = select(in_medium, flight.medium * IntOf<F>(s.lights.count()) + light, IntOf<F>(0));
+  const F chosen = select(in_medium, gather<F>(s.near.probability, pair), F(0.0f));
   const auto could = less(F(0.0f), chosen);
   if (!any(could)) return F(0.0f);
   const F by_angle = chosen * pdf(distances_past(s.lights, light, flight), flight.distance);

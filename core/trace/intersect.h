@@ -81,9 +81,9 @@ TYNDALL_INLINE void test_tree(const auto& s, const Ray<F>& ray, Q query, Hit<F>&
   std::int32_t node = 0;
   while (const std::uint32_t live = take_node(stack, node, query, best)) {
     if (node < 0) {
-      test_leaf(s, s.leaves[~node], ray, query, best);
+      test_leaf(s, s.bvh.leaves[~node], ray, query, best);
     } else if (__builtin_popcount(live) > few_lanes<F>) {
-      open_node(s.nodes[node], slopes, best.t, stack);
+      open_node(s.bvh.nodes[node], slopes, best.t, stack);
       continue;
     } else if constexpr (few_lanes<F> > 0) {
       alone.remember(ray, slopes, query);
@@ -102,15 +102,11 @@ TYNDALL_INLINE Hit<F> closest_of_all(const auto& s, const Ray<F>& ray, MaskOf<F>
 }
 
 template <class F>
-TYNDALL_INLINE Hit<F> closest_in_tree(const auto& s, const Ray<F>& ray, MaskOf<F> active) {
+TYNDALL_INLINE Hit<F> closest(const auto& s, const Ray<F>& ray, MaskOf<F> active) {
+  if (s.bvh.nodes.empty()) return closest_of_all(s, ray, active);
   Hit<F> best{select(active, F(__builtin_inff()), F(-1.0f)), IntOf<F>(-1)};
   test_tree(s, ray, RayQuery<F, false, true>{F(0.0f), IntOf<F>(-1), -1}, best);
   return best;
-}
-
-template <class F>
-TYNDALL_INLINE Hit<F> closest(const auto& s, const Ray<F>& ray, MaskOf<F> active) {
-  return s.nodes ? closest_in_tree(s, ray, active) : closest_of_all(s, ray, active);
 }
 
 /// Lanes that hit anything but element `aim` before `distance`. If `aim` is a face of a box, the box's other faces do
@@ -119,17 +115,17 @@ template <class F>
 TYNDALL_INLINE MaskOf<F> blocked_towards(const auto& s, const Ray<F>& ray, F distance, IntOf<F> aim,
                                          std::int32_t common_aim, MaskOf<F> active) {
   Hit<F> best{select(active, distance, F(-1.0f)), IntOf<F>(-1)};
-  if (s.nodes)
-    test_tree(s, ray, RayQuery<F, true, true>{F(0.0f), aim, common_aim}, best);
-  else
+  if (s.bvh.nodes.empty())
     test_all(s, ray, RayQuery<F, true, false>{F(0.0f), aim, common_aim}, best);
+  else
+    test_tree(s, ray, RayQuery<F, true, true>{F(0.0f), aim, common_aim}, best);
   return less_equal(IntOf<F>(0), best.element);
 }
 
 /// blocked_towards() for shadow rays to lights. aim: the light's element; -1 towards the sky.
 template <class F>
 TYNDALL_INLINE MaskOf<F> blocked(const auto& s, const Ray<F>& ray, F distance, IntOf<F> aim, MaskOf<F> active) {
-  return blocked_towards(s, ray, distance, aim, s.lights.count == 1 && !s.samples_sky() ? s.lights.element[0] : -1,
+  return blocked_towards(s, ray, distance, aim, s.lights.count() == 1 && !s.samples_sky() ? s.lights.element[0] : -1,
                          active);
 }
 

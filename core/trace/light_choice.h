@@ -1,27 +1,69 @@
 #pragma once
-#include "core/base/vec.h"
+#include "core/base/sampling.h"
+#include "core/shapes/outline.h"
 #include "core/trace/scene_view.h"
 
-/// Chooses the light that a path samples, and gives the probability of the choice.
+/// The lights of a scene as lanes read them, each lane another one, and the choice of the light that a path samples.
 namespace tyndall {
+
+/// One light per lane, read from the columns of Lights. With one light in the scene they are read once for all lanes.
+template <class F>
+struct LightColumns {
+  IntOf<F> kind;
+  Vec3<F> corner, edge_u, edge_v, normal;
+  F length_u, length_v, area;
+};
+
+/// Value of a column of lights in each lane.
+template <class F>
+TYNDALL_INLINE F light_value(const Lights& l, const float* column, IntOf<F> k) {
+  return l.count() == 1 ? splat<F>(column[0]) : lookup<F>(column, l.count(), k);
+}
+
+template <class F>
+TYNDALL_INLINE Vec3<F> light_value(const Lights& l, const VectorColumn& column, IntOf<F> k) {
+  return l.count() == 1 ? splat<F>(column[0]) : lookup<F>(column, l.count(), k);
+}
+
+template <class F>
+TYNDALL_INLINE LightColumns<F> load_light(const Lights& l, IntOf<F> k) {
+  return {l.count() == 1 ? IntOf<F>(l.kind[0]) : lookup_int<F>(l.kind, l.count(), k),
+          light_value<F>(l, l.corner, k),
+          light_value<F>(l, l.edge_u, k),
+          light_value<F>(l, l.edge_v, k),
+          light_value<F>(l, l.normal, k),
+          light_value<F>(l, l.length_u, k),
+          light_value<F>(l, l.length_v, k),
+          light_value<F>(l, l.area, k)};
+}
+
+/// Where u in [0, 1)² lies on the flat light k, as fractions of its edges, uniformly by area. kind: of the light.
+template <class F>
+TYNDALL_INLINE Pair<F> on_flat_light(const auto& s, IntOf<F> k, IntOf<F> kind, Pair<F> u) {
+  if (!s.has_outlined_lights()) return u;
+  const auto triangle = equal(kind, IntOf<F>(Lights::triangle)), ring = equal(kind, IntOf<F>(Lights::ring));
+  const Pair<F> folded = in_triangle(u), round = in_ring(light_value<F>(s.lights, s.lights.inner, k), u);
+  return {select(triangle, folded.x, select(ring, round.x, u.x)),
+          select(triangle, folded.y, select(ring, round.y, u.y))};
+}
 
 /// Estimated contribution of light k at a point: its power over the squared distance, where distances below the light's
 /// radius count as the radius.
 template <class F>
-TYNDALL_INLINE F light_worth(const LightView& l, int k, Vec3<F> point) {
-  const Vec3<F> way = splat<F>(Vec3f{l.center[0][k], l.center[1][k], l.center[2][k]}) - point;
+TYNDALL_INLINE F light_worth(const Lights& l, int k, Vec3<F> point) {
+  const Vec3<F> way = splat<F>(l.center[k]) - point;
   return splat<F>(l.power[k]) / max(dot(way, way), splat<F>(l.reach2[k]));
 }
 
-// The functions below choose among lights (LightView) or among pairs of an object and a light (SpecularView). They take
+// The functions below choose among lights (Lights) or among pairs of an object and a light (SpecularPairs). They take
 // views instead of closures, because closures would keep the path in memory.
-TYNDALL_INLINE const LightView& choice_of(const LightView& view) { return view; }
-TYNDALL_INLINE const LightView& choice_of(const SpecularView& view) { return view.choice; }
+TYNDALL_INLINE const Lights& choice_of(const Lights& view) { return view; }
+TYNDALL_INLINE const Lights& choice_of(const SpecularPairs& view) { return view.choice; }
 
 template <class F>
 TYNDALL_INLINE F total_worth(const auto& view, Vec3<F> point) {
   F sum = F(0.0f);
-  for (int k = 0; k < choice_of(view).count; ++k) sum = sum + light_worth(view, k, point);
+  for (int k = 0; k < choice_of(view).count(); ++k) sum = sum + light_worth(view, k, point);
   return sum;
 }
 
@@ -35,9 +77,9 @@ struct LightChoice {
 /// The probabilities of choosing each of two sibling nodes at a point: in proportion to their estimated contributions,
 /// as light_worth() estimates those of single lights.
 template <class F>
-TYNDALL_INLINE Pair<F> probabilities_of_pair(const LightTreeView& t, IntOf<F> first, Vec3<F> point) {
+TYNDALL_INLINE Pair<F> probabilities_of_pair(const LightTree& t, IntOf<F> first, Vec3<F> point) {
   const auto worth = [&](IntOf<F> node) {
-    const Vec3<F> center{gather<F>(t.center[0], node), gather<F>(t.center[1], node), gather<F>(t.center[2], node)};
+    const Vec3<F> center{gather<F>(t.center.x, node), gather<F>(t.center.y, node), gather<F>(t.center.z, node)};
     const Vec3<F> to_node = center - point;
     return gather<F>(t.power, node) / max(dot(to_node, to_node), gather<F>(t.reach2, node)) + F(1e-30f);
   };
@@ -47,7 +89,7 @@ TYNDALL_INLINE Pair<F> probabilities_of_pair(const LightTreeView& t, IntOf<F> fi
 
 /// Descends the tree from the root, choosing one of two children at random at each node.
 template <class F>
-TYNDALL_INLINE LightChoice<F> choose_in_tree(const LightTreeView& t, Vec3<F> point, F u) {
+TYNDALL_INLINE LightChoice<F> choose_in_tree(const LightTree& t, Vec3<F> point, F u) {
   using I = IntOf<F>;
   I node = I(0);
   F probability = F(1.0f);
@@ -68,7 +110,7 @@ TYNDALL_INLINE LightChoice<F> choose_in_tree(const LightTreeView& t, Vec3<F> poi
 
 /// Probability with which choose_in_tree() takes `light`: the product over its ancestors, from its leaf up.
 template <class F>
-TYNDALL_INLINE F probability_in_tree(const LightTreeView& t, Vec3<F> point, IntOf<F> light) {
+TYNDALL_INLINE F probability_in_tree(const LightTree& t, Vec3<F> point, IntOf<F> light) {
   using I = IntOf<F>;
   I node = gather_int<F>(t.leaf, light);
   F probability = F(1.0f);
@@ -87,16 +129,16 @@ TYNDALL_INLINE F probability_in_tree(const LightTreeView& t, Vec3<F> point, IntO
 template <class F>
 TYNDALL_INLINE LightChoice<F> choose_light(const auto& view, Vec3<F> point, F u) {
   using I = IntOf<F>;
-  const LightView& l = choice_of(view);
-  if (l.count == 1) return {I(0), F(1.0f)};
-  if (l.count <= max_lights_by_contribution) {
+  const Lights& l = choice_of(view);
+  if (l.count() == 1) return {I(0), F(1.0f)};
+  if (l.count() <= max_lights_by_contribution) {
     const F total = total_worth(view, point);
-    LightChoice<F> choice{I(l.count - 1), F(0.0f)};
+    LightChoice<F> choice{I(l.count() - 1), F(0.0f)};
     F left = u * total, worth = F(0.0f);
     MaskOf<F> open = less(F(-1.0f), F(0.0f));
-    for (int k = 0; k < l.count; ++k) {
+    for (int k = 0; k < l.count(); ++k) {
       worth = light_worth(view, k, point);
-      const auto here = k + 1 < l.count ? mask_and(open, less(left, worth)) : open;
+      const auto here = k + 1 < l.count() ? mask_and(open, less(left, worth)) : open;
       choice.light = select(here, I(k), choice.light);
       choice.probability = select(here, worth / total, choice.probability);
       open = mask_and_not(open, here);
@@ -110,11 +152,11 @@ TYNDALL_INLINE LightChoice<F> choose_light(const auto& view, Vec3<F> point, F u)
 /// Probability with which choose_light() takes `light` at a point.
 template <class F>
 TYNDALL_INLINE F choice_probability(const auto& view, Vec3<F> point, IntOf<F> light) {
-  const LightView& l = choice_of(view);
-  if (l.count == 1) return F(1.0f);
-  if (l.count > max_lights_by_contribution) return probability_in_tree(l.tree, point, light);
+  const Lights& l = choice_of(view);
+  if (l.count() == 1) return F(1.0f);
+  if (l.count() > max_lights_by_contribution) return probability_in_tree(l.tree, point, light);
   F total = F(0.0f), own = F(0.0f);
-  for (int k = 0; k < l.count; ++k) {
+  for (int k = 0; k < l.count(); ++k) {
     const F worth = light_worth(view, k, point);
     own = select(equal(light, IntOf<F>(k)), worth, own);
     total = total + worth;

@@ -3,7 +3,6 @@
 #include "core/base/sampling.h"
 #include "core/shapes/sphere.h"
 #include "core/trace/light_choice.h"
-#include "core/trace/light_columns.h"
 #include "core/trace/spherical_triangle.h"
 
 /// Samples points of lights as seen from a point, and gives the pdf of the direction, per steradian, times the

@@ -57,52 +57,31 @@ TYNDALL_INLINE void test_sphere(Vec3<F> center, F radius, IntOf<F> element, cons
   best.element = select(better, element, best.element);
 }
 
-template <class F, class Q>
-TYNDALL_INLINE void test_spheres(const SphereView& s, int first, int last, const Ray<F>& ray, const Q& query,
+template <bool moving, class F, class Q>
+TYNDALL_INLINE void test_spheres(const Spheres& s, int first, int last, const Ray<F>& ray, const Q& query,
                                  Hit<F>& best) {
-  for (int i = first; i < last; ++i)
-    test_sphere(splat<F>(Vec3f{s.x[i], s.y[i], s.z[i]}), splat<F>(s.radius[i]), splat_int<F>(s.element[i]), ray, query,
-                best);
-}
-
-template <class F, class Q>
-TYNDALL_INLINE void test_moving_spheres(const SphereView& s, int first, int last, const Ray<F>& ray, const Q& query,
-                                        Hit<F>& best) {
   for (int i = first; i < last; ++i) {
-    const Vec3<F> motion = splat<F>(Vec3f{s.move_x[i], s.move_y[i], s.move_z[i]});
-    const Vec3<F> center = point_at(splat<F>(Vec3f{s.x[i], s.y[i], s.z[i]}), ray.time, motion);
+    Vec3<F> center = splat<F>(s.center[i]);
+    if constexpr (moving) center = point_at(center, ray.time, splat<F>(s.move[i]));
     test_sphere(center, splat<F>(s.radius[i]), splat_int<F>(s.element[i]), ray, query, best);
   }
 }
 
-template <class F, class Q>
-TYNDALL_INLINE void test_quads(const FlatView& q, int first, int last, const Ray<F>& ray, const Q& query,
-                               Hit<F>& best) {
-  for (int i = first; i < last; ++i) {
-    if (Q::shadow && q.element[i] == query.common_aim) continue;
-    const auto element = splat_int<F>(q.element[i]);
-    QuadHit<F> h = hit_quad(q.map[i], ray.origin, ray.direction, best.t);
-    if constexpr (Q::shadow) h.hit = mask_and_not(h.hit, equal(query.aim, element));
-    if (!any(h.hit)) continue;
-    const Start<F> start = start_on<F>(ray.from, element);
-    const auto better = beats(h.t, element, mask_and_not(h.hit, start.here), best, query);
-    best.t = select(better, h.t, best.t);
-    best.element = select(better, element, best.element);
-  }
-}
-
-/// Triangles and disks. Returns the closest hit. Not inlined, and by value, because each inlined copy takes seconds to
-/// compile. A ray that nearly lies in a triangle's plane meets it at an uncertain distance, but not before its box.
-template <class F, class Q>
-[[gnu::noinline]] static Hit<F> test_outlined(const FlatView& f, int first, int last, Ray<F> ray, Q query,
-                                              Hit<F> best) {
+/// outlined: triangles and disks; else quads. A ray that nearly lies in a triangle's plane meets it at an uncertain
+/// distance, but not before its box.
+template <bool outlined, class F, class Q>
+TYNDALL_INLINE void test_flats(const Flats& f, int first, int last, const Ray<F>& ray, const Q& query, Hit<F>& best) {
   for (int i = first; i < last; ++i) {
     if (Q::shadow && f.element[i] == query.common_aim) continue;
     const auto element = splat_int<F>(f.element[i]);
-    QuadHit<F> h = hit_outlined(f.map[i], f.outline[i], ray.origin, ray.direction, best.t);
+    QuadHit<F> h;
+    if constexpr (outlined)
+      h = hit_outlined(f.map[i], f.outline[i], ray.origin, ray.direction, best.t);
+    else
+      h = hit_quad(f.map[i], ray.origin, ray.direction, best.t);
     if constexpr (Q::shadow) h.hit = mask_and_not(h.hit, equal(query.aim, element));
     if (!any(h.hit)) continue;
-    if constexpr (Q::by_tree) {
+    if constexpr (outlined && Q::by_tree) {
       const auto entered = less_equal(query.near, h.t * F(slab_room));
       if (f.outline[i].kind == Outline::triangle)
         h.t = select(entered, h.t, query.near);
@@ -110,11 +89,18 @@ template <class F, class Q>
         h.hit = mask_and(h.hit, entered);
     }
     const Start<F> start = start_on<F>(ray.from, element);
-    const RayQuery<F, Q::shadow, false> entered_box{query.near, query.aim, query.common_aim};
-    const auto better = beats(h.t, element, mask_and_not(h.hit, start.here), best, entered_box);
+    const RayQuery<F, Q::shadow, Q::by_tree && !outlined> not_entered{query.near, query.aim, query.common_aim};
+    const auto better = beats(h.t, element, mask_and_not(h.hit, start.here), best, not_entered);
     best.t = select(better, h.t, best.t);
     best.element = select(better, element, best.element);
   }
+}
+
+/// Triangles and disks. Returns the closest hit. Not inlined, and by value, because each inlined copy takes seconds to
+/// compile.
+template <class F, class Q>
+[[gnu::noinline]] static Hit<F> test_outlined(const Flats& f, int first, int last, Ray<F> ray, Q query, Hit<F> best) {
+  test_flats<true>(f, first, last, ray, query, best);
   return best;
 }
 
@@ -140,19 +126,18 @@ TYNDALL_INLINE void test_box(const auto& map, IntOf<F> element, Start<F> start, 
 }
 
 template <class F, class Q>
-TYNDALL_INLINE void test_boxes(const FlatView& b, int first, int last, const Ray<F>& ray, const Q& query,
-                               Hit<F>& best) {
+TYNDALL_INLINE void test_boxes(const Flats& b, int first, int last, const Ray<F>& ray, const Q& query, Hit<F>& best) {
   for (int i = first; i < last; ++i)
     test_box(b.map[i], splat_int<F>(b.element[i]), start_on<F>(ray.from, b.element[i], 6), ray, query, best);
 }
 
 template <class F, class Q>
 TYNDALL_INLINE void test_all(const auto& s, const Ray<F>& ray, const Q& query, Hit<F>& best) {
-  test_spheres(s.spheres, 0, s.spheres.count, ray, query, best);
-  test_moving_spheres(s.moving_spheres, 0, s.moving_spheres.count, ray, query, best);
-  test_quads(s.quads, 0, Q::shadow ? s.quads.blocking : s.quads.count, ray, query, best);
-  test_boxes(s.boxes, 0, s.boxes.count, ray, query, best);
-  if (s.has_outlined()) best = test_outlined(s.outlined, 0, s.outlined.count, ray, query, best);
+  test_spheres<false>(s.spheres, 0, s.spheres.count(), ray, query, best);
+  test_spheres<true>(s.moving_spheres, 0, s.moving_spheres.count(), ray, query, best);
+  test_flats<false>(s.quads, 0, Q::shadow ? s.quads.count() - s.quads.bounding : s.quads.count(), ray, query, best);
+  test_boxes(s.boxes, 0, s.boxes.count(), ray, query, best);
+  if (s.has_outlined()) best = test_outlined(s.outlined, 0, s.outlined.count(), ray, query, best);
 }
 
 template <class F, class Q>
@@ -160,13 +145,13 @@ TYNDALL_INLINE void test_leaf(const auto& s, const BvhLeaf& leaf, const Ray<F>& 
   const int last = leaf.first + leaf.count;
   switch (leaf.kind) {
     case PrimitiveKind::sphere:
-      test_spheres(s.spheres, leaf.first, last, ray, query, best);
+      test_spheres<false>(s.spheres, leaf.first, last, ray, query, best);
       break;
     case PrimitiveKind::moving_sphere:
-      test_moving_spheres(s.moving_spheres, leaf.first, last, ray, query, best);
+      test_spheres<true>(s.moving_spheres, leaf.first, last, ray, query, best);
       break;
     case PrimitiveKind::quad:
-      test_quads(s.quads, leaf.first, last, ray, query, best);
+      test_flats<false>(s.quads, leaf.first, last, ray, query, best);
       break;
     case PrimitiveKind::box:
       test_boxes(s.boxes, leaf.first, last, ray, query, best);

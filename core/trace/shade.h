@@ -38,21 +38,16 @@ TYNDALL_INLINE SurfacePoint<F> surface_at(const SceneView& s, const Ray<F>& ray,
   SurfacePoint<F> p;
   p.element = select(less(element, IntOf<F>(0)), IntOf<F>(0), element);
   p.point = point_at(ray.origin, safe_t, ray.direction);
-  p.material = lookup_int<F>(s.material, s.element_count, p.element);
-  Vec3<F> column{lookup<F>(s.x, s.element_count, p.element), lookup<F>(s.y, s.element_count, p.element),
-                 lookup<F>(s.z, s.element_count, p.element)};
+  p.material = lookup_int<F>(s.elements.material, s.elements.count(), p.element);
+  Vec3<F> column = lookup<F>(s.elements.center_or_normal, s.elements.count(), p.element);
   p.normal = column;
   p.inverted = less(F(1.0f), F(0.0f));
   if (!s.features.spheres && !s.features.moving_spheres) return p;
-  const F inverse_radius = lookup<F>(s.inverse_radius, s.element_count, p.element);
+  const F inverse_radius = lookup<F>(s.elements.inverse_radius, s.elements.count(), p.element);
   const auto round = mask_not(equal(inverse_radius, F(0.0f)));
   if (!any(round)) return p;
-  if (s.features.moving_spheres) {
-    const Vec3<F> motion{lookup<F>(s.move_x, s.element_count, p.element),
-                         lookup<F>(s.move_y, s.element_count, p.element),
-                         lookup<F>(s.move_z, s.element_count, p.element)};
-    column = point_at(column, ray.time, motion);
-  }
+  if (s.features.moving_spheres)
+    column = point_at(column, ray.time, lookup<F>(s.elements.move, s.elements.count(), p.element));
   const Vec3<F> arm = p.point - column;
   const F scale = copy_sign(F(1.0f) / sqrt(max(dot(arm, arm), F(1e-37f))), inverse_radius);
   p.normal = select(round, scale * arm, p.normal);
@@ -65,15 +60,15 @@ template <class F>
 TYNDALL_INLINE TextureUv<F> surface_uv(const auto& s, const SurfacePoint<F>& p) {
   const IntOf<F> at = p.element * IntOf<F>(8);
   F column[8];
-  for (int i = 0; i < 8; ++i) column[i] = gather<F>(s.uv + i, at);
+  for (int i = 0; i < 8; ++i) column[i] = gather<F>(s.elements.uv + i, at);
   F u = mul_add(column[0], p.point.x, mul_add(column[1], p.point.y, mul_add(column[2], p.point.z, column[3])));
   F v = mul_add(column[4], p.point.x, mul_add(column[5], p.point.y, mul_add(column[6], p.point.z, column[7])));
   if (s.has_outlined() && s.features.disks) {
-    const auto disk = equal(lookup_int<F>(s.disk, s.element_count, p.element), IntOf<F>(1));
+    const auto disk = equal(lookup_int<F>(s.elements.disk, s.elements.count(), p.element), IntOf<F>(1));
     const Pair<F> on_disk = disk_uv(u, v);
     u = select(disk, on_disk.x, u), v = select(disk, on_disk.y, v);
   }
-  const auto round = mask_not(equal(lookup<F>(s.inverse_radius, s.element_count, p.element), F(0.0f)));
+  const auto round = mask_not(equal(lookup<F>(s.elements.inverse_radius, s.elements.count(), p.element), F(0.0f)));
   if (!any(round)) return {u, v, round};
   const Vec3<F> outward = select(p.inverted, -p.normal, p.normal);
   const Vec3<F> own{mul_add(column[0], outward.x, -(column[1] * outward.z)), outward.y,
@@ -96,7 +91,7 @@ struct SurfaceUv {
 
 /// Colour at a point of a texture of kind `first` or a later kind.
 template <std::size_t first = 0, class F, class Uv>
-TYNDALL_INLINE Vec3<F> colour_of_kind(const TextureView& t, const TexturePoint<F, Uv>& at) {
+TYNDALL_INLINE Vec3<F> colour_of_kind(const TextureColumns& t, const TexturePoint<F, Uv>& at) {
   using Kinds = TextureKinds<F>;
   if constexpr (first + 1 < std::variant_size_v<Kinds>)
     if (t.kind != static_cast<std::int32_t>(first)) return colour_of_kind<first + 1>(t, at);
@@ -106,7 +101,7 @@ TYNDALL_INLINE Vec3<F> colour_of_kind(const TextureView& t, const TexturePoint<F
 /// Colour of a texture at a point, in the lanes `wanted`. surface: gives the uv coordinates for image textures; null in
 /// a medium.
 template <class F, class View>
-TYNDALL_INLINE Vec3<F> texture_colour(const View& s, const TextureView& t, Vec3<F> point, MaskOf<F> wanted,
+TYNDALL_INLINE Vec3<F> texture_colour(const View& s, const TextureColumns& t, Vec3<F> point, MaskOf<F> wanted,
                                       const SurfacePoint<F>* surface) {
   const Vec3<F> scaled = point_at(splat<F>(t.offset), splat<F>(t.scale), point);
   return colour_of_kind<0, F, SurfaceUv<F, View>>(t, {point, scaled, wanted, s.gradients, {&s, surface}});
@@ -116,7 +111,7 @@ TYNDALL_INLINE Vec3<F> texture_colour(const View& s, const TextureView& t, Vec3<
 template <class F>
 TYNDALL_INLINE Vec3<F> textured(const auto& s, Vec3<F> colour, IntOf<F> index, MaskOf<F> lanes, Vec3<F> point,
                                 const SurfacePoint<F>* surface) {
-  for (int k = 0; k < s.texture_count; ++k) {
+  for (int k = 0; k < s.textures.count(); ++k) {
     const auto here = mask_and(lanes, equal(index, IntOf<F>(k)));
     if (any(here)) colour = select(here, texture_colour(s, s.textures[k], point, here, surface), colour);
   }
@@ -127,20 +122,18 @@ TYNDALL_INLINE Vec3<F> textured(const auto& s, Vec3<F> colour, IntOf<F> index, M
 /// point cannot choose between the cells of a checker on either side of the flat.
 template <class F>
 TYNDALL_INLINE Vec3<F> texture_point(const SceneView& s, const SurfacePoint<F>& p) {
-  const auto flat = equal(lookup<F>(s.inverse_radius, s.element_count, p.element), F(0.0f));
+  const auto flat = equal(lookup<F>(s.elements.inverse_radius, s.elements.count(), p.element), F(0.0f));
   if (!any(flat)) return p.point;
-  const Vec3<F> normal{lookup<F>(s.x, s.element_count, p.element), lookup<F>(s.y, s.element_count, p.element),
-                       lookup<F>(s.z, s.element_count, p.element)};
-  const F gap = lookup<F>(s.plane, s.element_count, p.element) - dot(normal, p.point);
+  const Vec3<F> normal = lookup<F>(s.elements.center_or_normal, s.elements.count(), p.element);
+  const F gap = lookup<F>(s.elements.plane, s.elements.count(), p.element) - dot(normal, p.point);
   return select(flat, point_at(p.point, gap, normal), p.point);
 }
 
 template <class F>
 TYNDALL_INLINE Vec3<F> surface_colour(const auto& s, const SurfacePoint<F>& p, MaskOf<F> lanes) {
-  const Vec3<F> colour{lookup<F>(s.red, s.material_count, p.material), lookup<F>(s.green, s.material_count, p.material),
-                       lookup<F>(s.blue, s.material_count, p.material)};
+  const Vec3<F> colour = lookup<F>(s.materials.colour, s.materials.count(), p.material);
   if (!s.has_textures()) return colour;
-  const IntOf<F> texture = lookup_int<F>(s.texture_of, s.material_count, p.material);
+  const IntOf<F> texture = lookup_int<F>(s.materials.texture, s.materials.count(), p.material);
   if (!any(mask_and(lanes, less_equal(IntOf<F>(0), texture)))) return colour;
   return textured(s, colour, texture, lanes, texture_point<F>(s, p), &p);
 }
@@ -150,14 +143,12 @@ template <class F>
 TYNDALL_INLINE Vec3<F> light_radiance(const auto& s, IntOf<F> element, Vec3<F> point, MaskOf<F> lanes) {
   SurfacePoint<F> p;
   p.element = element;
-  p.material = lookup_int<F>(s.material, s.element_count, element);
+  p.material = lookup_int<F>(s.elements.material, s.elements.count(), element);
   p.point = point;
   p.inverted = less(F(1.0f), F(0.0f));
   p.normal = zero3<F>();
   if (s.has_image_textures()) {
-    const Vec3<F> arm =
-        point - Vec3<F>{lookup<F>(s.x, s.element_count, element), lookup<F>(s.y, s.element_count, element),
-                        lookup<F>(s.z, s.element_count, element)};
+    const Vec3<F> arm = point - lookup<F>(s.elements.center_or_normal, s.elements.count(), element);
     p.normal = (F(1.0f) / sqrt(max(dot(arm, arm), F(1e-37f)))) * arm;  // outward; only spheres use it
   }
   return surface_colour(s, p, lanes);
@@ -168,7 +159,7 @@ TYNDALL_INLINE void load_fields(const auto& s, IntOf<F> material, M& m) {
   constexpr auto list = fields(static_cast<const M*>(nullptr));
   if constexpr (first < std::tuple_size_v<decltype(list)>) {
     constexpr auto member = std::get<first>(list).value;
-    m.*member = lookup<F>(s.parameter[first], s.material_count, material);
+    m.*member = lookup<F>(s.materials.parameter[first], s.materials.count(), material);
     load_fields<first + 1, M, F>(s, material, m);
   }
 }
@@ -272,7 +263,7 @@ TYNDALL_INLINE double lobe_width_of(const View& s, std::int32_t material) {
   using List = MaterialsOf<View, float>;
   if constexpr (first == std::variant_size_v<List>)
     return 1;
-  else if (s.kind[material] != static_cast<std::int32_t>(first))
+  else if (s.materials.kind[material] != static_cast<std::int32_t>(first))
     return lobe_width_of<first + 1>(s, material);
   else
     return lobe_width(load_material<std::variant_alternative_t<first, List>, float>(s, material));

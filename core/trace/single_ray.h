@@ -114,22 +114,24 @@ struct SingleRay {
   }
 
   template <bool moving>
-  TYNDALL_INLINE void test_spheres(const SphereView& s, int first, int last) {
+  TYNDALL_INLINE void test_spheres(const Spheres& s, int first, int last) {
     for (int i = first; i < last; i += lanes_of<R>) {
       const int count = last - i < lanes_of<R> ? last - i : lanes_of<R>;
       const auto column = [&](const float* values) __attribute__((always_inline)) {
         return load_some<R>(values + i, count);
       };
-      Vec3<R> center{column(s.x), column(s.y), column(s.z)};
-      if constexpr (moving)
-        center = point_at(center, ray.time, Vec3<R>{column(s.move_x), column(s.move_y), column(s.move_z)});
+      const auto vector = [&](const VectorColumn& v) __attribute__((always_inline)) {
+        return Vec3<R>{column(v.x), column(v.y), column(v.z)};
+      };
+      Vec3<R> center = vector(s.center);
+      if constexpr (moving) center = point_at(center, ray.time, vector(s.move));
       Hit<R> each = best;
       test_sphere(center, column(s.radius), load_some_int<R>(s.element + i, count), ray, query, each);
       take_best(each, (1u << count) - 1u);
     }
   }
 
-  TYNDALL_INLINE void test_boxes(const FlatView& b, int first, int last) {
+  TYNDALL_INLINE void test_boxes(const Flats& b, int first, int last) {
     using I = IntOf<R>;
     for (int i = first; i < last; i += lanes_of<R>) {
       const int count = last - i < lanes_of<R> ? last - i : lanes_of<R>;
@@ -157,16 +159,16 @@ struct SingleRay {
     else if (s.has_outlined() && leaf.kind == PrimitiveKind::outlined)
       best = test_outlined(s.outlined, leaf.first, last, ray, query, best);
     else
-      test_quads(s.quads, leaf.first, last, ray, query, best);
+      test_flats<false>(s.quads, leaf.first, last, ray, query, best);
   }
 
   TYNDALL_INLINE void run(const auto& s) {
     SingleStack stack;
     for (;;) {
       if (node >= 0) {
-        if (open_node(s.nodes[node], stack)) continue;
+        if (open_node(s.bvh.nodes[node], stack)) continue;
       } else {
-        test_leaf(s, s.leaves[~node]);
+        test_leaf(s, s.bvh.leaves[~node]);
         if (Q::shadow && any(less_equal(IntOf<R>(0), best.element))) return;
       }
       if (!take_node(stack)) return;

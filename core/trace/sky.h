@@ -35,9 +35,9 @@ TYNDALL_INLINE Vec3<F> mix(Vec3<F> a, Vec3<F> b, F t) {
 }
 
 template <class F>
-TYNDALL_INLINE SkyCell<F> load_sky_cell(const SkyView& sky, IntOf<F> row, IntOf<F> column) {
+TYNDALL_INLINE SkyCell<F> load_sky_cell(const SkyColumns& sky, IntOf<F> row, IntOf<F> column) {
   using I = IntOf<F>;
-  const F step = splat<F>(1 / static_cast<float>(sky.rows_per_texel)), half = F(0.5f);
+  const F step = splat<F>(1 / static_cast<float>(sky.distribution.rows_per_texel)), half = F(0.5f);
   const F y = mul_add(from_int<F>(row), step, F(-0.5f)), above = floor(mul_add(half, step, y));
   const F last = splat<F>(static_cast<float>(sky.height - 1)), first = F(0.0f);
   const I top = to_int(min(max(above, first), last)), bottom = to_int(min(max(above + F(1.0f), first), last));
@@ -53,22 +53,23 @@ TYNDALL_INLINE SkyCell<F> load_sky_cell(const SkyView& sky, IntOf<F> row, IntOf<
 
 /// Radiance at (s, t), both in [0, 1], of a cell, and the pdf of that direction. sine: of the polar angle.
 template <class F>
-TYNDALL_INLINE SkySample<F> sky_in_cell(const SkyView& sky, const SkyCell<F>& cell, F s, F t, F sine) {
+TYNDALL_INLINE SkySample<F> sky_in_cell(const SkyColumns& sky, const SkyCell<F>& cell, F s, F t, F sine) {
   using I = IntOf<F>;
   const Vec3<F> colour = mix(mix(cell.above_left, cell.above_right, s), mix(cell.below_left, cell.below_right, s), t);
   SkySample<F> out;
   out.radiance = splat<F>(sky.scale) * colour;
   out.pdf = F(0.0f);
-  if (!sky.sampled) return out;
+  if (!sky.is_sampled()) return out;
   const auto part = [](const std::int32_t* ends, I at) __attribute__((always_inline)) {
     return from_int<F>(gather_int<F>(ends, at + I(1)) - gather_int<F>(ends, at)) * F(1.0f / SkyDistribution::draws);
   };
-  const F probability = part(sky.row_ends, cell.row) * part(sky.column_ends, cell.row * I(sky.width + 1) + cell.column);
-  const F scale = splat<F>(sky.to_one), own = sky_luminance(colour, scale);
+  const F probability = part(sky.distribution.row_ends, cell.row) *
+                        part(sky.distribution.column_ends, cell.row * I(sky.width + 1) + cell.column);
+  const F scale = splat<F>(sky.distribution.to_one), own = sky_luminance(colour, scale);
   const F mean = F(0.25f) * (sky_luminance(cell.above_left, scale) + sky_luminance(cell.above_right, scale) +
                              sky_luminance(cell.below_left, scale) + sky_luminance(cell.below_right, scale));
-  const F cells =
-      splat<F>(static_cast<float>(sky.width) * static_cast<float>(sky.rows) * static_cast<float>(0.5 / (pi * pi)));
+  const F cells = splat<F>(static_cast<float>(sky.width) * static_cast<float>(sky.distribution.rows) *
+                           static_cast<float>(0.5 / (pi * pi)));
   const F pdf = cells * probability * (own / max(mean, F(1e-37f))) / max(sine, F(1e-12f));
   out.pdf = select(less(F(0.0f), own), pdf, F(0.0f));
   return out;
@@ -76,13 +77,13 @@ TYNDALL_INLINE SkySample<F> sky_in_cell(const SkyView& sky, const SkyCell<F>& ce
 
 /// The sky in a direction (unit) that a ray has.
 template <class F>
-TYNDALL_INLINE SkySample<F> sky_towards(const SkyView& sky, Vec3<F> direction) {
+TYNDALL_INLINE SkySample<F> sky_towards(const SkyColumns& sky, Vec3<F> direction) {
   const F c = splat<F>(sky.cos), si = splat<F>(sky.sin), zero = F(0.0f), one = F(1.0f);
   const F x = mul_add(c, direction.x, -(si * direction.z)), z = mul_add(si, direction.x, c * direction.z);
   const F sine = sqrt(mul_add(x, x, z * z));
   const F u = mul_add(atan2(x, -z), F(static_cast<float>(0.5 / pi)), F(0.5f));
   const F v = atan2(sine, direction.y) * F(static_cast<float>(1 / pi));  // from the top
-  const F columns = splat<F>(static_cast<float>(sky.width)), rows = splat<F>(static_cast<float>(sky.rows));
+  const F columns = splat<F>(static_cast<float>(sky.width)), rows = splat<F>(static_cast<float>(sky.distribution.rows));
   const F across = mul_add(u, columns, F(-0.5f)), down = v * rows;
   const F left = floor(across), above = floor(down);
   // Clamped as well as wrapped: lanes that are not used may hold any number and still must not read beyond the tables.
@@ -120,23 +121,24 @@ TYNDALL_INLINE F draw_linear(F u, F a, F b) {
 
 /// Draws a direction to the sky by u in [0, 1)².
 template <class F>
-TYNDALL_INLINE SkySample<F> sample_sky(const SkyView& sky, const Sampler<F>& sampler, Pair<F> u) {
+TYNDALL_INLINE SkySample<F> sample_sky(const SkyColumns& sky, const Sampler<F>& sampler, Pair<F> u) {
   using I = IntOf<F>;
   I row, column;
   F x, y;
-  choose_cell<F>(sky.row_ends, I(0), sky.rows, sky.row_step, u.y, sampler.independent_1d(dimension::sky_place), row, y);
-  choose_cell<F>(sky.column_ends, row * I(sky.width + 1), sky.width, sky.column_step, u.x,
+  choose_cell<F>(sky.distribution.row_ends, I(0), sky.distribution.rows, sky.distribution.row_step, u.y,
+                 sampler.independent_1d(dimension::sky_place), row, y);
+  choose_cell<F>(sky.distribution.column_ends, row * I(sky.width + 1), sky.width, sky.distribution.column_step, u.x,
                  sampler.independent_1d(dimension::sky_place + 1), column, x);
   const SkyCell<F> cell = load_sky_cell<F>(sky, row, column);
-  const F scale = splat<F>(sky.to_one);
+  const F scale = splat<F>(sky.distribution.to_one);
   const F al = sky_luminance(cell.above_left, scale), ar = sky_luminance(cell.above_right, scale),
           bl = sky_luminance(cell.below_left, scale), br = sky_luminance(cell.below_right, scale);
   const F t = draw_linear(y, al + ar, bl + br);
   const F s = draw_linear(x, mul_add(t, bl - al, al), mul_add(t, br - ar, ar));
   const F from_left = (from_int<F>(column) + s + F(0.5f)) * splat<F>(1 / static_cast<float>(sky.width));
   const SinCos<F> around = sin_cos_2pi(select(less(from_left, F(1.0f)), from_left, from_left - F(1.0f)));
-  const SinCos<F> polar =
-      sin_cos_2pi(F(0.5f) * min((from_int<F>(row) + t) * splat<F>(1 / static_cast<float>(sky.rows)), F(1.0f)));
+  const SinCos<F> polar = sin_cos_2pi(
+      F(0.5f) * min((from_int<F>(row) + t) * splat<F>(1 / static_cast<float>(sky.distribution.rows)), F(1.0f)));
   SkySample<F> out = sky_in_cell(sky, cell, s, t, max(polar.sin, F(0.0f)));
   const F across = -polar.sin * around.sin, ahead = polar.sin * around.cos;  // x and z before the sky's turn
   const F c = splat<F>(sky.cos), si = splat<F>(sky.sin);
@@ -157,13 +159,13 @@ TYNDALL_INLINE MaskOf<F> is_sky(IntOf<F> light) {
 inline constexpr float min_sky = 0.1f;
 template <class F>
 TYNDALL_INLINE F sky_probability(const auto& s, Vec3<F> point) {
-  const LightView& l = s.lights;
-  if (l.count == 0) return F(1.0f);
+  const Lights& l = s.lights;
+  if (l.count() == 0) return F(1.0f);
   F others;
-  if (l.count <= max_lights_by_contribution) {
+  if (l.count() <= max_lights_by_contribution) {
     others = total_worth(l, point);
   } else {
-    const Vec3<F> to_root = splat<F>(Vec3f{l.tree.center[0][0], l.tree.center[1][0], l.tree.center[2][0]}) - point;
+    const Vec3<F> to_root = splat<F>(l.tree.center[0]) - point;
     others = splat<F>(l.tree.power[0]) / max(dot(to_root, to_root), splat<F>(l.tree.reach2[0]));
   }
   const F own = splat<F>(s.sky.irradiance);
@@ -175,7 +177,7 @@ template <class F>
 TYNDALL_INLINE LightChoice<F> choose_light_or_sky(const auto& s, Vec3<F> point, F u) {
   using I = IntOf<F>;
   if (!s.samples_sky()) return choose_light(s.lights, point, u);
-  if (s.lights.count == 0) return {I(-1), F(1.0f)};
+  if (s.lights.count() == 0) return {I(-1), F(1.0f)};
   const F own = sky_probability<F>(s, point), others = F(1.0f) - own;
   const auto sky = less(u, own);
   const LightChoice<F> choice = choose_light(s.lights, point, min(max((u - own) / others, F(0.0f)), F(0.99999994f)));
@@ -196,7 +198,7 @@ TYNDALL_INLINE LightSample<F> sample_light_or_sky(const auto& s, IntOf<F> light,
   sky = sample_sky(s.sky, sampler, u);
   LightSample<F> out{sky.direction, F(__builtin_inff()), sky.pdf};
   const auto far = is_sky<F>(light);
-  if (s.lights.count == 0 || all(far)) return out;
+  if (s.lights.count() == 0 || all(far)) return out;
   const LightSample<F> near = sample_light(s, select(far, IntOf<F>(0), light), at.origin, at.time, u);
   return {select(far, out.direction, near.direction), select(far, out.distance, near.distance),
           select(far, out.pdf, near.pdf)};
@@ -207,10 +209,10 @@ template <class F>
 TYNDALL_INLINE IntOf<F> element_of_light(const auto& s, IntOf<F> light) {
   using I = IntOf<F>;
   if (!s.samples_sky())
-    return s.lights.count == 1 ? I(s.lights.element[0]) : lookup_int<F>(s.lights.element, s.lights.count, light);
-  if (s.lights.count == 0) return I(-1);
+    return s.lights.count() == 1 ? I(s.lights.element[0]) : lookup_int<F>(s.lights.element, s.lights.count(), light);
+  if (s.lights.count() == 0) return I(-1);
   const auto far = is_sky<F>(light);
-  return select(far, I(-1), lookup_int<F>(s.lights.element, s.lights.count, select(far, I(0), light)));
+  return select(far, I(-1), lookup_int<F>(s.lights.element, s.lights.count(), select(far, I(0), light)));
 }
 
 }  // namespace tyndall

@@ -1,6 +1,6 @@
 #pragma once
 #include "core/base/math.h"
-#include "core/trace/light_columns.h"
+#include "core/trace/light_choice.h"
 
 /// Samples lights that are triangles uniformly in the solid angle in which a point sees them.
 namespace tyndall {

@@ -1,5 +1,7 @@
 #pragma once
-#include "core/base/random.h"
+#include "core/compile/render_scene.h"
+
+#include <algorithm>
 
 /// Subpixel lights: images of a small light in the camera, seen directly, by one sphere, flat mirror or slab, or by
 /// metal of little fuzz. Such an image may fill so little of its pixel that samples spread evenly over the pixel seldom
@@ -50,11 +52,12 @@ struct SubpixelLights {
   const SubpixelLight *first, *last;
 };
 
-/// Returns those in the rows [begin, end), from subpixel lights sorted by row.
-TYNDALL_INLINE SubpixelLights subpixel_lights_in_rows(SubpixelLights all, int begin, int end) {
-  while (all.first != all.last && all.first->y < static_cast<float>(begin)) ++all.first;
-  while (all.first != all.last && (all.last - 1)->y >= static_cast<float>(end)) --all.last;
-  return all;
+/// Returns those in the rows [begin, end). all: sorted by row.
+TYNDALL_INLINE SubpixelLights subpixel_lights_in_rows(const Column<SubpixelLight>& all, int begin, int end) {
+  SubpixelLights in{all, all + all.count()};
+  while (in.first != in.last && in.first->y < static_cast<float>(begin)) ++in.first;
+  while (in.first != in.last && (in.last - 1)->y >= static_cast<float>(end)) --in.last;
+  return in;
 }
 
 /// What samples in pixels with subpixel lights carry.
@@ -97,6 +100,29 @@ TYNDALL_INLINE AtSubpixelLights<F> aim_at_subpixel_lights(SubpixelLights subpixe
     route = select(mask_and(mask_and(inside, by_chance), less(route, its)), its, route);
   }
   return {F(1.0f) / pdf, {route}};
+}
+
+/// A part of the picture in which the camera sees a small light, in pixels from the picture's upper left corner.
+struct PictureBox {
+  float left = 1e30f, top = 1e30f, right = -1e30f, bottom = -1e30f;
+  std::int32_t route = 0;  ///< see SubpixelLight
+  float throughput = 0;    ///< fraction of radiance from the light's middle that the surfaces send this way
+
+  void include(Pair<float> at) {
+    left = std::min(left, at.x), right = std::max(right, at.x);
+    top = std::min(top, at.y), bottom = std::max(bottom, at.y);
+  }
+  bool empty() const { return right < left; }
+};
+
+/// Where a direction from the camera meets the picture, in pixels. Returns false for a direction behind the camera.
+inline bool project(const CameraColumns& c, Vec3f direction, Pair<float>& at) {
+  const Vec3f normal = cross(c.du, c.dv);
+  const float scale = dot(c.corner, normal) / dot(direction, normal);
+  if (!(scale > 0)) return false;
+  const Vec3f place = scale * direction - c.corner;
+  at = {dot(place, c.du) / dot(c.du, c.du), dot(place, c.dv) / dot(c.dv, c.dv)};
+  return true;
 }
 
 }  // namespace tyndall

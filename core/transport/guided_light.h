@@ -87,7 +87,7 @@ TYNDALL_INLINE MaskOf<F> step_guided(const auto& s, GuidedPath<F>& g, MaskOf<F> 
   e.surface = active;
   meet_surfaces(s, p.ray, hit, e);
   add_guided_emission(s, g, hit, e, active);
-  const I thing = lookup_int<F>(s.guide.thing_of, s.element_count, e.at.element);
+  const I thing = lookup_int<F>(s.guide.thing_of, s.elements.count(), e.at.element);
   const I expected = as_int(shift_right<1>(as_uint(g.left.low & I(63))));
   active = mask_and(active, mask_and(less_equal(I(0), thing), equal(expected, thing + I(1))));
   if (!any(active)) return active;
@@ -108,7 +108,7 @@ template <class F>
 [[gnu::noinline]] static Vec3<F> guided_light(const auto& s, const SpecularRequest<F>& q, MaskOf<F> lanes,
                                               std::uint32_t& rays, std::uint32_t& shadow_rays) {
   using I = IntOf<F>;
-  const GuideView& guide = s.guide;
+  const Guide& guide = s.guide;
   const GuidedSequence<F> sequence =
       draw_guided_sequence(guide, q.point, q.sampler.independent_1d(dimension::guided_events), lanes);
   const GuidedDirections<F> directions = guided_directions(guide, sequence, q.point);
@@ -119,9 +119,9 @@ template <class F>
                                       q.sampler.next_2d(dimension::guided_direction), active),
                 q.time, q.from};
   const Vec3<F> direction = g.path.ray.direction;
-  const I row = select(active, sequence.index, I(0)) * I(numbers_of_events);
-  g.left = {gather_int<F>(guide.events + events_next_low, row), gather_int<F>(guide.events + events_next_high, row)};
-  const I depth = q.depth + gather_int<F>(guide.events + events_count, row);
+  const auto its = record_in<F>(guide.sequences, select(active, sequence.index, I(0)));
+  g.left = {its(&GuideSequence::next_low), its(&GuideSequence::next_high)};
+  const I depth = q.depth + its(&GuideSequence::count);
   const F scattered = scattered_pdf(s, q, direction), pdf = guided_pdf(directions, direction);
   const auto useful = mask_and(less(F(0.0f), scattered), less(F(0.0f), pdf));
   active = mask_and(mask_and(lanes, active), mask_and(useful, less(depth, I(s.max_depth))));

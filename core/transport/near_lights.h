@@ -22,21 +22,21 @@ struct NearEvent {
 /// Samples a place in media by angle. to_surface: distance along the ray to the next surface.
 template <class F>
 TYNDALL_INLINE NearEvent<F> fly_by_angle(const SceneView& s, const Paths<F>& p, MaskOf<F> lanes, F to_surface) {
-  const F count = splat<F>(static_cast<float>(s.near_count));
+  const F count = splat<F>(static_cast<float>(s.near.medium.count()));
   const IntOf<F> pair = to_int(min(p.sampler.next_1d(dimension::near_pair) * count, count - F(1.0f)));
   NearEvent<F> event;
   event.happens = less(F(1.0f), F(0.0f));
   event.texture = IntOf<F>(-1);
-  event.light = lookup_int<F>(s.near_light, s.near_count, pair);
+  event.light = lookup_int<F>(s.near.light, s.near.medium.count(), pair);
   MediumFlight<F>& flight = event.flight;
-  flight = {lookup_int<F>(s.near_medium, s.near_count, pair),
+  flight = {lookup_int<F>(s.near.medium, s.near.medium.count(), pair),
             p.ray.origin,
             p.ray.direction,
             F(0.0f),
             F(1.0f),
             F(0.0f),
             F(0.0f)};
-  for (int k = 0; k < s.medium_count; ++k) {
+  for (int k = 0; k < s.media.count(); ++k) {
     const MediumColumns& m = s.media[k];
     const auto mine = mask_and(lanes, equal(flight.medium, IntOf<F>(k)));
     if (!any(mine)) continue;

@@ -53,7 +53,7 @@ TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, 
   if (any(e.surface)) {
     BsdfSample<F> out = sample_any(s, e.at.material, e.kind, e.surface, e.incident);
     weight = out.weight;
-    if (s.has_specular_paths() && s.subpixel_light_count > 0) {
+    if (s.has_specular_paths() && s.subpixel_lights.count() > 0) {
       const auto glass = mask_and(e.surface, has_trait<&BsdfTraits::smooth_boundary>(s, e.kind));
       const auto seeks = mask_and(glass, seeks_subpixel_light(p));
       if (any(seeks)) weight = weight * seek_subpixel_light(s, p, e, seeks, out);

@@ -69,12 +69,13 @@ Embree::Embree(const Spheres& spheres) : state_(std::make_unique<State>()) {
   if (!state_->device) throw std::runtime_error("Embree gives no device");
   state_->scene = rtcNewScene(state_->device);
   RTCGeometry geometry = rtcNewGeometry(state_->device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
-  const std::size_t count = spheres.x.size();
+  const std::size_t count = spheres.center.size();
   auto* vertex = static_cast<float*>(
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), count));
   if (!vertex) throw std::runtime_error("Embree gives no memory");
   for (std::size_t i = 0; i < count; ++i, vertex += 4)
-    vertex[0] = spheres.x[i], vertex[1] = spheres.y[i], vertex[2] = spheres.z[i], vertex[3] = spheres.radius[i];
+    vertex[0] = spheres.center.x[i], vertex[1] = spheres.center.y[i], vertex[2] = spheres.center.z[i],
+    vertex[3] = spheres.radius[i];
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(state_->scene, geometry);

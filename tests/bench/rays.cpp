@@ -30,8 +30,8 @@ class Walk {
   /// the surface, so that Embree, which does not know where rays start, does not meet that surface again.
   TraceRay bounce(const TraceRay& ray, const TraceHit& hit) {
     const Elements& e = scene_.elements;
-    const auto i = static_cast<std::size_t>(hit.element);
-    const Vec3f center{e.x[i], e.y[i], e.z[i]};
+    const std::int32_t i = hit.element;
+    const Vec3f center = e.center_or_normal[i];
     const Vec3f normal = normalize(e.inverse_radius[i] * (point_at(ray.origin, hit.t, ray.direction) - center));
     const float radius = 1 / e.inverse_radius[i], lift = 4e-7f * (length(center) + radius);
     const float u = uniform(), v = uniform();

@@ -54,14 +54,14 @@ Json measure_tree(const Settings& settings) {
     std::vector<double> seconds;
     for (int i = 0; i < repeat; ++i) seconds.push_back(seconds_of([&] { compiled = compile(scene); }));
     RenderScene bare = compiled;
-    bare.bvh = nullptr;
+    bare.bvh = {};
     const std::size_t bytes = bytes_of(compiled);
     Json row;
     row["spheres"] = spheres;
     row["build_ms"] = 1000 * median(seconds);
     row["bytes_per_sphere"] = static_cast<double>(bytes) / spheres;
     row["tree_bytes_per_sphere"] = static_cast<double>(bytes - bytes_of(bare)) / spheres;
-    row["depth"] = compiled.bvh ? Json(compiled.bvh->depth) : Json(nullptr);
+    row["depth"] = compiled.bvh.nodes.empty() ? Json(nullptr) : Json(compiled.bvh.depth);
     row["render_mrays_per_s"] = render_speed(compiled, settings.quick ? 4 : 16, repeat);
     row["trace_mrays_per_s"] = trace_speed(compiled, settings.quick ? 1u << 17 : 1u << 19, repeat);
     table.add(row);

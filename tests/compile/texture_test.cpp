@@ -96,7 +96,7 @@ TEST_CASE("textures in world space: as defined, wherever the scene and its origi
         if (length(away) > 0) drag_origin(scene, middle + away);
         const RenderScene compiled = compile(scene);
         REQUIRE(length(compiled.origin - middle - away) < 1e-6);
-        const auto gradients = compiled.gradients ? compiled.gradients->data() : nullptr;
+        const float* gradients = compiled.gradients;
         for (const Kernels& kernels : available_kernels()) {
           const std::vector<FirstHit> hits = seen(compiled, kernels);
           int wrong = 0, bright = 0;

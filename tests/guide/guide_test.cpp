@@ -17,7 +17,7 @@ namespace {
 
 struct Guided {
   std::shared_ptr<const PreparedScene> prepared;
-  const GuideView& view() const { return prepared->view().guide; }
+  const Guide& view() const { return prepared->view().guide; }
   explicit Guided(const char* name) : prepared(prepare(small_scene(name, 64, 48, 1))) {
     REQUIRE(prepared->guide().lobes() > 0);
   }
@@ -30,13 +30,12 @@ Vec3f on_floor(const Guided& g, double x, double z) {
 }
 
 /// All sequences of the cell of a point.
-std::vector<GuidedSequence<float>> sequences_at(const GuideView& g, Vec3f point) {
+std::vector<GuidedSequence<float>> sequences_at(const Guide& g, Vec3f point) {
   std::vector<GuidedSequence<float>> list;
   const std::int32_t cell = find_cell<float>(g, point, true);
   if (cell < 0) return list;
-  for (std::int32_t i = g.cells[cell * numbers_of_cell + cell_first]; i < g.cells[cell * numbers_of_cell + cell_end];
-       ++i)
-    list.push_back({i, g.query_probability[cell] * g.weights[i * numbers_of_weights + weight_of_events]});
+  const GuideCell& its = g.cells[cell];
+  for (std::int32_t i = its.first; i < its.end; ++i) list.push_back({i, its.query_probability * g.sequences[i].weight});
   return list;
 }
 
@@ -96,8 +95,8 @@ TEST_CASE("guide: directions are drawn with the pdf that is stated") {
         const SeenLobe<float>& seen = directions.lobe;
         if (!seen.exists) continue;
         // Light that was found otherwise, with half of the pdf, has a fifth by the power heuristic.
-        const std::int32_t row = sequence.index * numbers_of_events;
-        const OrderedEvents<float> events{g.view().events[row + events_low], g.view().events[row + events_high]};
+        const GuideSequence& its = g.view().sequences[sequence.index];
+        const OrderedEvents<float> events{its.low, its.high};
         const GuideTrail<float> trail{point, seen.center, 0.5f * guided_pdf(directions, seen.center), events};
         CHECK(mis_weight_beside_guide(g.prepared->view(), trail, events, true) == doctest::Approx(0.2).scale(0));
         // The mean of 1 / pdf over the directions drawn within a cone is the cone's solid angle.
@@ -181,9 +180,8 @@ TEST_CASE("guide: the same bits whatever was edited before") {
   const auto fresh = prepare(scene);
   const auto same = [&](const PreparedScene& other) {
     const Guide &a = fresh->guide(), &b = other.guide();
-    return a.cells == b.cells && a.events == b.events && a.thing_of == b.thing_of && a.lobe == b.lobe &&
-           a.query_probability == b.query_probability && a.weights == b.weights && a.images == b.images &&
-           a.slot_mask == b.slot_mask;
+    return a.cells == b.cells && a.sequences == b.sequences && a.thing_of == b.thing_of && a.lobe == b.lobe &&
+           a.images == b.images && a.slot_mask == b.slot_mask;
   };
   Scene moved = *scene, brighter = *scene;
   moved.camera.look_from.x += 1;
@@ -194,7 +192,8 @@ TEST_CASE("guide: the same bits whatever was edited before") {
     CHECK(same(*prepare(scene, prepare(before).get())));
   // It is not made twice for another picture, a name or a key; it is for another shutter.
   const auto is_kept = [&](Scene edited) {
-    return &prepare(std::make_shared<const Scene>(std::move(edited)), fresh.get())->guide() == &fresh->guide();
+    const auto after = prepare(std::make_shared<const Scene>(std::move(edited)), fresh.get());
+    return after->guide().cells.begin() == fresh->guide().cells.begin();
   };
   CHECK(is_kept(moved));
   moved.name = "moved", moved.animation.emplace();

@@ -19,15 +19,13 @@ struct RoughView : SceneView {
 
 /// Mean radiance of a probe's rays, by the scalar kernel with the longer list.
 Estimate kernel_radiance(const Scene& scene, const RoughDielectric<>& glass, std::uint32_t samples) {
-  const RenderScene columns = compile(scene);
-  const auto textures = texture_views(columns);
-  std::vector<std::int32_t> kind = columns.materials.kind;
+  RenderScene columns = compile(scene);
+  Column<std::int32_t>& kind = columns.materials.kind;
   constexpr auto matt = place_in<Lambertian<double>, LongerList<double>>;
   std::replace(kind.begin(), kind.end(), matt, place_in<RoughDielectric<double>, LongerList<double>>);
   const std::vector<float> roughness(kind.size(), static_cast<float>(glass.roughness));
   const std::vector<float> index(kind.size(), static_cast<float>(glass.refractive_index));
-  RoughView view{view_of(columns, textures), {roughness.data(), index.data()}};
-  view.kind = kind.data();
+  const RoughView view{{columns}, {roughness.data(), index.data()}};
   std::vector<double> batches;
   for (std::uint32_t first = 0; first < samples; first += samples / 64) {
     FilmPixel pixel{};

@@ -153,7 +153,7 @@ CORE = [
     ("links pass through walls", "core/reuse/reuse_tile.h", "lanes = «mask_and_not(lanes, blocked_towards(s, ray, distance, "
      "load_int<F>(p.second.surface + to), -1, lanes)) → lanes»;", "render/sharing"),
 
-    ("coarse passes share paths, too", "core/targets/choose.cpp", "scene.reuses_paths && «job.step == 1 → true»;", "render/sharing targets/kernel_sets"),
+    ("coarse passes share paths, too", "core/targets/choose.cpp", "scene.reuses_paths && «job.step > 1 → false») {", "render/sharing targets/kernel_sets"),
     ("branches begin at the vertex before", "core/targets/recorder.h",
      "branches_.push_back(static_cast<std::int32_t>(path_.vertices.size()) - «1 → 2»)", "targets/replay"),
     ("replayed paths forget what fog has left", "core/targets/recorder.cpp",

@@ -1,7 +1,7 @@
 #include "tests/support/probe.h"
 #include "tests/support/skies.h"
 
-#include "core/compile/sky.h"
+#include "core/compile/columns.h"
 #include "core/trace/sky.h"
 
 #include <doctest/doctest.h>
@@ -21,8 +21,7 @@ Scene room_under(const SkyPicture& sky) {
 
 /// What a matt plane of albedo 1 that faces up reflects: the sum over directions of radiance times cosine, over pi.
 double reflected_by_floor(const SkyPicture& sky) {
-  const SkyColumns columns = sky_columns(sky, true, nullptr);
-  const SkyView view = view_of(columns);
+  const SkyColumns view = sky_columns(sky, true, nullptr);
   constexpr int rows = 2048, across = 4096;
   double sum = 0;
   for (int y = 0; y < rows / 2; ++y)

@@ -78,7 +78,7 @@ TEST_CASE("specular paths: in a white furnace flat mirrors are invisible") {
   Scene scene = furnace_with_floor();
   add(scene, Box<>{{-2, 0.5, -1}, {-1, 1.5, 0}}, metal(1, 0), {RotateY{20}});
   add(scene, Quad<>{{-1, 0, 1}, {2.5, 0, 0}, {0, 2, 0.2}}, metal(1, 0));
-  CHECK(compile(scene).specular.mirrors.size() > numbers_of_mirror);
+  CHECK(compile(scene).specular.mirrors.size() > 1);
   check_invisible(scene);
 }
 
@@ -109,7 +109,7 @@ TEST_CASE("specular paths: flat mirrors that another surface covers, even in par
     Scene scene = lit_floor(0.1, {0, 4, 0}, 1);
     add(scene, Quad<>{{-3, 0, -4}, {6, 0, 0}, {0, 4, 0}}, metal(0.8, 0));  // it stands on the floor
     change(scene);
-    return compile(scene).specular.mirrors.size() / numbers_of_mirror;
+    return compile(scene).specular.mirrors.size();
   };
   const auto picture = [](double z) { return Quad<>{{-1, 1, z}, {1, 0, 0}, {0, 1, 0}}; };
   CHECK(mirrors([](Scene&) {}) == 1);

@@ -1,4 +1,4 @@
-#include "core/compile/sky.h"
+#include "core/compile/columns.h"
 #include "core/compile/sun.h"
 #include "tests/support/probe.h"
 #include "tests/support/skies.h"
@@ -24,12 +24,11 @@ Scene floor_under_sun() {
   return scene;
 }
 
-SkySun sun_of(const SkyPicture& sky) { return sky_columns(sky, true, nullptr).distribution->sun; }
+SkySun sun_of(const SkyPicture& sky) { return sky_columns(sky, true, nullptr).distribution.sun; }
 
 /// A direction, as towards the sun of floor_under_sun().
 Vec3d towards_sun(const Scene& scene) {
-  const SkyColumns columns = sky_columns(scene.background, true, nullptr);
-  const Vec3f axis = view_of(columns).sun_axis;
+  const Vec3f axis = sky_columns(scene.background, true, nullptr).sun_axis;
   return {static_cast<double>(axis.x), static_cast<double>(axis.y), static_cast<double>(axis.z)};
 }
 

@@ -107,7 +107,7 @@ TEST_CASE("box: turned and moved, hits are on its surface and the face's normal 
       wrong += slabs.inside.hit && slabs.inside.near > 0 ? 0 : 1;
       for (const bool entering : {true, false}) {
         const auto face = static_cast<std::size_t>(box_face(slabs, entering));
-        const Vec3f normal{elements.x[face], elements.y[face], elements.z[face]};
+        const Vec3f normal = elements.center_or_normal[face];
         wrong += (dot(normal, d) < 0) == entering ? 0 : 1;
         const Vec3f p = point_at(o, entering ? slabs.inside.near : slabs.inside.far, d);
         float edge[3];

@@ -37,8 +37,8 @@ struct MirrorScene {
 TEST_CASE(
     "specular paths: the one off a flat mirror obeys the law of reflection, and is found where it meets the face") {
   const MirrorScene scene;
-  const SpecularView& specular = scene.view.view().specular;
-  REQUIRE(specular.spheres == 1);
+  const SpecularPairs& specular = scene.view.view().specular;
+  REQUIRE(specular.spheres() == 1);
   REQUIRE(specular.first_mirror == 0);
   const SpecularMirror<double> m = load_mirror<double>(specular, 0);
   const SpecularMirror<float> in_floats = load_mirror<float>(specular, 0);
@@ -96,9 +96,9 @@ TEST_CASE("specular paths: the area that a small solid angle off a flat mirror f
 TEST_CASE(
     "specular paths: a mirror counts as much as its image of the light where that is seen, and little elsewhere") {
   const MirrorScene scene;
-  const SpecularView& specular = scene.view.view().specular;
+  const SpecularPairs& specular = scene.view.view().specular;
   const SpecularMirror<double> m = load_mirror<double>(specular, 0);
-  const Vec3d lamp = exact({specular.choice.center[0][0], specular.choice.center[1][0], specular.choice.center[2][0]});
+  const Vec3d lamp = exact(specular.choice.center[0]);
   const double power = static_cast<double>(specular.choice.power[0]);
   Engine engine(7);
   int seen = 0;

@@ -114,7 +114,7 @@ TEST_CASE("subpixel lights: many samples, not a few bright ones, meet a light se
     // mean.
     double squared_means = 0, second_moments = 0;
     int whole_pixels = 0;
-    for (int i = 0; i < view.subpixel_light_count; ++i) {
+    for (int i = 0; i < view.subpixel_lights.count(); ++i) {
       const SubpixelLight& g = view.subpixel_lights[i];
       if (g.route < pack_route(2, 0) || g.route >= pack_route(3, 0)) continue;
       whole_pixels += g.width * g.height > 0.99f ? 1 : 0;
@@ -138,14 +138,14 @@ TEST_CASE("subpixel lights: found in a mirror sphere, in glass and beside it, un
     Scene scene = light_and_sphere(kind, 0.01);
     const RenderScene compiled = compile(scene);
     const SceneViewOf view(compiled);
-    REQUIRE(view.view().subpixel_light_count > 0);
+    REQUIRE(view.view().subpixel_lights.count() > 0);
     scene.camera.defocus_angle = 0.5;
     const RenderScene with_lens = compile(scene);
-    CHECK(SceneViewOf(with_lens).view().subpixel_light_count == 0);
+    CHECK(SceneViewOf(with_lens).view().subpixel_lights.count() == 0);
     scene.camera.defocus_angle = 0;
     scene.render.caustics = Caustics::scatter;
     const RenderScene by_chance = compile(scene);
-    CHECK(SceneViewOf(by_chance).view().subpixel_light_count == 0);
+    CHECK(SceneViewOf(by_chance).view().subpixel_lights.count() == 0);
   }
 }
 
@@ -169,10 +169,10 @@ TEST_CASE("subpixel lights: images in metal of little fuzz lose no light and are
   Scene dark = small_scene("stress-small-fuzz", 80, 60, 1);
   dark.materials[0].colour = Vec3d{0, 0, 0};
   REQUIRE(prepare(dark)->guide().lobes() > 0);
-  CHECK(prepare(dark)->view().subpixel_light_count > 3);
+  CHECK(prepare(dark)->view().subpixel_lights.count() > 3);
   const Spread with = spread_of_seeds(dark, 64);
   dark.render.caustics = Caustics::scatter;
-  CHECK(prepare(dark)->view().subpixel_light_count == 0);
+  CHECK(prepare(dark)->view().subpixel_lights.count() == 0);
   const Spread without = spread_of_seeds(dark, 64);
   CAPTURE(with.mean);
   CAPTURE(without.mean);

@@ -95,12 +95,11 @@ inline std::vector<TraceRay> random_rays(Engine& engine, int count, double half_
 /// Rays along the axes, with zeros of both signs, half of them in the planes of primitives' bounds and centres.
 inline std::vector<TraceRay> parallel_rays(Engine& engine, int count, double half_width, const RenderScene& scene) {
   std::vector<float> planes;
-  for (const float v : scene.elements.x) planes.push_back(v);
-  for (const float v : scene.spheres.y) planes.push_back(v);
-  if (scene.bvh)
-    for (const BvhInput& input : scene.bvh->input)
-      for (const Vec3f& corner : {input.bounds.low, input.bounds.high})
-        planes.insert(planes.end(), {corner.x, corner.y, corner.z});
+  for (const float v : scene.elements.center_or_normal.x) planes.push_back(v);
+  for (const float v : scene.spheres.center.y) planes.push_back(v);
+  for (const BvhInput& input : scene.bvh.input)
+    for (const Vec3f& corner : {input.bounds.low, input.bounds.high})
+      planes.insert(planes.end(), {corner.x, corner.y, corner.z});
   std::vector<TraceRay> rays = random_rays(engine, count, half_width);
   for (TraceRay& ray : rays) {
     const auto pick = [&] { return planes[engine() % planes.size()]; };
@@ -122,14 +121,13 @@ inline std::vector<TraceRay> rays_from_surfaces(Engine& engine, const RenderScen
   std::vector<TraceRay> leaving;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (hits[i].element < 0) continue;
-    const auto e = static_cast<std::size_t>(hits[i].element);
+    const std::int32_t e = hits[i].element;
     const Elements& all = scene.elements;
     TraceRay ray{point_at(rays[i].origin, hits[i].t, rays[i].direction), unit_vector(direction(engine)), rays[i].time,
                  0};
-    Vec3f outward{all.x[e], all.y[e], all.z[e]};
+    Vec3f outward = all.center_or_normal[e];
     if (all.inverse_radius[e] != 0) {
-      if (!all.move_x.empty())
-        outward = point_at(outward, ray.time, Vec3f{all.move_x[e], all.move_y[e], all.move_z[e]});
+      if (all.move.size() > 0) outward = point_at(outward, ray.time, all.move[e]);
       outward = ray.origin - outward;
     }
     const Side side = dot(ray.direction, outward) > 0 ? Side::outward : Side::inward;

@@ -3,6 +3,7 @@
 #include "core/render/clean_film.h"
 #include "core/render/prepare.h"
 #include "core/render/render.h"
+#include "core/trace/camera.h"
 
 #include <memory>
 #include <utility>
@@ -20,6 +21,12 @@ class SceneViewOf {
  private:
   PreparedScene prepared_;
 };
+
+/// The ray of one sample of the pixel (x, y), if it has no subpixel lights.
+inline Ray<float> sample_ray(const SceneView& s, float x, float y, const Sampler<float>& sampler) {
+  const Pair<float> in_pixel = sampler.next_2d(dimension::pixel);
+  return ray_through(s, x + in_pixel.x, y + in_pixel.y, sampler);
+}
 
 /// A compiled scene, and what passes of it take.
 struct Ready {

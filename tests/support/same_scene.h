@@ -19,11 +19,10 @@ inline bool same(const Flats& a, const Flats& b) {
                     [](const Affine& x, const Affine& y) { return same(x, y); });
 }
 inline bool same(const Spheres& a, const Spheres& b) {
-  return a.x == b.x && a.y == b.y && a.z == b.z && a.radius == b.radius && a.move_x == b.move_x &&
-         a.move_y == b.move_y && a.move_z == b.move_z && a.element == b.element;
+  return a.center == b.center && a.radius == b.radius && a.move == b.move && a.element == b.element;
 }
 inline bool same(const Elements& a, const Elements& b) {
-  return a.x == b.x && a.y == b.y && a.z == b.z && a.inverse_radius == b.inverse_radius && a.move_x == b.move_x &&
+  return a.center_or_normal == b.center_or_normal && a.inverse_radius == b.inverse_radius && a.move == b.move &&
          a.material == b.material && a.uv == b.uv && a.disk == b.disk && a.object == b.object;
 }
 inline bool same(const CameraColumns& a, const CameraColumns& b) {
@@ -32,10 +31,10 @@ inline bool same(const CameraColumns& a, const CameraColumns& b) {
          a.shutter_length == b.shutter_length && a.surface.element == b.surface.element;
 }
 inline bool same(const Materials& a, const Materials& b) {
-  return a.kind == b.kind && a.red == b.red && a.green == b.green && a.blue == b.blue && a.texture == b.texture &&
-         a.parameter == b.parameter;
+  return a.kind == b.kind && a.colour == b.colour && a.texture == b.texture &&
+         std::equal(std::begin(a.parameter), std::end(a.parameter), b.parameter);
 }
-inline bool same(const std::vector<MediumColumns>& a, const std::vector<MediumColumns>& b) {
+inline bool same(const Column<MediumColumns>& a, const Column<MediumColumns>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const MediumColumns& x, const MediumColumns& y) {
     return x.box == y.box && x.center == y.center && x.radius == y.radius && same(x.map, y.map) && x.first == y.first &&
            x.count == y.count && x.density == y.density && x.g == y.g && x.albedo == y.albedo && x.texture == y.texture;
@@ -47,8 +46,7 @@ inline bool same_geometry(const RenderScene& a, const RenderScene& b) {
          same(a.media, b.media);
 }
 inline bool same_tree(const RenderScene& a, const RenderScene& b) {
-  if (!a.bvh || !b.bvh) return a.bvh == b.bvh;
-  return a.bvh->input == b.bvh->input && a.bvh->order == b.bvh->order && a.bvh->nodes.size() == b.bvh->nodes.size();
+  return a.bvh.input == b.bvh.input && a.bvh.order == b.bvh.order && a.bvh.nodes.size() == b.bvh.nodes.size();
 }
 inline bool same(const RenderScene& a, const RenderScene& b) {
   return same_geometry(a, b) && same_tree(a, b) && same(a.camera, b.camera) && same(a.materials, b.materials) &&

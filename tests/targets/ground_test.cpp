@@ -52,7 +52,7 @@ TEST_CASE("ground: of a million diffuse bounces none meets the ground again, at 
     Engine engine(3);
     const std::vector<TraceRay> rays = seen_ground(engine, scene, 250000);
     const std::vector<TraceHit> hits = traced(kernels, scene, rays);
-    const Vec3f center{scene.elements.x[0], scene.elements.y[0], scene.elements.z[0]};
+    const Vec3f center = scene.elements.center_or_normal[0];
     std::vector<TraceRay> leaving;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       if (hits[i].element != 0) continue;

@@ -207,11 +207,11 @@ TEST_CASE("render_unit: what is not a number is counted as rejected and leaves t
     void (*plant)(RenderScene&);
   };
   const Planted faults[] = {
-      {"red", [](RenderScene& s) { s.materials.red[0] = not_a_number; }},
-      {"green", [](RenderScene& s) { s.materials.green[0] = not_a_number; }},
-      {"blue", [](RenderScene& s) { s.materials.blue[0] = not_a_number; }},
-      {"normal", [](RenderScene& s) { s.elements.x[0] = not_a_number; }},
-      {"infinite", [](RenderScene& s) { s.materials.red[0] = std::numeric_limits<float>::infinity(); }},
+      {"red", [](RenderScene& s) { s.materials.colour.x[0] = not_a_number; }},
+      {"green", [](RenderScene& s) { s.materials.colour.y[0] = not_a_number; }},
+      {"blue", [](RenderScene& s) { s.materials.colour.z[0] = not_a_number; }},
+      {"normal", [](RenderScene& s) { s.elements.center_or_normal.x[0] = not_a_number; }},
+      {"infinite", [](RenderScene& s) { s.materials.colour.x[0] = std::numeric_limits<float>::infinity(); }},
   };
   for (const Vec3d sky : {Vec3d{0, 0, 0}, Vec3d{1, 1, 1}}) {
     Scene settings = wall_and_light();
@@ -242,7 +242,7 @@ TEST_CASE("render_unit: what a lamp or the sky sends that is no number or out of
     Scene settings = wall_and_light();
     settings.background = Vec3d{1, 1, 1};
     RenderScene lamp = compile(settings), sky = lamp;
-    lamp.materials.green[1] = bad;
+    lamp.materials.colour.y[1] = bad;
     sky.background.a.z = bad;
     for (const Kernels& kernels : available_kernels()) {
       const Result by_light = run(kernels, lamp, {{40, 0, 64, 64}, 1, 0, 0, 2});

@@ -156,7 +156,7 @@ TEST_CASE("replay: shows where a number was lost") {
   add(scene, Quad<>{{-9, -9, -3}, {18, 0, 0}, {0, 18, 0}}, lambertian(0.5));
   aim(scene, {0, 0, 5}, {0, 0, 0});
   RenderScene compiled = compile(scene);
-  compiled.materials.green[0] = std::numeric_limits<float>::quiet_NaN();
+  compiled.materials.colour.y[0] = std::numeric_limits<float>::quiet_NaN();
   const SceneViewOf view(compiled);
   const PathReplay path = replay(view.view(), 0, 0, 0);
   CHECK(path.vertices.size() == 1);

@@ -13,11 +13,9 @@ namespace {
 
 Sampler<float> sampler_of(std::uint32_t i) { return Sampler<float>::of(1, i, i >> 12, i * 7u); }
 
-Vec3d vector_of(const float* const* columns, int k) { return {columns[0][k], columns[1][k], columns[2][k]}; }
-
 /// Distance at which a line from the point meets light k; 0: it does not.
-double distance_to(const LightView& lights, int k, Vec3d point, Vec3d direction) {
-  const Vec3d to_corner = vector_of(lights.corner, k) - point;
+double distance_to(const Lights& lights, int k, Vec3d point, Vec3d direction) {
+  const Vec3d to_corner = to_double(lights.corner[k]) - point;
   if (lights.kind[k] == Lights::sphere) {
     const double middle = dot(to_corner, direction), radius = lights.length_u[k];
     const Vec3d across = to_corner - middle * direction;
@@ -26,7 +24,7 @@ double distance_to(const LightView& lights, int k, Vec3d point, Vec3d direction)
     const double near = middle - std::sqrt(square);
     return near > 0 ? near : std::max(middle + std::sqrt(square), 0.0);
   }
-  const Vec3d u = vector_of(lights.edge_u, k), v = vector_of(lights.edge_v, k), n = cross(u, v);
+  const Vec3d u = to_double(lights.edge_u[k]), v = to_double(lights.edge_v[k]), n = cross(u, v);
   const double t = dot(to_corner, n) / dot(direction, n);
   const Vec3d at = t * direction - to_corner;
   const double a = dot(cross(at, v), n) / dot(n, n), b = dot(cross(u, at), n) / dot(n, n);
@@ -36,9 +34,9 @@ double distance_to(const LightView& lights, int k, Vec3d point, Vec3d direction)
 
 /// Density of a direction: the sum over all lights that could have been sampled there.
 double density_of(const SceneView& s, Vec3d point, Vec3d direction) {
-  const LightView& lights = s.lights;
+  const Lights& lights = s.lights;
   double density = 0;
-  for (int k = 0; k < lights.count; ++k) {
+  for (int k = 0; k < lights.count(); ++k) {
     const double t = distance_to(lights, k, point, direction);
     if (!(t > 0)) continue;
     density +=
@@ -50,7 +48,7 @@ double density_of(const SceneView& s, Vec3d point, Vec3d direction) {
 void check(const std::vector<Object>& lamps, Vec3d from, Vec3d towards, double width) {
   const RenderScene scene = lit(lamps);
   const SceneViewOf view(scene);
-  const LightView& lights = view.view().lights;
+  const Lights& lights = view.view().lights;
   const Vec3f point = rounded(from - scene.origin);
   CapCells cap(normalize(towards - from), width);
   const int drawn = thorough() ? 100000 : 20000;

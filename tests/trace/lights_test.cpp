@@ -142,7 +142,7 @@ TEST_CASE("lights: the choice has the probability it says, for one, a few and a 
     for (int i = 0; i < count; ++i) lamps.push_back(light_object(sphere(in_cube(engine, 5), uniform(engine, 0.1, 1))));
     const RenderScene scene = lit(lamps);
     const SceneViewOf view(scene);
-    const LightView& lights = view.view().lights;
+    const Lights& lights = view.view().lights;
     const Vec3f point = rounded(in_cube(engine, 5));
     std::vector<int> taken(static_cast<std::size_t>(count));
     const int draws = 200000;
@@ -173,7 +173,7 @@ TEST_CASE("lights: of a thousand alike, the one beside the point is asked most o
   }
   const RenderScene scene = lit(lamps);
   const SceneViewOf view(scene);
-  const LightView& lights = view.view().lights;
+  const Lights& lights = view.view().lights;
   const int beside = 555;
   const Vec3f point = rounded(Vec3d{10, 10, 10.3} - scene.origin);
   const float probability = choice_probability<float>(lights, point, beside);
