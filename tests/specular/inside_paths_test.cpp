@@ -103,13 +103,13 @@ TEST_CASE("specular paths with both ends inside: all are found, and traced as ra
         const EndSigns<double> sign{signs & 1 ? -1.0 : 1.0, signs & 2 ? -1.0 : 1.0};
         if (word.in_glass && sign.near != sequence.near_sign) continue;
         const PathEnds<double> ends = ends_of(b, near, far);
-        const SpecularDeflection<double> path = deflection_between(b, sequence, near, far, sign);
+        const Deflection<double> path = deflection_between(b, sequence, near, far, sign);
         REQUIRE(path.possible);
-        const DeflectionRoots<double> roots = list_roots(path.deflection, angle, true);
-        differ += static_cast<int>(roots.count) != roots_by_search(path.deflection, angle, 1, 5000);
+        const DeflectionRoots<double> roots = list_roots(path, angle, true);
+        differ += static_cast<int>(roots.count) != roots_by_search(path, angle, 1, 5000);
         for (int k = 0; k < static_cast<int>(roots.count); ++k, ++count) {
-          const DeflectionRoot<double> root = take_root(path.deflection, roots, angle, static_cast<double>(k));
-          const double sine = path.deflection.maximum * (1 - root.s * root.s) / ends.near_reach;
+          const DeflectionRoot<double> root = take_root(path, roots, angle, static_cast<double>(k));
+          const double sine = path.maximum * (1 - root.s * root.s) / ends.near_reach;
           const Point2 d{-sign.near * std::sqrt(1 - sine * sine), root.sense * sine};
           const auto end = trace(word, {near, 0}, d, far, sign.far < 0);
           if (!end || std::hypot(end->x - far * std::cos(angle), end->y - far * std::sin(angle)) > 1e-6) ++lost;

@@ -34,21 +34,19 @@ TEST_CASE("specular paths: as many are found as a search finds, and each has the
   for (int i = 0; i < 300; ++i) {
     const Arguments& w = all_words[static_cast<std::size_t>(i) % std::size(all_words)];
     const double near = 1.01 + 4 * u(engine), far = 1.1 + 4 * u(engine), angle = pi * u(engine);
-    const SpecularDeflection<double> exact =
+    const Deflection<double> exact =
         deflection_between(sphere_of<double>(w.index, w.inner_radius), w.sequence, near, far);
-    const SpecularDeflection<float> path =
+    const Deflection<float> path =
         deflection_between(sphere_of<float>(w.index, w.inner_radius),
                            {static_cast<float>(w.sequence.outer), static_cast<float>(w.sequence.inner),
                             static_cast<float>(w.sequence.inner_reflected)},
                            static_cast<float>(near), static_cast<float>(far));
-    const DeflectionRoots<float> roots = list_roots(path.deflection, static_cast<float>(angle), true);
-    differ += static_cast<int>(roots.count) != roots_by_search(exact.deflection, angle, exact.deflection.last, 20000);
+    const DeflectionRoots<float> roots = list_roots(path, static_cast<float>(angle), true);
+    differ += static_cast<int>(roots.count) != roots_by_search(exact, angle, exact.last, 20000);
     for (int k = 0; k < static_cast<int>(roots.count); ++k, ++count) {
-      const DeflectionRoot<float> root =
-          take_root(path.deflection, roots, static_cast<float>(angle), static_cast<float>(k));
+      const DeflectionRoot<float> root = take_root(path, roots, static_cast<float>(angle), static_cast<float>(k));
       const double off =
-          (deflection_there(exact.deflection, static_cast<double>(root.s)) - static_cast<double>(root.sense) * angle) /
-          (2 * pi);
+          (deflection_there(exact, static_cast<double>(root.s)) - static_cast<double>(root.sense) * angle) / (2 * pi);
       CHECK(std::abs(off - std::round(off)) < 1e-3);
     }
   }
@@ -81,14 +79,15 @@ TEST_CASE("specular paths: the solid angle that a light fills off a mirror spher
   double sum = 0;
   constexpr int points = 20000;
   for (int i = 0; i < points; ++i) {
-    const LightPoint<double> at = sample_light_point(s, 0, light, b, point, 0.0, {u(engine), u(engine)});
+    const LightPoint<double> at =
+        sample_light_point(s, 0, light, {b.center, b.radius}, point, 0.0, {u(engine), u(engine)});
     const PathPlane<double> plane = plane_of(b, point, at.point);
     const PathEnds<double> ends = ends_of(b, plane.near, plane.far);
-    const SpecularDeflection<double> path = deflection_between(b, main_sequence(b, ends), plane.near, plane.far);
-    const DeflectionRoots<double> roots = list_roots(path.deflection, plane.angle, true);
+    const Deflection<double> path = deflection_between(b, main_sequence(b, ends), plane.near, plane.far);
+    const DeflectionRoots<double> roots = list_roots(path, plane.angle, true);
     REQUIRE(roots.count == 1);
-    const DeflectionRoot<double> root = take_root(path.deflection, roots, plane.angle, 0.0);
-    const double sine = path.deflection.maximum * (1 - root.s * root.s) / plane.far;
+    const DeflectionRoot<double> root = take_root(path, roots, plane.angle, 0.0);
+    const double sine = path.maximum * (1 - root.s * root.s) / plane.far;
     const Vec3<double> arrive = point_at(std::sqrt(1 - sine * sine) * plane.far_out, root.sense * sine, plane.far_side);
     const double cosine = light_cosine(light, at.normal, arrive);
     if (cosine > 0) sum += 1 / (at.pdf * spread_of(path, ends, plane.sine, root.s, root.slope, cosine));
