@@ -212,23 +212,16 @@ struct NearLights {
   std::vector<float> probability;  ///< of each pair to be chosen, by medium · number of lights + light
 };
 
-/// A flat mirror as numbers.
-enum MirrorNumber {
-  mirror_rows = 0,     ///< as of an Affine: two that run from -1 to 1 across the face, and the unit normal
-  mirror_offsets = 9,  ///< added to these three
-  mirror_slopes = 12,  ///< lengths of the first two rows
-  numbers_of_mirror = 14
-};
-
-/// A slab as numbers.
-enum SlabNumber {
-  slab_rows = 0,             ///< the unit directions of its three edges
-  slab_offsets = 9,          ///< added to the products with these rows: places are measured from its middle
-  slab_halves = 12,          ///< half lengths of the edges
-  slab_index = 15,           ///< of refraction
-  slab_medium_density = 16,  ///< density of media within
-  slab_closed = 17,  ///< bit 2 · edge + (1: the upper face of the two at its ends): something else touches that face
-  numbers_of_slab = 18
+/// A flat mirror (quad or face of a box), or a slab (box of glass).
+struct FlatRecord {
+  /// Of a mirror as of an Affine: two that run from -1 to 1 across the face, and the unit normal, which gives the
+  /// height of a point. Of a slab the unit directions of its three edges.
+  Vec3f row[3];
+  float offset[3];  ///< added to the products with these rows; of a slab places are measured from its middle
+  float size[3];    ///< of a mirror the lengths of the first two rows; of a slab half the lengths of the edges
+  // Of a slab alone.
+  float index, medium_density;  ///< of refraction; density of media within
+  float closed;  ///< bit 2 · edge + (1: the upper face of the two at its ends): something else touches that face
 };
 
 /// Glass spheres, mirror spheres, flat mirrors and slabs, and for each the lights to which integrator mis solves for
@@ -243,8 +236,7 @@ struct SpecularPairs {
   std::vector<std::int32_t> outer, inner;        ///< elements of the spheres
   std::vector<std::int32_t> overlapped;          ///< 1: surfaces or media other than its own are or reach into it
   int first_mirror = 0, first_slab = 0;          ///< how many spheres there are; how many spheres and flat mirrors
-  std::vector<float> mirrors;                    ///< numbers_of_mirror for each flat mirror, see MirrorNumber
-  std::vector<float> slabs;                      ///< numbers_of_slab for each slab, see SlabNumber
+  std::vector<FlatRecord> flats;                 ///< of the flat mirrors, then of the slabs
   // Pairs of a sphere and a light.
   std::vector<std::int32_t> sphere, light;  ///< light: -1 for the sun of the sky's picture
   Lights choice;                            ///< the pairs as what choose_light chooses from

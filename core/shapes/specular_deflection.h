@@ -74,7 +74,8 @@ template <class F>
 struct DeflectionRoot {
   MaskOf<F> found;
   F s, slope;  ///< slope: of the deflection, before Newton's last step
-  F sense;     ///< 1: the path covers the angle between the points; -1: the other way round
+  F p;
+  F sense;  ///< 1: the path covers the angle between the points; -1: the other way round
 };
 
 /// Finds the s of a piece at which the deflection is `target`, a value between those at the piece's ends: by Newton's
@@ -102,7 +103,7 @@ TYNDALL_INLINE void find_root(const Deflection<F>& deflection, const Piece<F>& p
     s = select(inside, next, F(0.5f) * (low + high));
     slope = at.slope;
   }
-  root.s = s, root.slope = slope;
+  root.s = s, root.slope = slope, root.p = deflection.maximum * (F(1.0f) - s * s);
 }
 
 /// The deflection at the largest s. There the path goes through the centre, and every term is a right angle, except in

@@ -213,13 +213,6 @@ struct Decisions {
     low = shift_left<3>(low);
     return yes;
   }
-  /// The same in the lanes `here` only; false in others, whose digits stay.
-  TYNDALL_INLINE MaskOf<F> below(std::int32_t limit, MaskOf<F> here) {
-    const Decisions before = *this;
-    const auto yes = mask_and(here, below(limit));
-    high = select(here, high, before.high), low = select(here, low, before.low);
-    return yes;
-  }
 };
 
 /// The state of an event sequence while it is drawn event by event.
@@ -279,7 +272,10 @@ TYNDALL_INLINE SequenceEvent<F> step_walk(SequenceWalk<F>& walk) {
   // With both ends inside, the walk may end wherever the near end lies.
   const auto in_hollow = equal(walk.next, I(2));
   const auto may_end = mask_or(mask_and_not(walk.to_glass, in_hollow), mask_and_not(in_hollow, walk.to_glass));
-  walk.open = mask_and_not(walk.open, walk.decide.below(4, mask_and(mask_and(walk.inside, walk.open), may_end)));
+  const auto decides = mask_and(mask_and(walk.inside, walk.open), may_end);
+  Decisions<F> after = walk.decide;
+  walk.open = mask_and_not(walk.open, mask_and(decides, after.below(4)));
+  walk.decide = {select(decides, after.high, walk.decide.high), select(decides, after.low, walk.decide.low)};
   return event;
 }
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <numeric>
 #include <set>
+#include <tuple>
 
 namespace tyndall {
 namespace {
@@ -62,16 +63,15 @@ class Finder {
     std::set<std::int32_t> seen;
     for (int k = 0; k < std::min(s_.specular.pairs, max_pairs); ++k) {
       const std::int32_t sphere = s_.specular.sphere[k], light = s_.specular.light[k];
-      light_ = light < 0 ? sun_window(s_.sky, load_sphere<float>(s_.specular, sphere, 0.0f))
-                         : load_light<float>(s_.lights, light);
+      light_ = load_light_or_sun<float>(s_, light, load_sphere<float>(s_.specular, sphere, 0.0f));
       points_ = points_of(light_);
       if (light >= 0 && seen.insert(light).second) add(directly, 1, 0);
-      if (sphere >= s_.specular.first_slab)
-        by_slab(sphere - s_.specular.first_slab);
-      else if (sphere >= s_.specular.first_mirror)
-        by_mirror(sphere - s_.specular.first_mirror);
-      else
+      if (sphere < s_.specular.first_mirror)
         by_sphere(sphere);
+      else if (sphere < s_.specular.first_slab)
+        by_mirror(load_flat<float>(s_.specular, sphere - s_.specular.first_mirror));
+      else
+        by_slab(load_flat<float>(s_.specular, sphere - s_.specular.first_mirror));
     }
   }
 
@@ -101,14 +101,12 @@ class Finder {
            box.top < static_cast<float>(s_.height) + 1;
   }
 
-  void by_mirror(int mirror) {
-    const SpecularMirror<float> m = load_mirror<float>(s_.specular, mirror);
-    add([&](Vec3f point, int) { return mirror_path(m, s_.camera.center, point); }, 1, 0);
+  void by_mirror(const SpecularFlat<float>& mirror) {
+    add([&](Vec3f point, int) { return mirror_path(mirror, s_.camera.center, point); }, 1, 0);
   }
 
   /// Straight through, reflected off the outside, and reflected inside, between the faces at the ends of each edge.
-  void by_slab(int number) {
-    const SpecularSlab<float> slab = load_slab<float>(s_.specular, number);
+  void by_slab(const SpecularFlat<float>& slab) {
     for (std::int32_t across = 0; across < 3; ++across)
       for (int crossings = 0; crossings <= max_reflections + 1; ++crossings) {
         const auto see = [&](Vec3f point, int) {
@@ -225,16 +223,16 @@ void cut(PictureBox box, float pixel_angle, const SceneView& s, std::vector<Weig
 /// Gives each subpixel light a fraction of the samples drawn within boxes of its pixel, by weight: the fourth root of
 /// its throughput. By the throughput itself, the darkest would be met by single samples that count for much.
 std::vector<SubpixelLight> distribute(std::vector<WeighedSubpixelLight> subpixel_lights) {
-  const auto before = [](const WeighedSubpixelLight& a, const WeighedSubpixelLight& b) {
-    return a.subpixel_light.y != b.subpixel_light.y ? a.subpixel_light.y < b.subpixel_light.y
-                                                    : a.subpixel_light.x < b.subpixel_light.x;
+  const auto order = [](const WeighedSubpixelLight& g) {
+    return std::tuple(g.subpixel_light.y, g.subpixel_light.x, -g.weight);
   };
-  std::stable_sort(subpixel_lights.begin(), subpixel_lights.end(), before);
+  std::stable_sort(subpixel_lights.begin(), subpixel_lights.end(),
+                   [&](const auto& a, const auto& b) { return order(a) < order(b); });
   std::vector<SubpixelLight> out;
   for (auto first = subpixel_lights.begin(); first != subpixel_lights.end();) {
-    const auto next = std::upper_bound(first, subpixel_lights.end(), *first, before);
-    std::stable_sort(first, next,
-                     [](const WeighedSubpixelLight& a, const WeighedSubpixelLight& b) { return a.weight > b.weight; });
+    const auto next = std::find_if(first, subpixel_lights.end(), [first](const WeighedSubpixelLight& g) {
+      return g.subpixel_light.y != first->subpixel_light.y || g.subpixel_light.x != first->subpixel_light.x;
+    });
     const auto last = first + std::min<std::ptrdiff_t>(next - first, max_in_pixel);
     const auto add = [](float sum, const WeighedSubpixelLight& g) { return sum + g.weight; };
     const float scale = subpixel_light_fraction / std::accumulate(first, last, 0.0f, add);

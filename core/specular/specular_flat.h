@@ -13,32 +13,37 @@
 /// crossings and each image.
 namespace tyndall {
 
+/// A flat mirror or a slab: see FlatRecord.
 template <class F>
-struct SpecularMirror {
-  Vec3<F> row[2], normal;  ///< row · p + offset runs from -1 to 1 across the face, for a point p
-  F offset[2], height;     ///< normal · p + height: distance of p from the mirror's plane, negative behind it
-  F slope[2];              ///< lengths of the rows
-  IntOf<F> element;        ///< index among the scene's elements
+struct SpecularFlat {
+  Vec3<F> row[3];
+  F offset[3];
+  F half[3];                ///< slabs: half the length of each edge
+  F index, medium_density;  ///< slabs: refractive index; density of media inside
+  IntOf<F> closed;          ///< slabs: bit 2 · edge + (0: lower face, 1: upper face): another object touches that face
+  IntOf<F> element;         ///< index of the first face among the scene's elements
 };
 
-/// Reads a mirror. mirror: index among the flat mirrors.
+/// Reads a flat mirror or a slab. flat: index among these.
 template <class F>
-TYNDALL_INLINE SpecularMirror<F> load_mirror(const SpecularView& c, IntOf<F> mirror) {
-  const IntOf<F> at = mirror * IntOf<F>(numbers_of_mirror);
-  const auto value = [&](int k) { return gather<F>(c.mirrors + k, at); };
-  const auto row = [&](int k) { return Vec3<F>{value(3 * k), value(3 * k + 1), value(3 * k + 2)}; };
-  return {{row(0), row(1)},
-          row(2),
-          {value(mirror_offsets), value(mirror_offsets + 1)},
-          value(mirror_offsets + 2),
-          {value(mirror_slopes), value(mirror_slopes + 1)},
-          lookup_int<F>(c.outer, c.spheres, mirror + IntOf<F>(c.first_mirror))};
+TYNDALL_INLINE SpecularFlat<F> load_flat(const SpecularView& c, IntOf<F> flat) {
+  const FlatRecord& first = *c.flats;
+  const IntOf<F> at = flat * IntOf<F>(sizeof(FlatRecord) / sizeof(float));
+  const auto value = [&](const float& of_first) { return gather<F>(&of_first, at); };
+  SpecularFlat<F> p;
+  for (int k = 0; k < 3; ++k) {
+    p.row[k] = {value(first.row[k].x), value(first.row[k].y), value(first.row[k].z)};
+    p.offset[k] = value(first.offset[k]), p.half[k] = value(first.size[k]);
+  }
+  p.index = value(first.index), p.medium_density = value(first.medium_density), p.closed = to_int(value(first.closed));
+  p.element = lookup_int<F>(c.outer, c.spheres, flat + IntOf<F>(c.first_mirror));
+  return p;
 }
 
 /// The mirror image of a point.
 template <class F>
-TYNDALL_INLINE Vec3<F> mirrored(const SpecularMirror<F>& m, Vec3<F> point) {
-  return point_at(point, F(-2.0f) * (dot(m.normal, point) + m.height), m.normal);
+TYNDALL_INLINE Vec3<F> mirrored(const SpecularFlat<F>& m, Vec3<F> point) {
+  return point_at(point, F(-2.0f) * (dot(m.row[2], point) + m.offset[2]), m.row[2]);
 }
 
 /// Factor of mirror_worth() where the point does not see the middle of the light in the mirror. It may still see other
@@ -49,10 +54,10 @@ inline constexpr float min_mirror_worth = 1e-3f;
 /// image.
 template <class F>
 TYNDALL_INLINE F mirror_worth(const SpecularView& c, int k, Vec3<F> point) {
-  const SpecularMirror<float> m = load_mirror<float>(c, c.sphere[k] - c.first_mirror);
+  const FlatRecord& m = c.flats[c.sphere[k] - c.first_mirror];
   const Vec3<F> light = splat<F>(Vec3f{c.choice.center[0][k], c.choice.center[1][k], c.choice.center[2][k]});
-  const Vec3<F> normal = splat<F>(m.normal);
-  const F near = dot(normal, point) + splat<F>(m.height), far = dot(normal, light) + splat<F>(m.height);
+  const Vec3<F> normal = splat<F>(m.row[2]);
+  const F offset = splat<F>(m.offset[2]), near = dot(normal, point) + offset, far = dot(normal, light) + offset;
   const F height = max(abs(near) + abs(far), F(1e-30f)), up_to_plane = abs(near) / height;  // fraction of the path
   const Vec3<F> to_light = point_at(light, F(-2.0f) * far, normal) - point, at = point_at(point, up_to_plane, to_light);
   const F distance2 = dot(to_light, to_light), reach2 = splat<F>(c.choice.reach2[k]);
@@ -61,15 +66,15 @@ TYNDALL_INLINE F mirror_worth(const SpecularView& c, int k, Vec3<F> point) {
   auto seen = less(F(0.0f), near * far);
   for (int i = 0; i < 2; ++i) {
     const F place = abs(dot(splat<F>(m.row[i]), at) + splat<F>(m.offset[i]));
-    seen = mask_and(seen, less_equal(place, mul_add(blur, splat<F>(m.slope[i]), F(1.0f))));
+    seen = mask_and(seen, less_equal(place, mul_add(blur, splat<F>(m.size[i]), F(1.0f))));
   }
   return splat<F>(c.choice.power[k]) / max(distance2, reach2) * select(seen, F(1.0f), F(min_mirror_worth));
 }
 
 /// The path off a mirror between two points: found if it meets the face, and the points are on one side.
 template <class F>
-TYNDALL_INLINE SpecularPath<F> mirror_path(const SpecularMirror<F>& m, Vec3<F> near, Vec3<F> far) {
-  const F below = dot(m.normal, near) + m.height, above = dot(m.normal, far) + m.height;
+TYNDALL_INLINE SpecularPath<F> mirror_path(const SpecularFlat<F>& m, Vec3<F> near, Vec3<F> far) {
+  const F below = dot(m.row[2], near) + m.offset[2], above = dot(m.row[2], far) + m.offset[2];
   const Vec3<F> image = mirrored(m, near), offset = far - image;
   const F distance = max(length(offset), F(1e-30f));
   const F up_to_plane = abs(below) / max(abs(below) + abs(above), F(1e-30f));  // fraction of the path
@@ -77,37 +82,12 @@ TYNDALL_INLINE SpecularPath<F> mirror_path(const SpecularMirror<F>& m, Vec3<F> n
   SpecularPath<F> w;
   w.wall = m.element, w.from = m.element * IntOf<F>(4) + select(less(above, F(0.0f)), IntOf<F>(1), IntOf<F>(0));
   w.arrive = (F(1.0f) / distance) * offset;
-  w.direction = point_at(w.arrive, F(-2.0f) * dot(m.normal, w.arrive), m.normal);
+  w.direction = reflect(w.arrive, m.row[2]);
   w.near_distance = up_to_plane * distance, w.far_distance = distance - w.near_distance;
   w.spread = distance * distance;
   const F edge = max(abs(dot(m.row[0], at) + m.offset[0]), abs(dot(m.row[1], at) + m.offset[1]));
   w.found = mask_and(less(F(0.0f), below * above), less_equal(edge, F(1.0f)));
   return w;
-}
-
-template <class F>
-struct SpecularSlab {
-  Vec3<F> row[3];           ///< unit vectors along the edges
-  F offset[3];              ///< row · p + offset: coordinate of a point p along this edge, from the middle
-  F half[3];                ///< half the length of each edge
-  F index, medium_density;  ///< refractive index; density of media inside
-  IntOf<F> closed;          ///< bit 2 · edge + (0: lower face, 1: upper face): another object touches that face
-  IntOf<F> element;         ///< index of the first face among the scene's elements
-};
-
-/// Reads a slab. slab: index among the slabs.
-template <class F>
-TYNDALL_INLINE SpecularSlab<F> load_slab(const SpecularView& c, IntOf<F> slab) {
-  const IntOf<F> at = slab * IntOf<F>(numbers_of_slab);
-  const auto value = [&](int k) { return gather<F>(c.slabs + k, at); };
-  SpecularSlab<F> p;
-  for (int k = 0; k < 3; ++k) {
-    p.row[k] = {value(3 * k), value(3 * k + 1), value(3 * k + 2)};
-    p.offset[k] = value(slab_offsets + k), p.half[k] = value(slab_halves + k);
-  }
-  p.index = value(slab_index), p.medium_density = value(slab_medium_density), p.closed = to_int(value(slab_closed));
-  p.element = lookup_int<F>(c.outer, c.spheres, slab + IntOf<F>(c.first_slab));
-  return p;
 }
 
 /// The event sequence of a path at a slab.
@@ -119,9 +99,9 @@ struct SlabSequence {
                ///< comes first
 };
 
-/// value[edge] in every lane.
+/// value[edge] in every lane, of numbers or vectors.
 template <class F>
-TYNDALL_INLINE F of_edge(const F (&value)[3], IntOf<F> edge) {
+TYNDALL_INLINE auto of_edge(const auto(&value)[3], IntOf<F> edge) {
   return select(equal(edge, IntOf<F>(0)), value[0], select(equal(edge, IntOf<F>(1)), value[1], value[2]));
 }
 
@@ -144,7 +124,7 @@ TYNDALL_INLINE SlabPlace<F> framed(const F (&edges)[3], IntOf<F> across) {
 }
 
 template <class F>
-TYNDALL_INLINE SlabPlace<F> framed(const SpecularSlab<F>& slab, Vec3<F> point, IntOf<F> across) {
+TYNDALL_INLINE SlabPlace<F> framed(const SpecularFlat<F>& slab, Vec3<F> point, IntOf<F> across) {
   const F edges[3] = {dot(slab.row[0], point) + slab.offset[0], dot(slab.row[1], point) + slab.offset[1],
                       dot(slab.row[2], point) + slab.offset[2]};
   return framed<F>(edges, across);
@@ -160,7 +140,7 @@ struct SlabFrame {
 };
 
 template <class F>
-TYNDALL_INLINE SlabFrame<F> slab_frame(const SpecularSlab<F>& slab, Vec3<F> near, Vec3<F> far, IntOf<F> across) {
+TYNDALL_INLINE SlabFrame<F> slab_frame(const SpecularFlat<F>& slab, Vec3<F> near, Vec3<F> far, IntOf<F> across) {
   SlabFrame<F> s;
   s.half = framed<F>(slab.half, across);
   s.near = framed(slab, near, across), s.far = framed(slab, far, across);
@@ -247,16 +227,16 @@ TYNDALL_INLINE MaskOf<F> meets_faces(const SlabFrame<F>& s, const SlabSequence<F
 
 /// Solves for the path of an event sequence. Both points must be outside of the slab.
 template <class F>
-TYNDALL_INLINE SpecularPath<F> slab_path(const SpecularSlab<F>& slab, const SlabFrame<F>& s,
+TYNDALL_INLINE SpecularPath<F> slab_path(const SpecularFlat<F>& slab, const SlabFrame<F>& s,
                                          const SlabSequence<F>& sequence) {
   constexpr int steps = std::is_same_v<F, double> ? 40 : 6;
-  const FramedPath<F> framed = path_of_slope(s, sequence, find_slope(s, sequence, steps));
+  const FramedPath<F> solved = path_of_slope(s, sequence, find_slope(s, sequence, steps));
   SpecularPath<F> path;
-  path.throughput = framed.throughput, path.spread = framed.spread;
-  path.found = meets_faces(s, sequence, framed.gone, F(0.0f));
-  const F stretch = sqrt(mul_add(framed.slope, framed.slope, F(1.0f))), cosine = F(1.0f) / stretch;
+  path.throughput = solved.throughput, path.spread = solved.spread;
+  path.found = meets_faces(s, sequence, solved.gone, F(0.0f));
+  const F stretch = sqrt(mul_add(solved.slope, solved.slope, F(1.0f))), cosine = F(1.0f) / stretch;
   path.near_distance = s.near_gap * stretch, path.far_distance = s.far_gap * stretch;
-  const F sine = framed.slope * cosine / s.index, inside = heights_of(s, sequence).y;
+  const F sine = solved.slope * cosine / s.index, inside = heights_of(s, sequence).y;
   path.optical_depth = slab.medium_density * (inside / sqrt(max(F(1.0f) - sine * sine, F(1e-12f))));
   // The two faces across one edge are elements that follow each other, the lower one first.
   const IntOf<F> lower = slab.element + sequence.across + sequence.across, upper = lower + IntOf<F>(1);
@@ -265,14 +245,12 @@ TYNDALL_INLINE SpecularPath<F> slab_path(const SpecularSlab<F>& slab, const Slab
   const IntOf<F> edge[3] = {next_edge<F>(sequence.across), next_edge<F>(next_edge<F>(sequence.across)),
                             sequence.across};
   const F up = copy_sign(cosine, s.near.height);
-  const F leave[3] = {cosine * framed.gone[0], cosine * framed.gone[1], -up};
+  const F leave[3] = {cosine * solved.gone[0], cosine * solved.gone[1], -up};
   const F arrive[3] = {parity_sign(sequence.image[0]) * leave[0], parity_sign(sequence.image[1]) * leave[1],
                        select(s.same, up, -up)};
   path.direction = path.arrive = zero3<F>();
   for (int k = 0; k < 3; ++k) {
-    const Vec3<F> row{of_edge<F>({slab.row[0].x, slab.row[1].x, slab.row[2].x}, edge[k]),
-                      of_edge<F>({slab.row[0].y, slab.row[1].y, slab.row[2].y}, edge[k]),
-                      of_edge<F>({slab.row[0].z, slab.row[1].z, slab.row[2].z}, edge[k])};
+    const Vec3<F> row = of_edge<F>(slab.row, edge[k]);
     path.direction = point_at(path.direction, leave[k], row), path.arrive = point_at(path.arrive, arrive[k], row);
   }
   return path;

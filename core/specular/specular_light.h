@@ -14,11 +14,9 @@ namespace tyndall {
 /// The query of each lane: a sphere, mirror or slab, a light, a point of that light, and the geometry between them.
 template <class F>
 struct SpecularQuery {
-  LightChoice<F> pair;
   F probability;  ///< that a specular path is queried, times that of this pair
   SpecularSphere<F> sphere;
-  SpecularMirror<F> mirror;
-  SpecularSlab<F> slab;
+  SpecularFlat<F> flat;
   DrawnSlabSequence<F> slab_path;  ///< event sequence through the slab
   MaskOf<F> by_mirror, by_slab;
   IntOf<F> light;
@@ -32,16 +30,14 @@ struct SpecularQuery {
 
 /// Draws an event sequence through a slab.
 template <class F>
-TYNDALL_INLINE void query_slab(const auto& s, const SpecularRequest<F>& q, IntOf<F> slab, MaskOf<F> lanes,
-                               SpecularQuery<F>& a) {
-  a.slab = load_slab<F>(s.specular, select(a.by_slab, slab, IntOf<F>(0)));
+TYNDALL_INLINE void query_slab(const SpecularRequest<F>& q, MaskOf<F> lanes, SpecularQuery<F>& a) {
   const BoundingSphere<F> around = bounding_sphere(a.light_columns, q.time);
   const Vec3<F> normal = select(q.in_medium, zero3<F>(), q.facing);
   const Pair<F> u{q.sampler.independent_1d(dimension::event_sequence),
                   q.sampler.independent_1d(dimension::specular_root)};
-  a.slab_path = draw_slab_sequence(a.slab, q.point, normal, around, u, mask_and(lanes, a.by_slab));
+  a.slab_path = draw_slab_sequence(a.flat, q.point, normal, around, u, mask_and(lanes, a.by_slab));
   const SlabSequence<F>& sequence = a.slab_path.sequence;
-  const auto seen = seen_by_slab(a.slab, slab_frame(a.slab, q.point, around.center, sequence.across), sequence);
+  const auto seen = seen_by_slab(a.flat, slab_frame(a.flat, q.point, around.center, sequence.across), sequence);
   put<F>(a.by_slab, seen, a.seen, &BoundingSphere<F>::center, &BoundingSphere<F>::radius);
   a.receiver = select(a.by_slab, seen.center, a.receiver);
 }
@@ -50,22 +46,21 @@ template <class F>
 TYNDALL_INLINE SpecularQuery<F> specular_query(const auto& s, const SpecularRequest<F>& q, MaskOf<F> lanes) {
   const SpecularView& c = s.specular;
   SpecularQuery<F> a{};
-  a.pair = choose_light(c, q.point, q.sampler.independent_1d(dimension::specular_pair));
-  a.probability = connect_probability(s, q.point) * a.pair.probability;
-  const IntOf<F> sphere = lookup_int<F>(c.sphere, c.pairs, a.pair.light);
-  const IntOf<F> mirror = sphere - IntOf<F>(c.first_mirror), slab = sphere - IntOf<F>(c.first_slab);
+  const LightChoice<F> pair = choose_light(c, q.point, q.sampler.independent_1d(dimension::specular_pair));
+  a.probability = connect_probability(s, q.point) * pair.probability;
+  const IntOf<F> sphere = lookup_int<F>(c.sphere, c.pairs, pair.light);
+  const IntOf<F> flat = sphere - IntOf<F>(c.first_mirror);
+  const auto is_flat = less_equal(IntOf<F>(0), flat);
   a.sphere = load_sphere<F>(c, sphere, q.time);
-  a.light = lookup_int<F>(c.light, c.pairs, a.pair.light);
+  a.light = lookup_int<F>(c.light, c.pairs, pair.light);
   a.light_columns = load_light_or_sun<F>(s, a.light, a.sphere);
-  a.by_slab = less_equal(IntOf<F>(0), slab);
-  a.by_mirror = mask_and_not(less_equal(IntOf<F>(0), mirror), a.by_slab);
+  a.by_slab = less_equal(IntOf<F>(c.first_slab), sphere);
+  a.by_mirror = mask_and_not(is_flat, a.by_slab);
   a.seen = {a.sphere.center, a.sphere.radius};
-  if (c.has_mirrors()) {
-    a.mirror = load_mirror<F>(c, select(a.by_mirror, mirror, IntOf<F>(0)));
-    a.seen.center = select(a.by_mirror, mirrored(a.mirror, q.point), a.seen.center);  // its radius is 0
-  }
   a.receiver = q.point;
-  if (c.has_slabs() && any(mask_and(lanes, a.by_slab))) query_slab(s, q, slab, lanes, a);
+  if (c.has_mirrors() || c.has_slabs()) a.flat = load_flat<F>(c, select(is_flat, flat, IntOf<F>(0)));
+  if (c.has_mirrors()) a.seen.center = select(a.by_mirror, mirrored(a.flat, q.point), a.seen.center);
+  if (c.has_slabs() && any(mask_and(lanes, a.by_slab))) query_slab(q, lanes, a);
   return a;
 }
 
@@ -84,7 +79,7 @@ template <class F>
 TYNDALL_INLINE SpecularPath<F> sphere_path(const SpecularQuery<F>& a, const EventSequence<F>& sequence,
                                            const SolvedPath<F>& c) {
   const Deflection<F>& deflection = c.deflection;
-  const F at = c.root.s, p = deflection.maximum * (F(1.0f) - at * at);
+  const F at = c.root.s, p = c.root.p;
   const auto ray = [&](F reach, F side, Vec3<F> out, Vec3<F> across) __attribute__((always_inline)) {
     const F inverse = F(1.0f) / reach, cosine = depth_of(deflection, reach, at) * inverse;
     return point_at((side * cosine) * out, c.root.sense * p * inverse, across);
@@ -151,10 +146,9 @@ TYNDALL_INLINE MaskOf<F> offer_path(const auto& s, const SpecularRequest<F>& q, 
 template <class F>
 TYNDALL_INLINE void keep_inside(const SpecularQuery<F>& a, const SolvedPath<F>& c, const EventSequence<F>& sequence,
                                 MaskOf<F> lanes, SampledPath<F>& taken) {
-  const F p = c.deflection.maximum * (F(1.0f) - c.root.s * c.root.s);
   using I = InsidePath<F>;
   using E = PathEnds<F>;
-  const I inside = inside_path(a.sphere, a.plane, a.ends, c.sign.near, c.sign.far, c.root.sense, p, sequence);
+  const I inside = inside_path(a.sphere, a.plane, a.ends, c.sign.near, c.sign.far, c.root.sense, c.root.p, sequence);
   put<F>(lanes, inside, taken.inside, &I::out, &I::side, &I::p, &I::angle, &I::main);
   put<F>(lanes, a.ends, taken.ends, &E::both_out, &E::deep, &E::valid, &E::both_in, &E::near_in_glass);
 }
@@ -167,7 +161,7 @@ TYNDALL_INLINE void begin_at_sphere(const SpecularQuery<F>& a, const SolvedPath<
   const Vec3<F> arrive = taken.path.arrive;
   const Vec3<F> across = point_at(-dot(arrive, a.plane.far_side) * a.plane.far_out, dot(arrive, a.plane.far_out),
                                   a.plane.far_side);  // at right angles to the ray
-  const F p = c.deflection.maximum * (F(1.0f) - c.root.s * c.root.s);
+  const F p = c.root.p;
   const F forward = sqrt(max(mul_add(a.sphere.radius, a.sphere.radius, -(p * p)), F(0.0f)));
   const Vec3<F> point = point_at(point_at(a.sphere.center, forward, arrive), -c.root.sense * p, across);
   taken.light_point = select(here, point, taken.light_point);
@@ -210,15 +204,15 @@ TYNDALL_INLINE void offer_flat(const auto& s, const SpecularRequest<F>& q, const
     offer_path(s, q, a, path, taken);
   };
   const auto by_mirror = mask_and(mask_and(lanes, a.by_mirror), less(IntOf<F>(1), events_left));
-  if (s.specular.has_mirrors() && any(by_mirror)) offer(mirror_path(a.mirror, q.point, a.at.point), by_mirror);
+  if (s.specular.has_mirrors() && any(by_mirror)) offer(mirror_path(a.flat, q.point, a.at.point), by_mirror);
   if (!s.specular.has_slabs()) return;
   const SlabSequence<F>& sequence = a.slab_path.sequence;
   const F events = sequence.crossings + F(1.0f) + abs(sequence.image[0]) + abs(sequence.image[1]);
   const auto by_slab =
       mask_and(mask_and(mask_and(lanes, a.by_slab), a.slab_path.drawn), less(to_int(events), events_left));
   if (!any(by_slab)) return;
-  const SlabFrame<F> frame = slab_frame(a.slab, q.point, a.at.point, sequence.across);
-  SpecularPath<F> path = slab_path(a.slab, frame, sequence);
+  const SlabFrame<F> frame = slab_frame(a.flat, q.point, a.at.point, sequence.across);
+  SpecularPath<F> path = slab_path(a.flat, frame, sequence);
   path.count = F(1.0f) / max(a.slab_path.probability, F(1e-30f));
   offer(path, by_slab);
 }

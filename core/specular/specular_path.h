@@ -49,24 +49,15 @@ struct LightPoint {
   F pdf;  ///< per unit of area
 };
 
-/// A glass or mirror sphere sees a cap of a sphere light. Returns the least cosine between a normal of that cap and the
-/// axis from the light to the sphere; -1, for the whole light, if the sphere holds the light's centre. distance:
-/// between the two centres.
-template <class F>
-TYNDALL_INLINE F seen_from_sphere(F distance, F light_radius, F sphere_radius) {
-  return select(less(sphere_radius, distance), max((light_radius - sphere_radius) / max(distance, F(1e-30f)), F(-1.0f)),
-                F(-1.0f));
-}
-
-/// How points are drawn on a sphere light for the sphere that it sees: by z, the cosine between a point's normal and
-/// `axis`. Light outside of the sphere: the axis leads to the sphere's centre. The pdf grows with z from 0 at the edge
-/// of the cap that the sphere sees, because the light that reaches the sphere grows likewise. Light's centre in the
-/// sphere: most of the light leaves the sphere almost straight. The axis leads to the receiver, and most points are
-/// drawn on the half that faces it; the rest serve light that the sphere reflects back.
+/// How points are drawn on a sphere light towards a sphere: by z, the cosine between a point's normal and `axis`.
+/// Light outside of the sphere: the axis leads to the sphere's centre. The pdf grows with z from 0 at the edge of the
+/// cap that the sphere sees, because the light that reaches the sphere grows likewise.
+/// Light's centre in the sphere: most of the light leaves the sphere almost straight. The axis leads to the receiver,
+/// and most points are drawn on the half that faces it; the rest serve light that the sphere reflects back.
 template <class F>
 struct LightSide {
   Vec3<F> center, axis;
-  F radius, first;    ///< radius of the light; first: least z that the sphere sees
+  F radius, first;    ///< radius of the light; first: least z that the sphere sees, of a cap or of the whole light
   MaskOf<F> outside;  ///< the light's centre is outside of the sphere
 };
 /// For a light in the sphere: fractions of points on the half that faces the axis, on the other half, and uniform.
@@ -80,7 +71,8 @@ TYNDALL_INLINE LightSide<F> light_side(const LightColumns<F>& light, const Bound
   const auto outside = less(b.radius, distance);
   const Vec3<F> to_axis_end = select(outside, b.center, receiver) - center;
   const F scale = F(1.0f) / max(length(to_axis_end), F(1e-30f));
-  return {center, scale * to_axis_end, light.length_u, seen_from_sphere(distance, light.length_u, b.radius), outside};
+  const F cap = max((light.length_u - b.radius) / max(distance, F(1e-30f)), F(-1.0f));
+  return {center, scale * to_axis_end, light.length_u, select(outside, cap, F(-1.0f)), outside};
 }
 
 /// Pdf, per unit of area, of the points that draw_on_light_side() gives at the cosine z.

@@ -1,5 +1,4 @@
 #pragma once
-#include "core/specular/history.h"
 #include "core/specular/specular_flat.h"
 
 /// Lists the event sequences tried for a slab (for example: enter, reflect, leave) and the probability of each. Both
@@ -58,7 +57,7 @@ TYNDALL_INLINE MaskOf<F> may_meet(const SlabFrame<F>& s, const SlabBounds<F>& b,
 
 /// Whether a path meets no face that another object touches.
 template <class F>
-TYNDALL_INLINE MaskOf<F> is_open(const SpecularSlab<F>& slab, const SlabFrame<F>& s, const SlabSequence<F>& sequence) {
+TYNDALL_INLINE MaskOf<F> is_open(const SpecularFlat<F>& slab, const SlabFrame<F>& s, const SlabSequence<F>& sequence) {
   using I = IntOf<F>;
   if (all(equal(slab.closed, I(0)))) return less(F(-1.0f), F(0.0f));
   const auto lower_of = [](I edge) __attribute__((always_inline)) {
@@ -77,7 +76,7 @@ TYNDALL_INLINE MaskOf<F> is_open(const SpecularSlab<F>& slab, const SlabFrame<F>
 
 /// Whether an event sequence is among those that draw_slab_sequence() may draw.
 template <class F>
-TYNDALL_INLINE MaskOf<F> is_looked_for(const SpecularSlab<F>& slab, const SlabFrame<F>& s,
+TYNDALL_INLINE MaskOf<F> is_looked_for(const SpecularFlat<F>& slab, const SlabFrame<F>& s,
                                        const BoundingSphere<F>& light, const SlabSequence<F>& sequence) {
   const SlabBounds<F> bounds = bounds_of(s, sequence.crossings, light);
   const F maximum = max(abs(sequence.image[0]), abs(sequence.image[1]));
@@ -141,7 +140,7 @@ TYNDALL_INLINE F slab_weight(const SlabFrame<F>& s, const SlabSequence<F>& seque
 
 /// Lists the event sequences of paths that enter at the ends of the edge `across`.
 template <class F>
-TYNDALL_INLINE void list_sequences(const SpecularSlab<F>& slab, const SlabFrame<F>& s, const BoundingSphere<F>& light,
+TYNDALL_INLINE void list_sequences(const SpecularFlat<F>& slab, const SlabFrame<F>& s, const BoundingSphere<F>& light,
                                    const SlabPlace<F>& normal, int across, MaskOf<F> lanes,
                                    SlabSequences<F>& sequences) {
   const SlabCrossings<F>& crossings = sequences.crossings[across];
@@ -204,7 +203,7 @@ TYNDALL_INLINE DrawnSlabSequence<F> take_sequence(const SlabSequences<F>& sequen
 
 /// Draws an event sequence for a shading point. normal: of the surface there; 0 in media. u: two random numbers.
 template <class F>
-TYNDALL_INLINE DrawnSlabSequence<F> draw_slab_sequence(const SpecularSlab<F>& slab, Vec3<F> point, Vec3<F> normal,
+TYNDALL_INLINE DrawnSlabSequence<F> draw_slab_sequence(const SpecularFlat<F>& slab, Vec3<F> point, Vec3<F> normal,
                                                        const BoundingSphere<F>& light, Pair<F> u, MaskOf<F> lanes) {
   SlabSequences<F> sequences;
   const F edges[3] = {dot(slab.row[0], normal), dot(slab.row[1], normal), dot(slab.row[2], normal)};
@@ -219,7 +218,7 @@ TYNDALL_INLINE DrawnSlabSequence<F> draw_slab_sequence(const SpecularSlab<F>& sl
 
 /// The sphere in which a light sees the shading point through the slab. s: its far point does not matter.
 template <class F>
-TYNDALL_INLINE BoundingSphere<F> seen_by_slab(const SpecularSlab<F>& slab, const SlabFrame<F>& s,
+TYNDALL_INLINE BoundingSphere<F> seen_by_slab(const SpecularFlat<F>& slab, const SlabFrame<F>& s,
                                               const SlabSequence<F>& sequence) {
   const F height = copy_sign(F(1.0f), s.near.height) *
                    mul_add(F(2.0f) * s.half.height, sequence.crossings - F(1.0f), abs(s.near.height));
@@ -235,21 +234,6 @@ TYNDALL_INLINE BoundingSphere<F> seen_by_slab(const SpecularSlab<F>& slab, const
     b.center = point_at(b.center, place - slab.offset[k], slab.row[k]);
   }
   return b;
-}
-
-/// The event sequence of a path that met a slab by BSDF sampling. direction: in which the path left the slab.
-template <class F>
-TYNDALL_INLINE SlabSequence<F> slab_sequence_of(const SpecularSlab<F>& slab, SpecularHistory<F> met,
-                                                Vec3<F> direction) {
-  const F count[3] = {met.template count<0>(), met.template count<1>(), met.template count<2>()};
-  const F rises[3] = {dot(slab.row[0], direction), dot(slab.row[1], direction), dot(slab.row[2], direction)};
-  SlabSequence<F> sequence;
-  sequence.across = met.start();
-  const SlabPlace<F> counts = framed<F>(count, sequence.across), heading = framed<F>(rises, sequence.across);
-  sequence.crossings = counts.height - F(1.0f);
-  for (int k = 0; k < 2; ++k)
-    sequence.image[k] = copy_sign(counts.side[k], parity_sign(counts.side[k]) * heading.side[k]);
-  return sequence;
 }
 
 /// Estimated contribution, > 0, of pair k of a slab and a light at a point: that of the light alone if the straight

@@ -7,6 +7,44 @@
 /// scattered and what they have met since (SpecularTrail).
 namespace tyndall {
 
+/// Counts of the events at one specular object, packed into one integer, because a path carries it through each step:
+///
+///   0                 nothing was met yet
+///   -1                something was met that no specular path meets, or more events of one kind than can be counted
+///   otherwise         the object's index + 1 in bits 14 and up, and below them three counts and where the path began
+///                         at a sphere, a shell or a flat mirror            at a slab
+///       bits 0-3      events at the outer sphere                           events at the two faces across edge 0
+///       bits 4-7      events at the inner sphere                           across edge 1
+///       bits 8-11     reflections at the inner sphere                      across edge 2
+///       bits 12-13    1: the path first moved away from the centre; or 0   the edge across which it met the first face
+template <class F>
+struct SpecularHistory {
+  using I = IntOf<F>;
+
+  I packed;
+
+  TYNDALL_INLINE MaskOf<F> is_empty() const { return equal(packed, I(0)); }
+  /// False after something that no specular path meets.
+  TYNDALL_INLINE MaskOf<F> goes_on() const { return less_equal(I(0), packed); }
+  TYNDALL_INLINE MaskOf<F> has_object() const { return less(I(0), packed); }
+  /// The object's index where has_object(), else any number.
+  TYNDALL_INLINE I object() const { return as_int(shift_right<14>(as_uint(packed))) - I(1); }
+  template <int k>
+  TYNDALL_INLINE F count() const {
+    return from_int<F>(as_int(shift_right<4 * k>(as_uint(packed))) & I(15));
+  }
+  TYNDALL_INLINE I start() const { return as_int(shift_right<12>(as_uint(packed))) & I(3); }
+
+  /// The history after an event at `object`. first: start() if nothing was met before. added: 1 in the bits of the
+  /// counts that it increases. limit: the bits of the count that must not be full.
+  TYNDALL_INLINE SpecularHistory after(I object, I first, I added, I limit) const {
+    const I name = as_int(shift_left<14>(as_uint(object + I(1))));
+    const I before = select(is_empty(), name + as_int(shift_left<12>(as_uint(first))), packed);
+    const auto same = equal(before & I(~0x3fff), name);
+    return {select(mask_and_not(same, equal(before & limit, limit)), before + added, I(-1))};
+  }
+};
+
 /// What a path remembers in scenes with specular paths, so that a light which it hits by BSDF sampling can be weighed
 /// against them.
 template <class F>
@@ -65,6 +103,21 @@ TYNDALL_INLINE void restart_trail(SpecularTrail<F>& trail, MaskOf<F> lanes, Vec3
   trail.pdf = select(lanes, pdf / query, trail.pdf);
 }
 
+/// The event sequence of a path that met a slab by BSDF sampling. direction: in which the path left the slab.
+template <class F>
+TYNDALL_INLINE SlabSequence<F> slab_sequence_of(const SpecularFlat<F>& slab, SpecularHistory<F> met,
+                                                Vec3<F> direction) {
+  const F count[3] = {met.template count<0>(), met.template count<1>(), met.template count<2>()};
+  const F rises[3] = {dot(slab.row[0], direction), dot(slab.row[1], direction), dot(slab.row[2], direction)};
+  SlabSequence<F> sequence;
+  sequence.across = met.start();
+  const SlabPlace<F> counts = framed<F>(count, sequence.across), heading = framed<F>(rises, sequence.across);
+  sequence.crossings = counts.height - F(1.0f);
+  for (int k = 0; k < 2; ++k)
+    sequence.image[k] = copy_sign(counts.side[k], parity_sign(counts.side[k]) * heading.side[k]);
+  return sequence;
+}
+
 /// The specular path that could have found a light which a path found by BSDF sampling.
 template <class F>
 struct BsdfHitPath {
@@ -107,19 +160,16 @@ TYNDALL_INLINE BsdfHitPath<F> bsdf_hit_by_sphere(const SpecularView& c, const Sp
 }
 
 template <class F>
-TYNDALL_INLINE BsdfHitPath<F> bsdf_hit_by_mirror(const SpecularView& c, const SpecularTrail<F>& trail,
-                                                 const Ray<F>& ray, IntOf<F> mirror, const LightColumns<F>& light,
-                                                 Vec3<F> point) {
-  const SpecularMirror<F> m = load_mirror<F>(c, mirror);
+TYNDALL_INLINE BsdfHitPath<F> bsdf_hit_by_mirror(const SpecularFlat<F>& m, const SpecularTrail<F>& trail,
+                                                 const Ray<F>& ray, const LightColumns<F>& light, Vec3<F> point) {
   const LightPoint<F> at = light_point_at(light, {mirrored(m, trail.start), F(0.0f)}, trail.start, ray.time, point);
   const SpecularPath<F> path = mirror_path(m, trail.start, point);
   return bsdf_hit_by_flats(light, at, ray.direction, path.found, path.spread, F(1.0f));
 }
 
 template <class F>
-TYNDALL_INLINE BsdfHitPath<F> bsdf_hit_by_slab(const SpecularView& c, const SpecularTrail<F>& trail, const Ray<F>& ray,
-                                               IntOf<F> slab, const LightColumns<F>& light, Vec3<F> point) {
-  const SpecularSlab<F> p = load_slab<F>(c, slab);
+TYNDALL_INLINE BsdfHitPath<F> bsdf_hit_by_slab(const SpecularFlat<F>& p, const SpecularTrail<F>& trail,
+                                               const Ray<F>& ray, const LightColumns<F>& light, Vec3<F> point) {
   const SlabSequence<F> sequence = slab_sequence_of(p, trail.met, ray.direction);
   const BoundingSphere<F> around = bounding_sphere(light, ray.time);
   const SlabFrame<F> to_light = slab_frame(p, trail.start, around.center, sequence.across);
@@ -165,16 +215,17 @@ template <class F>
   const LightColumns<F> columns = load_light<F>(s.lights, safe_light);
   BsdfHitPath<F> hit_path{F(0.0f), F(0.0f), F(0.0f)};
   if (c.has_spheres()) hit_path = bsdf_hit_by_sphere(c, trail, ray, sphere, columns, point);
-  const I mirror = sphere - I(c.first_mirror), slab = sphere - I(c.first_slab);
-  const auto is_slab = mask_and(could, less_equal(I(0), slab));
-  const auto is_mirror = mask_and_not(mask_and(could, less_equal(I(0), mirror)), is_slab);
-  const auto replace = [&](MaskOf<F> here, const BsdfHitPath<F>& by) __attribute__((always_inline)) {
-    put<F>(here, by, hit_path, &BsdfHitPath<F>::pdf, &BsdfHitPath<F>::queries, &BsdfHitPath<F>::throughput);
-  };
-  if (c.has_mirrors() && any(is_mirror))
-    replace(is_mirror, bsdf_hit_by_mirror(c, trail, ray, select(is_mirror, mirror, I(0)), columns, point));
-  if (c.has_slabs() && any(is_slab))
-    replace(is_slab, bsdf_hit_by_slab(c, trail, ray, select(is_slab, slab, I(0)), columns, point));
+  const auto is_flat = mask_and(could, less_equal(I(c.first_mirror), sphere));
+  if (any(is_flat)) {
+    const SpecularFlat<F> flat = load_flat<F>(c, select(is_flat, sphere - I(c.first_mirror), I(0)));
+    const auto is_slab = mask_and(is_flat, less_equal(I(c.first_slab), sphere));
+    const auto is_mirror = mask_and_not(is_flat, is_slab);
+    const auto replace = [&](MaskOf<F> here, const BsdfHitPath<F>& by) __attribute__((always_inline)) {
+      put<F>(here, by, hit_path, &BsdfHitPath<F>::pdf, &BsdfHitPath<F>::queries, &BsdfHitPath<F>::throughput);
+    };
+    if (any(is_mirror)) replace(is_mirror, bsdf_hit_by_mirror(flat, trail, ray, columns, point));
+    if (any(is_slab)) replace(is_slab, bsdf_hit_by_slab(flat, trail, ray, columns, point));
+  }
   return weight_beside(c, trail, hit_path, select(could, pair, I(0)), could);
 }
 

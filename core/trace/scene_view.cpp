@@ -72,8 +72,7 @@ SpecularView view_of(const SpecularPairs& c) {
   v.light = c.light.data();
   v.pair_of = c.pair_of.data(), v.sphere_of = c.sphere_of.data();
   v.sun_pair_of = c.sun_pair_of.empty() ? nullptr : c.sun_pair_of.data();
-  v.first_mirror = c.first_mirror, v.mirrors = c.mirrors.data();
-  v.first_slab = c.first_slab, v.slabs = c.slabs.data();
+  v.first_mirror = c.first_mirror, v.first_slab = c.first_slab, v.flats = c.flats.data();
   v.choice = view_of(c.choice);
   return v;
 }

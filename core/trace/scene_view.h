@@ -62,7 +62,7 @@ struct SpecularView {
   const float *center[3], *move[3], *radius, *index, *inner_radius, *inner_index;
   const std::int32_t *outer, *inner, *overlapped, *sphere, *light, *pair_of, *sphere_of,
       *sun_pair_of;  ///< null: no pair has the sun
-  const float *mirrors, *slabs;
+  const FlatRecord* flats;
   LightView choice;
   TYNDALL_INLINE bool has_spheres() const { return first_mirror > 0; }
   TYNDALL_INLINE bool has_mirrors() const { return first_mirror < first_slab; }

@@ -11,8 +11,8 @@
 #include <random>
 #include <vector>
 
-/// Paths of light through spheres around one centre: all of them are found, and the solid angle that chains compute for
-/// a light is the one that traced rays find.
+/// Paths of light through spheres around one centre: all of them are found, each event sequence is tried as often as
+/// the weights say, and the solid angle that is computed for a light is the one that traced rays find.
 namespace tyndall::test::specular_deflection_test {
 
 namespace {
@@ -97,36 +97,55 @@ TEST_CASE("specular paths: the solid angle that a light fills off a mirror spher
 
 TEST_CASE("specular paths: each event sequence is tried as often as expected_queries() says") {
   std::mt19937_64 engine(11);
-  for (const double inner_radius : {0.0, 0.85, 0.4}) {
+  struct Place {
+    double inner_radius;
+    float near, far;
+  };
+  for (const auto& [inner_radius, near, far] :
+       {Place{0, 2, 3}, Place{0.85, 2, 3}, Place{0.4, 2, 3}, Place{0, 0.5f, 0.4f}, Place{0.85, 0.5f, 0.4f},
+        Place{0.6, 0.8f, 0.4f}}) {
     CAPTURE(inner_radius);
+    CAPTURE(near);
     const SpecularSphere<float> b = sphere_of<float>(1.5, inner_radius);
-    const PathEnds<float> ends = ends_of(b, 2.0f, 3.0f);
+    const PathEnds<float> ends = ends_of(b, near, far);
+    REQUIRE((ends.both_out || (ends.valid && ends.both_in)));
     constexpr int draws = 400000;
-    std::map<std::array<int, 3>, int> drawn;  // by events at the outer sphere, at the inner one, and reflections there
+    std::map<std::array<int, 4>, int> drawn;  // events outer, inner, reflections there, and the near end's sign
     for (int i = 0; i < draws; ++i) {
       const std::uint64_t bits = engine();
       const DrawnSequence<float> d =
           draw_sequence(b, ends, {static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32u)});
       if (!d.drawn) continue;
       const EventSequence<float>& w = d.sequence;
-      ++drawn[{static_cast<int>(w.outer), static_cast<int>(w.inner), static_cast<int>(w.inner_reflected)}];
+      ++drawn[{static_cast<int>(w.outer), static_cast<int>(w.inner), static_cast<int>(w.inner_reflected),
+               ends.near_in_glass ? static_cast<int>(w.near_sign) : 1}];
     }
-    int longest = 0;
+    int checked = 0, longest = 0;
     for (const auto& [events, times] : drawn) {
-      const auto [outer, inner, inner_reflected] = events;
+      const auto [outer, inner, inner_reflected, near_sign] = events;
       longest = std::max(longest, outer + inner);
-      // Of one order only: other event sequences have several.
-      if (inner_reflected > 0 || outer > 3) continue;
-      const EventSequence<float> sequence{static_cast<float>(outer), static_cast<float>(inner), 0};
+      const EventSequence<float> sequence{static_cast<float>(outer), static_cast<float>(inner),
+                                          static_cast<float>(inner_reflected), static_cast<float>(near_sign)};
+      // Of one order only. From inside: either all events inside the hollow or solid glass, or one visit to the glass.
+      const bool one_order = ends.both_out
+                                 ? inner_reflected == 0 && outer <= 3
+                                 : inner == 0 || (outer == 0 && inner == inner_reflected) || outer + inner <= 2 ||
+                                       (outer == 1 && inner == 2 && inner_reflected == 0);
+      if (!one_order) continue;
+      ++checked;
       const double by_plan = same_sequence(sequence, main_sequence(b, ends)) ? static_cast<double>(main_queries(b)) : 0;
       const double expected = (static_cast<double>(expected_queries(b, ends, sequence)) - by_plan) * draws;
       CAPTURE(sequence.outer);
       CAPTURE(sequence.inner);
+      CAPTURE(sequence.near_sign);
+      if (ends.both_in) CHECK(expected > 0);
       CHECK(std::abs(times - expected) < 6 * std::sqrt(expected) + 1);
     }
-    CHECK(longest >= (inner_radius > 0 ? 16 : 8));
+    CHECK(checked >= 2);
+    CHECK(longest >= (ends.both_in ? max_inside_events : inner_radius > 0 ? 16 : 8));
     CHECK(expected_queries(b, ends, main_sequence(b, ends)) >= main_queries(b));
-    if (inner_radius == 0) CHECK(drawn.count({2, 0, 0}) == 0);  // the main event sequence is not drawn as well
+    // The main event sequence of solid glass is not drawn as well.
+    if (ends.both_out && inner_radius == 0) CHECK(drawn.count({2, 0, 0, 1}) == 0);
   }
 }
 

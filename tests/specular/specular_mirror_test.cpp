@@ -40,8 +40,8 @@ TEST_CASE(
   const SpecularView& specular = scene.view.view().specular;
   REQUIRE(specular.spheres == 1);
   REQUIRE(specular.first_mirror == 0);
-  const SpecularMirror<double> m = load_mirror<double>(specular, 0);
-  const SpecularMirror<float> in_floats = load_mirror<float>(specular, 0);
+  const SpecularFlat<double> m = load_flat<double>(specular, 0);
+  const SpecularFlat<float> in_floats = load_flat<float>(specular, 0);
   const Vec3d normal = normalize(cross(scene.u, scene.v)), edge = cross(scene.v, normal),
               other = cross(normal, scene.u);
   Engine engine(3);
@@ -74,7 +74,7 @@ TEST_CASE(
 
 TEST_CASE("specular paths: the area that a small solid angle off a flat mirror fills") {
   const MirrorScene scene;
-  const SpecularMirror<double> m = load_mirror<double>(scene.view.view().specular, 0);
+  const SpecularFlat<double> m = load_flat<double>(scene.view.view().specular, 0);
   const Vec3d normal = normalize(cross(scene.u, scene.v)), near = scene.middle() + Vec3d{0.4, 0.2, 2};
   const Vec3d far = scene.middle() + Vec3d{-0.5, 1, 1.2};
   const SpecularPath<double> path = mirror_path(m, near, far);
@@ -97,7 +97,7 @@ TEST_CASE(
     "specular paths: a mirror counts as much as its image of the light where that is seen, and little elsewhere") {
   const MirrorScene scene;
   const SpecularView& specular = scene.view.view().specular;
-  const SpecularMirror<double> m = load_mirror<double>(specular, 0);
+  const SpecularFlat<double> m = load_flat<double>(specular, 0);
   const Vec3d lamp = exact({specular.choice.center[0][0], specular.choice.center[1][0], specular.choice.center[2][0]});
   const double power = static_cast<double>(specular.choice.power[0]);
   Engine engine(7);

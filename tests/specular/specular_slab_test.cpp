@@ -20,7 +20,7 @@ struct SlabScene {
   Vec3d half;
   RenderScene compiled;
   SceneViewOf view;
-  SpecularSlab<double> slab;
+  SpecularFlat<double> slab;
 
   static RenderScene make(Vec3d half, Vec3d light_at, double light_radius) {
     Scene scene = dark_room();
@@ -33,7 +33,7 @@ struct SlabScene {
   explicit SlabScene(Vec3d half_size, Vec3d light_at = {1, 4, 3}, double light_radius = 0.01)
       : half(half_size), compiled(make(half, light_at, light_radius)), view(compiled) {
     REQUIRE(view.view().specular.has_slabs());
-    slab = load_slab<double>(view.view().specular, 0);
+    slab = load_flat<double>(view.view().specular, 0);
   }
   Vec3d middle() const { return Vec3d{0.3, 0.2, 0.1} - compiled.origin; }
   double along_edge(int edge, Vec3d direction) const { return dot(slab.row[edge], direction); }
@@ -148,7 +148,7 @@ TEST_CASE("specular paths: a ray that starts along the one through a slab arrive
 
 TEST_CASE("specular paths: floats find the same ones through slabs as doubles, at grazing angles, too") {
   const SlabScene scene({2, 1.5, 0.1});
-  const SpecularSlab<float> in_floats = load_slab<float>(scene.view.view().specular, 0);
+  const SpecularFlat<float> in_floats = load_flat<float>(scene.view.view().specular, 0);
   Engine engine(6);
   int found = 0;
   for (int i = 0; i < 20000; ++i) {
