@@ -8,34 +8,32 @@
 namespace tyndall {
 namespace {
 
-constexpr double largest_light = 0.5;  // of a light's reach against its distance from the mirror
+constexpr double largest_light = 0.5;  // of a light's reach against its distance from the mirror or slab
 
-FlatMirror mirror_of(std::size_t shape, const Placement& placement, const BoxFace& face) {
-  FlatMirror mirror;
-  mirror.shape = shape;
-  mirror.u = 0.5 * rotate(placement, face.u), mirror.v = 0.5 * rotate(placement, face.v);
-  mirror.normal = normalize(rotate(placement, face.normal));
-  mirror.middle = place(placement, face.corner) + mirror.u + mirror.v;
-  return mirror;
+FlatRecord record_of(const Vec3d (&rows)[3], Vec3d middle, const double (&size)[3]) {
+  FlatRecord record{};
+  for (int k = 0; k < 3; ++k) {
+    record.row[k] = to_float(rows[k]), record.offset[k] = static_cast<float>(-dot(rows[k], middle));
+    record.size[k] = static_cast<float>(size[k]);
+  }
+  return record;
 }
 
 /// Whether light from a light's image through the face may reach a quad on its front or back: the face has to reach in
 /// between the image and the quad's plane.
-bool approaches(const Vec3d (&corner)[4], Vec3d image, double reach, const Receiver& quad) {
-  const Vec3d on_plane = quad.extent.points.front();
-  const double start = dot(quad.normal, image - on_plane);
+bool approaches(const Vec3d (&corner)[4], Vec3d image, double reach, Vec3d normal, Vec3d on_plane) {
+  const double start = dot(normal, image - on_plane);
   if (std::abs(start) <= reach) return true;
   double low = 1e300, high = -1e300;
   for (const Vec3d& c : corner) {
-    const double height = dot(quad.normal, c - on_plane) * (start > 0 ? 1 : -1);
+    const double height = dot(normal, c - on_plane) * (start > 0 ? 1 : -1);
     low = std::min(low, height), high = std::max(high, height);
   }
   return high > -reach && low < std::abs(start) + reach;
 }
 
 /// Whether light that seems to come from within `reach` of a light's image may reach a receiver: a part of the receiver
-/// has to be on the light's side of the mirror, within the pyramid from the image through the face. May wrongly be
-/// true, never wrongly false.
+/// has to be on the light's side of the mirror, within the pyramid from the image through the face.
 bool may_light(const FlatMirror& m, Vec3d image, double reach, const Receiver& receiver) {
   const std::vector<Vec3d>& points = receiver.extent.points;
   const double height = dot(image - m.middle, m.normal);
@@ -51,11 +49,10 @@ bool may_light(const FlatMirror& m, Vec3d image, double reach, const Receiver& r
     const Vec3d side = normalize(cross(corner[i] - image, corner[(i + 1) % 4] - image));
     if (!reaches(dot(side, m.middle - image) > 0 ? side : -side, image)) return false;
   }
-  return !receiver.is_quad || approaches(corner, image, reach, receiver);
+  return !receiver.normal || approaches(corner, image, reach, *receiver.normal, points.front());
 }
 
-constexpr double widest_light = 0.5;  // of a light's reach against its distance from the slab
-constexpr double contact = 1e-6;      // of the longest half edge: by so much things may overlap without counting
+constexpr double contact = 1e-6;  // of the longest half edge: by so much things may overlap without counting
 
 /// The slab with its faces moved outward by `room`.
 Block grown(const Slab& p, double room) {
@@ -159,21 +156,19 @@ bool look_around(const Flattened& flat, const std::vector<Flat>& flats, Slab& sl
 
 std::vector<FlatMirror> list_flat_mirrors(const Flattened& flat, const std::vector<Flat>& flats, const Scene& scene) {
   std::vector<FlatMirror> list;
-  for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
-    const PlacedShape& shape = flat.shapes[i];
-    if (!is_mirror(scene.materials[static_cast<std::size_t>(shape.material)].kind)) continue;
-    if (const auto* quad = std::get_if<Quad<>>(&shape.shape))
-      list.push_back(mirror_of(i, shape.placement, {cross(quad->u, quad->v), quad->corner, quad->u, quad->v}));
+  int face = 0;
+  for (std::size_t i = 0; i < flats.size(); ++i) {
+    const auto& [number, block, radius] = flats[i];
+    face = i > 0 && flats[i - 1].shape == number ? face + 1 : 0;
+    const PlacedShape& shape = flat.shapes[number];
     const auto* box = std::get_if<Box<>>(&shape.shape);
-    if (!box) continue;
-    const Vec3d size = box->max - box->min;
-    for (int face = 0; face < 6; ++face) {
-      list.push_back(mirror_of(i, shape.placement, box_face_edges(*box, face)));
-      list.back().face = face;
-      list.back().depth = face < 2 ? size.x : face < 4 ? size.y : size.z;
-    }
+    if (!box && !std::holds_alternative<Quad<>>(shape.shape)) continue;
+    if (!is_mirror(scene.materials[static_cast<std::size_t>(shape.material)].kind)) continue;
+    if (is_covered(block, number, flats)) continue;
+    const Vec3d u = block.edge[0], v = block.edge[1], size = box ? box->max - box->min : Vec3d{};
+    const double depth[] = {size.x, size.y, size.z};
+    list.push_back({number, face, block.middle, u, v, normalize(cross(u, v)), depth[face / 2]});
   }
-  std::erase_if(list, [&](const FlatMirror& m) { return is_covered({m.middle, {m.u, m.v, {}}}, m.shape, flats); });
   return list;
 }
 
@@ -182,45 +177,43 @@ std::vector<Receiver> list_receivers(const Flattened& flat, const Scene& scene) 
   for (const PlacedShape& shape : flat.shapes) {
     const Material& material = scene.materials[static_cast<std::size_t>(shape.material)];
     if (!traits_of(material.kind).diffuse) continue;
-    Receiver receiver{extent_of(shape, scene.camera), false, {}};
-    if (const std::optional<Quad<>> quad = frame_of_flat(shape)) {
-      receiver.is_quad = true;
-      receiver.normal = normalize(rotate(shape.placement, cross(quad->u, quad->v)));
-    }
-    list.push_back(receiver);
+    list.push_back({extent_of(shape, scene.camera), {}});
+    if (const std::optional<Quad<>> quad = frame_of_flat(shape))
+      list.back().normal = normalize(rotate(shape.placement, cross(quad->u, quad->v)));
   }
-  for (const PlacedVolume& volume : flat.volumes) list.push_back({extent_of(volume, scene.camera), false, {}});
+  for (const PlacedVolume& volume : flat.volumes) list.push_back({extent_of(volume, scene.camera), {}});
   return list;
 }
 
-double worth_of(const FlatMirror& m, const Lights& lights, std::size_t k, Vec3d origin,
-                const std::vector<Receiver>& receivers) {
-  const Vec3d light = to_double(lights.center[k]) + origin;
-  const Vec3d to_light = light - m.middle;
-  const double height = dot(to_light, m.normal), reach = std::sqrt(static_cast<double>(lights.reach2[k]));
+LightBounds light_bounds(const RenderScene& scene, std::size_t k) {
+  const Lights& lights = scene.lights;
+  return {to_double(lights.center[k]) + scene.origin,
+          std::sqrt(static_cast<double>(lights.reach2[k])), static_cast<double>(lights.power[k])};
+}
+
+double worth_of(const FlatMirror& m, const LightBounds& light) {
+  const Vec3d to_light = light.center - m.middle;
+  const double height = dot(to_light, m.normal);
   if (height == 0) return 0;
   if (m.depth > 0 && height < 0) {  // the inside of a box's face: for lights within the box
     const Reciprocal r = reciprocal_edges(m.u, m.v);
     if (-height > m.depth || std::abs(dot(r.a, to_light)) > 1 || std::abs(dot(r.b, to_light)) > 1) return 0;
   }
-  const double distance = distance_to_flat(light, m.middle - m.u - m.v, 2.0 * m.u, 2.0 * m.v);
-  if (reach > largest_light * distance) return 0;
-  const Vec3d image = light - 2 * height * m.normal;
-  if (std::none_of(receivers.begin(), receivers.end(),
-                   [&](const Receiver& r) { return may_light(m, image, reach, r); }))
-    return 0;
+  const double distance = distance_to_flat(light.center, m.middle - m.u - m.v, 2.0 * m.u, 2.0 * m.v);
+  if (light.reach > largest_light * distance) return 0;
   const double fraction = length(cross(m.u, m.v)) * std::abs(height) / (distance * distance * distance);
-  return static_cast<double>(lights.power[k]) * std::min(fraction, 1.0);
+  return light.power * std::min(fraction, 1.0);
 }
 
-MirrorRecord record_of(const FlatMirror& m, Vec3d origin) {
+bool may_light(const FlatMirror& m, const LightBounds& light, const std::vector<Receiver>& receivers) {
+  const Vec3d image = light.center - 2 * dot(light.center - m.middle, m.normal) * m.normal;
+  return std::any_of(receivers.begin(), receivers.end(),
+                     [&](const Receiver& receiver) { return may_light(m, image, light.reach, receiver); });
+}
+
+FlatRecord record_of(const FlatMirror& m, Vec3d origin) {
   const Reciprocal r = reciprocal_edges(m.u, m.v);
-  const auto offset = [&](Vec3d row) { return static_cast<float>(-dot(row, m.middle - origin)); };
-  return {{to_float(r.a), to_float(r.b)},
-          to_float(m.normal),
-          {offset(r.a), offset(r.b)},
-          offset(m.normal),
-          {static_cast<float>(length(r.a)), static_cast<float>(length(r.b))}};
+  return record_of({r.a, r.b, m.normal}, m.middle - origin, {length(r.a), length(r.b), 0});
 }
 
 std::vector<Slab> list_slabs(const Flattened& flat, const std::vector<Flat>& flats, const Scene& scene) {
@@ -242,26 +235,21 @@ std::vector<Slab> list_slabs(const Flattened& flat, const std::vector<Flat>& fla
   return list;
 }
 
-double worth_of(const Slab& slab, const Lights& lights, std::size_t k, Vec3d origin) {
-  const Vec3d light = to_double(lights.center[k]) + origin;
-  const double distance = distance_to(slab, light), reach = std::sqrt(static_cast<double>(lights.reach2[k]));
-  if (reach > widest_light * distance) return 0;
+double worth_of(const Slab& slab, const LightBounds& light) {
+  const double distance = distance_to(slab, light.center);
+  if (light.reach > largest_light * distance) return 0;
   double area = 0;  // as seen from the light
-  const Vec3d to_light = normalize(slab.middle - light);
+  const Vec3d to_light = normalize(slab.middle - light.center);
   for (int i = 0; i < 3; ++i)
     area += 4 * std::abs(dot(slab.edge[i], to_light)) * slab.half[(i + 1) % 3] * slab.half[(i + 2) % 3];
-  return static_cast<double>(lights.power[k]) * std::min(area / (distance * distance), 1.0);
+  return light.power * std::min(area / (distance * distance), 1.0);
 }
 
-SlabRecord record_of(const Slab& slab, Vec3d origin) {
-  SlabRecord out;
-  for (int k = 0; k < 3; ++k) {
-    out.row[k] = to_float(slab.edge[k]), out.half[k] = static_cast<float>(slab.half[k]);
-    out.offset[k] = static_cast<float>(-dot(slab.edge[k], slab.middle - origin));
-  }
-  out.index = static_cast<float>(slab.index), out.medium_density = static_cast<float>(slab.medium_density);
-  out.closed = slab.closed;
-  return out;
+FlatRecord record_of(const Slab& p, Vec3d origin) {
+  FlatRecord record = record_of(p.edge, p.middle - origin, p.half);
+  record.index = static_cast<float>(p.index), record.medium_density = static_cast<float>(p.medium_density);
+  record.closed = p.closed;
+  return record;
 }
 
 }  // namespace tyndall

@@ -215,21 +215,16 @@ struct NearLights {
   Column<float> probability;  ///< of each pair to be chosen, by medium · number of lights + light
 };
 
-/// A flat mirror.
-struct MirrorRecord {
-  Vec3f row[2], normal;     ///< row · p + offset runs from -1 to 1 across the face, for a point p; normal: unit
-  float offset[2], height;  ///< normal · p + height: distance of p from the mirror's plane, negative behind it
-  float slope[2];           ///< lengths of the rows
-};
-
-/// A slab.
-struct SlabRecord {
-  Vec3f row[3];          ///< the unit directions of its three edges
-  float offset[3];       ///< added to the products with these rows: places are measured from its middle
-  float half[3];         ///< half lengths of the edges
-  float index;           ///< of refraction
-  float medium_density;  ///< density of media within
-  std::int32_t closed;  ///< bit 2 · edge + (1: the upper face of the two at its ends): something else touches that face
+/// A flat mirror (quad or face of a box), or a slab (box of glass).
+struct FlatRecord {
+  /// Of a mirror as of an Affine: two that run from -1 to 1 across the face, and the unit normal, which gives the
+  /// height of a point. Of a slab the unit directions of its three edges.
+  Vec3f row[3];
+  float offset[3];  ///< added to the products with these rows; of a slab places are measured from its middle
+  float size[3];    ///< of a mirror the lengths of the first two rows; of a slab half the lengths of the edges
+  // Of a slab alone.
+  float index, medium_density;  ///< of refraction; density of media within
+  std::int32_t closed;          ///< bit 2 · edge + (1: the upper face of the two at its ends): something else touches that face
 };
 
 /// Glass spheres, mirror spheres, flat mirrors and slabs, and for each the lights to which integrator mis solves for
@@ -244,8 +239,7 @@ struct SpecularPairs {
   Column<std::int32_t> outer, inner;        ///< elements of the spheres
   Column<std::int32_t> overlapped;          ///< 1: surfaces or media other than its own are or reach into it
   int first_mirror = 0, first_slab = 0;     ///< how many spheres there are; how many spheres and flat mirrors
-  Column<MirrorRecord> mirrors;
-  Column<SlabRecord> slabs;
+  Column<FlatRecord> flats;                 ///< of the flat mirrors, then of the slabs
   // Pairs of a sphere and a light.
   Column<std::int32_t> sphere, light;         ///< light: -1 for the sun of the sky's picture
   Lights choice;                              ///< the pairs as what choose_light chooses from

@@ -37,6 +37,7 @@ struct Deflection {
   F times[max_terms];    ///< factor of each term; negative: it is subtracted
   F maximum;             ///< largest possible p
   F last;                ///< s of the smallest possible p
+  MaskOf<F> possible;    ///< false: no path exists
   int terms;
 };
 
@@ -62,24 +63,27 @@ TYNDALL_INLINE DeflectionAt<F> deflection_at(const Deflection<F>& deflection, F 
   return {angle, F(2.0f) * deflection.maximum * s * above / below};
 }
 
-/// An interval of s on which the deflection is monotonic.
+/// An interval of s.
 template <class F>
 struct Piece {
-  F low, high, at_low, at_high;  ///< ends of s, and the deflection there
+  F low, high, at_low, at_high;  ///< its ends, and the deflection or its slope there
 };
 
-/// The s of a path with the wanted deflection, and the deflection's slope there.
+/// One of the paths between two points.
 template <class F>
-struct DeflectionPlace {
-  F s, slope;
+struct DeflectionRoot {
+  MaskOf<F> found;
+  F s, slope;  ///< slope: of the deflection, before Newton's last step
+  F p;
+  F sense;  ///< 1: the path covers the angle between the points; -1: the other way round
 };
 
 /// Finds the s of a piece at which the deflection is `target`, a value between those at the piece's ends: by Newton's
-/// method, and by halving where Newton's step would leave the piece. folded: the deflection has its extremum at the low
-/// end (1), at the high end (-1) or at neither (0). The returned slope is that before the last step.
+/// method, and by halving where Newton's step would leave the piece. The deflection must be monotonic on the piece.
+/// folded: it has its extremum at the low end (1), at the high end (-1) or at neither (0).
 template <class F>
-TYNDALL_INLINE DeflectionPlace<F> find_root(const Deflection<F>& deflection, const Piece<F>& piece, F target,
-                                            F folded) {
+TYNDALL_INLINE void find_root(const Deflection<F>& deflection, const Piece<F>& piece, F target, F folded,
+                              DeflectionRoot<F>& root) {
   constexpr int steps = std::is_same_v<F, double> ? 40 : 5;
   const auto rises = less(piece.at_low, piece.at_high);
   const F span = select(equal(piece.at_low, piece.at_high), F(1.0f), piece.at_high - piece.at_low);
@@ -99,17 +103,8 @@ TYNDALL_INLINE DeflectionPlace<F> find_root(const Deflection<F>& deflection, con
     s = select(inside, next, F(0.5f) * (low + high));
     slope = at.slope;
   }
-  return {s, slope};
+  root.s = s, root.slope = slope, root.p = deflection.maximum * (F(1.0f) - s * s);
 }
-
-/// The deflection over all s, cut into monotonic pieces. It is assumed to have at most one extremum, and none where the
-/// slopes at both ends have the same sign. (It had two in one of a thousand tested geometries of a shell that is not
-/// filled with air.)
-template <class F>
-struct Pieces {
-  Piece<F> outer, inner;  ///< outer starts with grazing paths; inner is empty (low == high) where nothing was cut
-  MaskOf<F> folded;       ///< the deflection was cut at an extremum
-};
 
 /// The deflection at the largest s. There the path goes through the centre, and every term is a right angle, except in
 /// lanes whose largest s is below 1. Each lane chooses its formula by its own numbers: the two differ in their last
@@ -128,16 +123,11 @@ TYNDALL_INLINE DeflectionAt<F> last_deflection(const Deflection<F>& deflection) 
   return {select(beside, at.angle, center.angle), select(beside, at.slope, center.slope)};
 }
 
-/// Two values of s between which the slope of a deflection changes its sign, and the slopes there.
+/// Narrows an interval at whose ends the slopes of the deflection differ in sign, by one round of the method of C.
+/// Ridders, A New Algorithm for Computing a Single Root of a Real Continuous Function, IEEE Transactions on Circuits
+/// and Systems 26(11), 1979.
 template <class F>
-struct SlopeBracket {
-  F low, high, at_low, at_high;
-};
-
-/// Narrows the bracket by one round of the method of C. Ridders, A New Algorithm for Computing a Single Root of a Real
-/// Continuous Function, IEEE Transactions on Circuits and Systems 26(11), 1979.
-template <class F>
-TYNDALL_INLINE void narrow(const Deflection<F>& deflection, SlopeBracket<F>& b) {
+TYNDALL_INLINE void narrow(const Deflection<F>& deflection, Piece<F>& b) {
   const F middle = F(0.5f) * (b.low + b.high), at_middle = deflection_at(deflection, middle).slope;
   const F root = sqrt(max(at_middle * at_middle - b.at_low * b.at_high, F(1e-30f)));
   const F step = (middle - b.low) * copy_sign(F(1.0f), b.at_low - b.at_high) * at_middle / root;
@@ -152,69 +142,52 @@ TYNDALL_INLINE void narrow(const Deflection<F>& deflection, SlopeBracket<F>& b) 
   replace(place, at_place);
 }
 
+/// Paths in a piece whose deflection is a given angle plus any number of whole revolutions.
 template <class F>
-TYNDALL_INLINE Pieces<F> split_deflection(const Deflection<F>& deflection) {
-  // Two rounds and the secant below mostly give the deflection there to 1e-6, the rounding error of float.
-  constexpr int rounds = std::is_same_v<F, double> ? 8 : 2;
-  const F first = F(min_parameter);
-  const DeflectionAt<F> start = deflection_at(deflection, first), end = last_deflection(deflection);
-  const auto bends = mask_not(less_equal(F(0.0f), start.slope * end.slope));
-  F middle = deflection.last;
-  F at_middle = end.angle;
-  if (any(bends)) {
-    SlopeBracket<F> b{first, deflection.last, start.slope, end.slope};
-    for (int i = 0; i < rounds; ++i) narrow(deflection, b);
-    const F secant = b.low + (b.high - b.low) * b.at_low / (b.at_low - b.at_high);
-    const F place = select(mask_and(less_equal(b.low, secant), less_equal(secant, b.high)), secant, b.low);
-    middle = select(bends, place, middle);
-    at_middle = select(bends, deflection_at(deflection, middle).angle, at_middle);
-  }
-  return {{first, middle, start.angle, at_middle}, {middle, deflection.last, at_middle, end.angle}, bends};
+struct Revolutions {
+  F first, count;  ///< revolutions of the first path; number of paths, each one revolution more
+};
+
+template <class F>
+TYNDALL_INLINE Revolutions<F> count_revolutions(const Piece<F>& piece, F angle) {
+  const F whole = F(static_cast<float>(0.5 / pi));
+  const F first = floor((min(piece.at_low, piece.at_high) - angle) * whole) + F(1.0f);
+  return {first, floor((max(piece.at_low, piece.at_high) - angle) * whole) + F(1.0f) - first};
 }
 
-/// The paths in a piece that lead from one point to the other. Their deflection is the angle between the points (forth)
-/// or its negative (back), plus any number of whole revolutions.
+/// All paths between two points. The deflection over all s is cut into two pieces, on which it is monotonic. It is
+/// assumed to have at most one extremum, and none where the slopes at both ends have the same sign. (It had two in one
+/// of a thousand tested geometries of a shell that is not filled with air.)
 template <class F>
-struct RevolutionCounts {
-  F forth_first,
-      forth;           ///< revolutions of the first path forth; number of paths, each one revolution more
-  F back_first, back;  ///< the same for paths back
+struct DeflectionRoots {
+  Piece<F> outer, inner;  ///< outer starts with grazing paths; inner is empty (low == high) where nothing was cut
+  MaskOf<F> folded;       ///< the deflection was cut at an extremum
+  Revolutions<F> outer_forth, outer_back, inner_forth, inner_back;  ///< back: the deflection is the negative angle
+  F count;
 };
 
 /// angle: between the two points, seen from the centre, in [0, pi].
 template <class F>
-TYNDALL_INLINE RevolutionCounts<F> count_revolutions(const Piece<F>& piece, F angle) {
-  const F whole = F(static_cast<float>(0.5 / pi));
-  const F minimum = min(piece.at_low, piece.at_high), greatest = max(piece.at_low, piece.at_high);
-  const F forth_first = floor((minimum - angle) * whole) + F(1.0f),
-          back_first = floor((minimum + angle) * whole) + F(1.0f);
-  return {forth_first, floor((greatest - angle) * whole) + F(1.0f) - forth_first, back_first,
-          floor((greatest + angle) * whole) + F(1.0f) - back_first};
-}
-
-/// One of the paths between the two points.
-template <class F>
-struct DeflectionRoot {
-  MaskOf<F> found;
-  F s, slope;
-  F sense;  ///< 1: the path covers the angle between the points; -1: the other way round
-};
-
-/// All paths between the two points.
-template <class F>
-struct DeflectionRoots {
-  Pieces<F> pieces;
-  RevolutionCounts<F> outer, inner;
-  F count;
-};
-
-template <class F>
 TYNDALL_INLINE DeflectionRoots<F> list_roots(const Deflection<F>& deflection, F angle, MaskOf<F> lanes) {
+  // Two rounds and the secant below mostly give the deflection there to 1e-6, the rounding error of float.
+  constexpr int rounds = std::is_same_v<F, double> ? 8 : 2;
+  const F first = F(min_parameter);
+  const DeflectionAt<F> start = deflection_at(deflection, first), end = last_deflection(deflection);
   DeflectionRoots<F> roots;
-  roots.pieces = split_deflection(deflection);
-  roots.outer = count_revolutions(roots.pieces.outer, angle);
-  roots.inner = count_revolutions(roots.pieces.inner, angle);
-  const F all = (roots.outer.forth + roots.outer.back) + (roots.inner.forth + roots.inner.back);
+  roots.folded = mask_not(less_equal(F(0.0f), start.slope * end.slope));
+  F middle = deflection.last, at_middle = end.angle;
+  if (any(roots.folded)) {
+    Piece<F> b{first, deflection.last, start.slope, end.slope};
+    for (int i = 0; i < rounds; ++i) narrow(deflection, b);
+    const F secant = b.low + (b.high - b.low) * b.at_low / (b.at_low - b.at_high);
+    const F place = select(mask_and(less_equal(b.low, secant), less_equal(secant, b.high)), secant, b.low);
+    middle = select(roots.folded, place, middle);
+    at_middle = select(roots.folded, deflection_at(deflection, middle).angle, at_middle);
+  }
+  roots.outer = {first, middle, start.angle, at_middle}, roots.inner = {middle, deflection.last, at_middle, end.angle};
+  roots.outer_forth = count_revolutions(roots.outer, angle), roots.outer_back = count_revolutions(roots.outer, -angle);
+  roots.inner_forth = count_revolutions(roots.inner, angle), roots.inner_back = count_revolutions(roots.inner, -angle);
+  const F all = (roots.outer_forth.count + roots.outer_back.count) + (roots.inner_forth.count + roots.inner_back.count);
   roots.count = select(lanes, all, F(0.0f));
   return roots;
 }
@@ -223,21 +196,21 @@ TYNDALL_INLINE DeflectionRoots<F> list_roots(const Deflection<F>& deflection, F 
 template <class F>
 TYNDALL_INLINE DeflectionRoot<F> take_root(const Deflection<F>& deflection, const DeflectionRoots<F>& roots, F angle,
                                            F index) {
-  const F in_outer = roots.outer.forth + roots.outer.back;
+  const F in_outer = roots.outer_forth.count + roots.outer_back.count;
   const auto deeper = less_equal(in_outer, index);
   const auto pick = [&](auto a, auto b) __attribute__((always_inline)) { return select(deeper, a, b); };
   const F rest = pick(index - in_outer, index);
-  const F forth = pick(roots.inner.forth, roots.outer.forth);
+  const F forth = pick(roots.inner_forth.count, roots.outer_forth.count);
   const auto back = less_equal(forth, rest);
-  const F revolutions = select(back, pick(roots.inner.back_first, roots.outer.back_first) + (rest - forth),
-                               pick(roots.inner.forth_first, roots.outer.forth_first) + rest);
-  const F sense = select(back, F(-1.0f), F(1.0f));
-  const F target = mul_add(revolutions, F(static_cast<float>(2 * pi)), sense * angle);
-  const Piece<F>&o = roots.pieces.outer, &i = roots.pieces.inner;
+  const F revolutions = select(back, pick(roots.inner_back.first, roots.outer_back.first) + (rest - forth),
+                               pick(roots.inner_forth.first, roots.outer_forth.first) + rest);
+  DeflectionRoot<F> root;
+  root.found = less(index, roots.count), root.sense = select(back, F(-1.0f), F(1.0f));
+  const F target = mul_add(revolutions, F(static_cast<float>(2 * pi)), root.sense * angle);
+  const Piece<F>&o = roots.outer, &i = roots.inner;
   const Piece<F> piece{pick(i.low, o.low), pick(i.high, o.high), pick(i.at_low, o.at_low), pick(i.at_high, o.at_high)};
-  const F folded = select(roots.pieces.folded, pick(F(1.0f), F(-1.0f)), F(0.0f));
-  const DeflectionPlace<F> place = find_root(deflection, piece, target, folded);
-  return {less(index, roots.count), place.s, place.slope, sense};
+  find_root(deflection, piece, target, select(roots.folded, pick(F(1.0f), F(-1.0f)), F(0.0f)), root);
+  return root;
 }
 
 }  // namespace tyndall

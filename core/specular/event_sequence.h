@@ -49,8 +49,7 @@ struct EventSequence {
 /// Where the two ends of a specular path lie relative to the sphere.
 template <class F>
 struct PathEnds {
-  F near, far;              ///< distance of each end from the centre
-  F near_reach, far_reach;  ///< each distance times the refractive index at that end
+  F near_reach, far_reach;  ///< distance of each end from the centre times the refractive index there
   F far_index;              ///< refractive index at the far end
   F outside;                ///< number of ends outside of the sphere: 0, 1 or 2
   MaskOf<F> both_out;       ///< both ends are outside of the sphere
@@ -71,7 +70,6 @@ TYNDALL_INLINE PathEnds<F> ends_of(const SpecularSphere<F>& b, F near, F far) {
   const auto near_in = less(near, shell), far_in = less(far, shell);
   const F within = select(b.hollow, b.inner_index, b.index);
   PathEnds<F> e;
-  e.near = near, e.far = far;
   const auto in_layer = mask_and(less(above * b.inner_radius, near), less(near, b.radius * below));
   e.near_in_glass = mask_and(mask_and(in_layer, far_in), b.hollow);
   e.near_reach = near * select(near_in, within, select(e.near_in_glass, b.index, F(1.0f)));
@@ -95,13 +93,6 @@ struct EndSigns {
   F near, far;
 };
 
-/// The deflection of an event sequence, and whether any path with these events can exist.
-template <class F>
-struct SpecularDeflection {
-  Deflection<F> deflection;
-  MaskOf<F> possible;
-};
-
 /// The deflection of a specular path, in radians, is the sum of acos(p/a) - acos(p/R) for each end outside, at distance
 /// a from the centre; acos(p/(nR)) - acos(p/(n Ri)) for each crossing of a shell's glass; 2 acos(p/(m Ri)) for each
 /// chord of its inner sphere; and 2 acos(p/(nR)) for each chord of solid glass. An end inside adds its sign times
@@ -109,9 +100,8 @@ struct SpecularDeflection {
 /// the path goes there inside of that sphere, and takes it away for each side outside of it. R, Ri: outer and inner
 /// radius; n, m: index inside each.
 template <class F>
-TYNDALL_INLINE SpecularDeflection<F> deflection_of(const SpecularPairs& c, const SpecularSphere<F>& b,
-                                                   const PathEnds<F>& e, const EventSequence<F>& w,
-                                                   const EndSigns<F>& sign) {
+TYNDALL_INLINE Deflection<F> deflection_of(const SpecularPairs& c, const SpecularSphere<F>& b, const PathEnds<F>& e,
+                                           const EventSequence<F>& w, const EndSigns<F>& sign) {
   const F outside = e.outside, glass = F(2.0f) * w.outer - outside;
   const auto visits = less(F(0.0f), w.inner);
   const F from_glass = select(e.near_in_glass, sign.near, F(0.0f)), to_inner = glass + from_glass;
@@ -124,8 +114,7 @@ TYNDALL_INLINE SpecularDeflection<F> deflection_of(const SpecularPairs& c, const
                      b.inner_index * b.inner_radius};
   const F times[] = {
       sign.near, sign.far, -outside, glass, select(visits, -to_inner, F(0.0f)), select(visits, chords, F(0.0f))};
-  SpecularDeflection<F> out;
-  Deflection<F>& deflection = out.deflection;
+  Deflection<F> deflection;
   deflection.terms = c.shells ? 6 : 4;
   deflection.maximum = min(reach[0], reach[1]);
   for (int i = 2; i < deflection.terms; ++i)
@@ -139,8 +128,8 @@ TYNDALL_INLINE SpecularDeflection<F> deflection_of(const SpecularPairs& c, const
   const auto misses = mask_and(mask_and(b.hollow, e.both_out), mask_and_not(less(F(1.0f), w.outer), visits));
   const F minimum = select(misses, b.index * b.inner_radius, F(0.0f));
   deflection.last = select(misses, sqrt(max(F(1.0f) - minimum / deflection.maximum, F(0.0f))), F(1.0f));
-  out.possible = mask_and(e.valid, less(F(2.0f * min_parameter), deflection.last));
-  return out;
+  deflection.possible = mask_and(e.valid, less(F(2.0f * min_parameter), deflection.last));
+  return deflection;
 }
 
 /// x to the power of a whole number >= 0, for x in [0, 1].
@@ -223,13 +212,6 @@ struct Decisions {
     low = shift_left<3>(low);
     return yes;
   }
-  /// The same in the lanes `here` only; false in others, whose digits stay.
-  TYNDALL_INLINE MaskOf<F> below(std::int32_t limit, MaskOf<F> here) {
-    const Decisions before = *this;
-    const auto yes = mask_and(here, below(limit));
-    high = select(here, high, before.high), low = select(here, low, before.low);
-    return yes;
-  }
 };
 
 /// The state of an event sequence while it is drawn event by event.
@@ -289,7 +271,10 @@ TYNDALL_INLINE SequenceEvent<F> step_walk(SequenceWalk<F>& walk) {
   // With both ends inside, the walk may end wherever the near end lies.
   const auto in_hollow = equal(walk.next, I(2));
   const auto may_end = mask_or(mask_and_not(walk.to_glass, in_hollow), mask_and_not(in_hollow, walk.to_glass));
-  walk.open = mask_and_not(walk.open, walk.decide.below(4, mask_and(mask_and(walk.inside, walk.open), may_end)));
+  const auto decides = mask_and(mask_and(walk.inside, walk.open), may_end);
+  Decisions<F> after = walk.decide;
+  walk.open = mask_and_not(walk.open, mask_and(decides, after.below(4)));
+  walk.decide = {select(decides, after.high, walk.decide.high), select(decides, after.low, walk.decide.low)};
   return event;
 }
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <numeric>
 #include <set>
+#include <tuple>
 
 namespace tyndall {
 namespace {
@@ -48,47 +49,44 @@ std::vector<Vec3f> points_of(const LightColumns<float>& light) {
   return points;
 }
 
-/// How the camera sees a point of a light.
-struct SeenPoint {
-  Vec3f direction;
-  float throughput = 0;  // fraction of light that the surfaces send to the camera; 0: not seen
-};
-
 class Finder {
  public:
   explicit Finder(const SceneView& s) : s_(s) {}
 
   /// Adds the boxes of all lights that a specular object may show, as the camera sees them directly and by the object.
   void find() {
+    const auto directly = [&](Vec3f point, int) {
+      SpecularPath<float> path{};
+      path.found = true, path.direction = point - s_.camera.center;
+      return path;
+    };
     std::set<std::int32_t> seen;
     for (int k = 0; k < std::min(s_.specular.pairs(), max_pairs); ++k) {
       const std::int32_t sphere = s_.specular.sphere[k], light = s_.specular.light[k];
-      light_ = light < 0 ? sun_window(s_.sky, load_sphere<float>(s_.specular, sphere, 0.0f))
-                         : load_light<float>(s_.lights, light);
+      light_ = load_light_or_sun<float>(s_, light, load_sphere<float>(s_.specular, sphere, 0.0f));
       points_ = points_of(light_);
-      if (light >= 0 && seen.insert(light).second)
-        add([&](Vec3f point, int) { return SeenPoint{point - s_.camera.center, 1}; }, 1, 0);
-      if (sphere >= s_.specular.first_slab)
-        by_slab(sphere - s_.specular.first_slab);
-      else if (sphere >= s_.specular.first_mirror)
-        by_mirror(sphere - s_.specular.first_mirror);
-      else
+      if (light >= 0 && seen.insert(light).second) add(directly, 1, 0);
+      if (sphere < s_.specular.first_mirror)
         by_sphere(sphere);
+      else if (sphere < s_.specular.first_slab)
+        by_mirror(load_flat<float>(s_.specular, sphere - s_.specular.first_mirror));
+      else
+        by_slab(load_flat<float>(s_.specular, sphere - s_.specular.first_mirror));
     }
   }
 
   std::vector<PictureBox> boxes;
 
  private:
-  /// Adds the boxes of `roots` images. see(point, root): how image `root` shows a point of the light.
+  /// Adds the boxes of `roots` images. see(point, root): the path by which image `root` shows a point of the light.
   void add(auto see, int roots, std::int32_t route) {
     for (int root = 0; root < roots; ++root) {
       PictureBox box;
       box.route = route;
       for (const Vec3f& point : points_) {
         Pair<float> at{};
-        const SeenPoint seen = see(point, root);
-        if (seen.throughput > 0 && project(s_.camera, seen.direction, at)) box.include(at);
+        const SpecularPath<float> seen = see(point, root);
+        if (seen.found && seen.throughput >= min_throughput && project(s_.camera, seen.direction, at)) box.include(at);
         // Most images are not in the picture. The light's middle, which comes first, tells.
         if (&point != points_.data()) continue;
         if (!is_near_picture(box)) break;
@@ -103,27 +101,19 @@ class Finder {
            box.top < static_cast<float>(s_.height) + 1;
   }
 
-  void by_mirror(int mirror) {
-    const SpecularMirror<float> m = load_mirror<float>(s_.specular, mirror);
-    const auto see = [&](Vec3f point, int) {
-      const MirrorPath<float> path = mirror_path(m, s_.camera.center, point);
-      return path.found ? SeenPoint{path.direction, 1} : SeenPoint{};
-    };
-    add(see, 1, 0);
+  void by_mirror(const SpecularFlat<float>& mirror) {
+    add([&](Vec3f point, int) { return mirror_path(mirror, s_.camera.center, point); }, 1, 0);
   }
 
   /// Straight through, reflected off the outside, and reflected inside, between the faces at the ends of each edge.
-  void by_slab(int number) {
-    const SpecularSlab<float> slab = load_slab<float>(s_.specular, number);
+  void by_slab(const SpecularFlat<float>& slab) {
     for (std::int32_t across = 0; across < 3; ++across)
       for (int crossings = 0; crossings <= max_reflections + 1; ++crossings) {
         const auto see = [&](Vec3f point, int) {
           const SlabFrame<float> ends = slab_frame(slab, s_.camera.center, point, across);
-          const bool outside = ends.near_gap > 0 && ends.far_gap > 0;
-          if (!outside || ends.same != (crossings % 2 == 0)) return SeenPoint{};
-          const SlabPath<float> path = slab_path(slab, ends, {across, static_cast<float>(crossings), {0, 0}});
-          return path.found && path.throughput >= min_throughput ? SeenPoint{path.direction, path.throughput}
-                                                                 : SeenPoint{};
+          SpecularPath<float> path = slab_path(slab, ends, {across, static_cast<float>(crossings), {0, 0}});
+          path.found = path.found && ends.near_gap > 0 && ends.far_gap > 0 && ends.same == (crossings % 2 == 0);
+          return path;
         };
         add(see, 1, crossings == 0 ? route_by(1, 0) : route_by(crossings - 1, 2));
       }
@@ -182,14 +172,13 @@ class Finder {
 
   /// Adds the images of the light by one event sequence: one for each root of its deflection.
   void add_sequence(const EventSequence<float>& sequence, EndSigns<float> sign) {
-    const auto see = [&](Vec3f point, int root) -> SeenPoint {
+    const auto see = [&](Vec3f point, int root) -> SpecularPath<float> {
       if (!aim_at(point)) return {};
       SolvedPath<float> found{deflection_of(s_.specular, query_.sphere, query_.ends, sequence, sign), sign, {}};
-      if (!found.path.possible) return {};
-      const DeflectionRoots<float> roots = list_roots(found.path.deflection, query_.plane.angle, true);
-      found.root = take_root(found.path.deflection, roots, query_.plane.angle, static_cast<float>(root));
-      const SpecularRays<float> rays = rays_of(query_, sequence, found);
-      return rays.found && rays.throughput >= min_throughput ? SeenPoint{rays.direction, rays.throughput} : SeenPoint{};
+      if (!found.deflection.possible) return {};
+      const DeflectionRoots<float> roots = list_roots(found.deflection, query_.plane.angle, true);
+      found.root = take_root(found.deflection, roots, query_.plane.angle, static_cast<float>(root));
+      return sphere_path(query_, sequence, found);
     };
     add(see, max_roots, route_of(sequence));
     aim_at(points_.front());
@@ -234,16 +223,16 @@ void cut(PictureBox box, float pixel_angle, const SceneView& s, std::vector<Weig
 /// Gives each subpixel light a fraction of the samples drawn within boxes of its pixel, by weight: the fourth root of
 /// its throughput. By the throughput itself, the darkest would be met by single samples that count for much.
 std::vector<SubpixelLight> distribute(std::vector<WeighedSubpixelLight> subpixel_lights) {
-  const auto before = [](const WeighedSubpixelLight& a, const WeighedSubpixelLight& b) {
-    return a.subpixel_light.y != b.subpixel_light.y ? a.subpixel_light.y < b.subpixel_light.y
-                                                    : a.subpixel_light.x < b.subpixel_light.x;
+  const auto order = [](const WeighedSubpixelLight& g) {
+    return std::tuple(g.subpixel_light.y, g.subpixel_light.x, -g.weight);
   };
-  std::stable_sort(subpixel_lights.begin(), subpixel_lights.end(), before);
+  std::stable_sort(subpixel_lights.begin(), subpixel_lights.end(),
+                   [&](const auto& a, const auto& b) { return order(a) < order(b); });
   std::vector<SubpixelLight> out;
   for (auto first = subpixel_lights.begin(); first != subpixel_lights.end();) {
-    const auto next = std::upper_bound(first, subpixel_lights.end(), *first, before);
-    std::stable_sort(first, next,
-                     [](const WeighedSubpixelLight& a, const WeighedSubpixelLight& b) { return a.weight > b.weight; });
+    const auto next = std::find_if(first, subpixel_lights.end(), [first](const WeighedSubpixelLight& g) {
+      return g.subpixel_light.y != first->subpixel_light.y || g.subpixel_light.x != first->subpixel_light.x;
+    });
     const auto last = first + std::min<std::ptrdiff_t>(next - first, max_in_pixel);
     const auto add = [](float sum, const WeighedSubpixelLight& g) { return sum + g.weight; };
     const float scale = subpixel_light_fraction / std::accumulate(first, last, 0.0f, add);

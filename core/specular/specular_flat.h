@@ -13,35 +13,34 @@
 /// crossings and each image.
 namespace tyndall {
 
+/// A flat mirror or a slab: see FlatRecord.
 template <class F>
-struct SpecularMirror {
-  Vec3<F> row[2], normal;  ///< row · p + offset runs from -1 to 1 across the face, for a point p
-  F offset[2], height;     ///< normal · p + height: distance of p from the mirror's plane, negative behind it
+struct SpecularFlat {
+  Vec3<F> row[3];
+  F offset[3];
+  F half[3];                ///< slabs: half the length of each edge
+  F index, medium_density;  ///< slabs: refractive index; density of media inside
+  IntOf<F> closed;          ///< slabs: bit 2 · edge + (0: lower face, 1: upper face): another object touches that face
+  IntOf<F> element;         ///< index of the first face among the scene's elements
 };
 
-/// Reads a mirror. mirror: index among the flat mirrors.
+/// Reads a flat mirror or a slab. flat: index among these.
 template <class F>
-TYNDALL_INLINE SpecularMirror<F> load_mirror(const SpecularPairs& c, IntOf<F> mirror) {
-  using Record = MirrorRecord;
-  const auto its = record_in<F>(c.mirrors, mirror);
-  return {{its(&Record::row, 0), its(&Record::row, 1)},
-          its(&Record::normal),
-          {its(&Record::offset, 0), its(&Record::offset, 1)},
-          its(&Record::height)};
+TYNDALL_INLINE SpecularFlat<F> load_flat(const SpecularPairs& c, IntOf<F> flat) {
+  using Record = FlatRecord;
+  const auto its = record_in<F>(c.flats, flat);
+  SpecularFlat<F> p;
+  for (int k = 0; k < 3; ++k)
+    p.row[k] = its(&Record::row, k), p.offset[k] = its(&Record::offset, k), p.half[k] = its(&Record::size, k);
+  p.index = its(&Record::index), p.medium_density = its(&Record::medium_density), p.closed = its(&Record::closed);
+  p.element = lookup_int<F>(c.outer, c.spheres(), flat + IntOf<F>(c.first_mirror));
+  return p;
 }
 
 /// The mirror image of a point.
 template <class F>
-TYNDALL_INLINE Vec3<F> mirrored(const SpecularMirror<F>& m, Vec3<F> point) {
-  return point_at(point, F(-2.0f) * (dot(m.normal, point) + m.height), m.normal);
-}
-
-/// A sphere of radius 0 at the mirror image of a point: with it sample_light_point() draws points that face the image.
-template <class F>
-TYNDALL_INLINE SpecularSphere<F> seen_by_mirror(const SpecularMirror<F>& m, Vec3<F> point) {
-  SpecularSphere<F> b{};
-  b.center = mirrored(m, point);
-  return b;
+TYNDALL_INLINE Vec3<F> mirrored(const SpecularFlat<F>& m, Vec3<F> point) {
+  return point_at(point, F(-2.0f) * (dot(m.row[2], point) + m.offset[2]), m.row[2]);
 }
 
 /// Factor of mirror_worth() where the point does not see the middle of the light in the mirror. It may still see other
@@ -52,11 +51,10 @@ inline constexpr float min_mirror_worth = 1e-3f;
 /// image.
 template <class F>
 TYNDALL_INLINE F mirror_worth(const SpecularPairs& c, int k, Vec3<F> point) {
-  const MirrorRecord& m = c.mirrors[c.sphere[k] - c.first_mirror];
-  const Vec3<F> normal = splat<F>(m.normal);
-  const F offset = splat<F>(m.height);
+  const FlatRecord& m = c.flats[c.sphere[k] - c.first_mirror];
   const Vec3<F> light = splat<F>(c.choice.center[k]);
-  const F near = dot(normal, point) + offset, far = dot(normal, light) + offset;
+  const Vec3<F> normal = splat<F>(m.row[2]);
+  const F offset = splat<F>(m.offset[2]), near = dot(normal, point) + offset, far = dot(normal, light) + offset;
   const F height = max(abs(near) + abs(far), F(1e-30f)), up_to_plane = abs(near) / height;  // fraction of the path
   const Vec3<F> to_light = point_at(light, F(-2.0f) * far, normal) - point, at = point_at(point, up_to_plane, to_light);
   const F distance2 = dot(to_light, to_light), reach2 = splat<F>(c.choice.reach2[k]);
@@ -65,60 +63,28 @@ TYNDALL_INLINE F mirror_worth(const SpecularPairs& c, int k, Vec3<F> point) {
   auto seen = less(F(0.0f), near * far);
   for (int i = 0; i < 2; ++i) {
     const F place = abs(dot(splat<F>(m.row[i]), at) + splat<F>(m.offset[i]));
-    seen = mask_and(seen, less_equal(place, mul_add(blur, splat<F>(m.slope[i]), F(1.0f))));
+    seen = mask_and(seen, less_equal(place, mul_add(blur, splat<F>(m.size[i]), F(1.0f))));
   }
   return splat<F>(c.choice.power[k]) / max(distance2, reach2) * select(seen, F(1.0f), F(min_mirror_worth));
 }
 
-/// The path off a mirror between two points.
+/// The path off a mirror between two points: found if it meets the face, and the points are on one side.
 template <class F>
-struct MirrorPath {
-  MaskOf<F> found;                ///< the path meets the face, and the points are on one side
-  MaskOf<F> behind;               ///< the points are behind the mirror
-  Vec3<F> direction, arrive;      ///< unit directions in which the path leaves the near end and arrives at the far end
-  F near_distance, far_distance;  ///< distances from each end to the mirror
-  F spread;                       ///< area across the path at the far end over solid angle at the near end
-};
-
-template <class F>
-TYNDALL_INLINE MirrorPath<F> mirror_path(const SpecularMirror<F>& m, Vec3<F> near, Vec3<F> far) {
-  const F below = dot(m.normal, near) + m.height, above = dot(m.normal, far) + m.height;
+TYNDALL_INLINE SpecularPath<F> mirror_path(const SpecularFlat<F>& m, Vec3<F> near, Vec3<F> far) {
+  const F below = dot(m.row[2], near) + m.offset[2], above = dot(m.row[2], far) + m.offset[2];
   const Vec3<F> image = mirrored(m, near), offset = far - image;
   const F distance = max(length(offset), F(1e-30f));
   const F up_to_plane = abs(below) / max(abs(below) + abs(above), F(1e-30f));  // fraction of the path
   const Vec3<F> at = point_at(image, up_to_plane, offset);
-  MirrorPath<F> w;
-  w.behind = less(above, F(0.0f));
+  SpecularPath<F> w;
+  w.wall = m.element, w.from = m.element * IntOf<F>(4) + select(less(above, F(0.0f)), IntOf<F>(1), IntOf<F>(0));
   w.arrive = (F(1.0f) / distance) * offset;
-  w.direction = point_at(w.arrive, F(-2.0f) * dot(m.normal, w.arrive), m.normal);
+  w.direction = reflect(w.arrive, m.row[2]);
   w.near_distance = up_to_plane * distance, w.far_distance = distance - w.near_distance;
   w.spread = distance * distance;
   const F edge = max(abs(dot(m.row[0], at) + m.offset[0]), abs(dot(m.row[1], at) + m.offset[1]));
   w.found = mask_and(less(F(0.0f), below * above), less_equal(edge, F(1.0f)));
   return w;
-}
-
-template <class F>
-struct SpecularSlab {
-  Vec3<F> row[3];           ///< unit vectors along the edges
-  F offset[3];              ///< row · p + offset: coordinate of a point p along this edge, from the middle
-  F half[3];                ///< half the length of each edge
-  F index, medium_density;  ///< refractive index; density of media inside
-  IntOf<F> closed;          ///< bit 2 · edge + (0: lower face, 1: upper face): another object touches that face
-  IntOf<F> element;         ///< index of the first face among the scene's elements
-};
-
-/// Reads a slab. slab: index among the slabs.
-template <class F>
-TYNDALL_INLINE SpecularSlab<F> load_slab(const SpecularPairs& c, IntOf<F> slab) {
-  using Record = SlabRecord;
-  const auto its = record_in<F>(c.slabs, slab);
-  SpecularSlab<F> p;
-  for (int k = 0; k < 3; ++k)
-    p.row[k] = its(&Record::row, k), p.offset[k] = its(&Record::offset, k), p.half[k] = its(&Record::half, k);
-  p.index = its(&Record::index), p.medium_density = its(&Record::medium_density), p.closed = its(&Record::closed);
-  p.element = lookup_int<F>(c.outer, c.spheres(), slab + IntOf<F>(c.first_slab));
-  return p;
 }
 
 /// The event sequence of a path at a slab.
@@ -130,9 +96,9 @@ struct SlabSequence {
                ///< comes first
 };
 
-/// value[edge] in every lane.
+/// value[edge] in every lane, of numbers or vectors.
 template <class F>
-TYNDALL_INLINE F of_edge(const F (&value)[3], IntOf<F> edge) {
+TYNDALL_INLINE auto of_edge(const auto(&value)[3], IntOf<F> edge) {
   return select(equal(edge, IntOf<F>(0)), value[0], select(equal(edge, IntOf<F>(1)), value[1], value[2]));
 }
 
@@ -155,7 +121,7 @@ TYNDALL_INLINE SlabPlace<F> framed(const F (&edges)[3], IntOf<F> across) {
 }
 
 template <class F>
-TYNDALL_INLINE SlabPlace<F> framed(const SpecularSlab<F>& slab, Vec3<F> point, IntOf<F> across) {
+TYNDALL_INLINE SlabPlace<F> framed(const SpecularFlat<F>& slab, Vec3<F> point, IntOf<F> across) {
   const F edges[3] = {dot(slab.row[0], point) + slab.offset[0], dot(slab.row[1], point) + slab.offset[1],
                       dot(slab.row[2], point) + slab.offset[2]};
   return framed<F>(edges, across);
@@ -171,7 +137,7 @@ struct SlabFrame {
 };
 
 template <class F>
-TYNDALL_INLINE SlabFrame<F> slab_frame(const SpecularSlab<F>& slab, Vec3<F> near, Vec3<F> far, IntOf<F> across) {
+TYNDALL_INLINE SlabFrame<F> slab_frame(const SpecularFlat<F>& slab, Vec3<F> near, Vec3<F> far, IntOf<F> across) {
   SlabFrame<F> s;
   s.half = framed<F>(slab.half, across);
   s.near = framed(slab, near, across), s.far = framed(slab, far, across);
@@ -193,27 +159,30 @@ TYNDALL_INLINE F to_image(const SlabFrame<F>& s, int edge, F image) {
   return mul_add(F(2.0f) * image, s.half.side[edge], parity_sign(image) * s.far.side[edge]) - s.near.side[edge];
 }
 
-/// The slope of a path outside: the tangent of its angle to the normal of the faces. Along the faces the path covers
-/// slope · reach; growth is the derivative of that product by the slope.
+/// A path through a slab in the frame of its event sequence.
 template <class F>
-struct SlabSlope {
-  F slope, reach, growth;
+struct FramedPath {
+  F slope;               ///< outside: the tangent of its angle to the normal of the faces
+  F gone[2];             ///< distance that the path covers along each edge per unit of height outside
+  F throughput, spread;  ///< see SpecularPath
 };
 
-/// Returns reach and growth for a slope. outside, inside: height that the path covers outside and inside of the glass.
+/// Height that the path of an event sequence covers outside and inside of the glass.
 template <class F>
-TYNDALL_INLINE SlabSlope<F> reach_of(F index, F outside, F inside, F slope) {
-  const F n2 = index * index, w2 = mul_add((index - F(1.0f)) * (index + F(1.0f)), slope * slope, n2), w = sqrt(w2);
-  return {slope, outside + inside / w, mul_add(inside, n2 / (w2 * w), outside)};
+TYNDALL_INLINE Pair<F> heights_of(const SlabFrame<F>& s, const SlabSequence<F>& sequence) {
+  return {max(s.near_gap + s.far_gap, F(1e-30f)), F(2.0f) * sequence.crossings * s.half.height};
 }
 
-/// The slope of a path that covers the distance `across` along the faces, by Newton's method. The distance is a concave
-/// function of the slope, so that each step from below falls short and none overshoots.
+/// Solves for the slope of the path of an event sequence, by Newton's method. The distance that a path covers along the
+/// faces is a concave function of the slope, so that each step from below falls short and none overshoots.
 template <class F>
-TYNDALL_INLINE F find_slope(F index, F outside, F inside, F across, int steps) {
-  const F n2 = index * index, more = (index - F(1.0f)) * (index + F(1.0f));
+TYNDALL_INLINE F find_slope(const SlabFrame<F>& s, const SlabSequence<F>& sequence, int steps) {
+  const auto [outside, inside] = heights_of(s, sequence);
+  const F x = to_image(s, 0, sequence.image[0]), y = to_image(s, 1, sequence.image[1]);
+  const F across = sqrt(mul_add(x, x, y * y));
+  const F n2 = s.index * s.index, more = (s.index - F(1.0f)) * (s.index + F(1.0f));
   const F maximum = inside / sqrt(more);  // largest distance inside
-  F slope = max(across / (outside + inside / index), (across - maximum) / outside);
+  F slope = max(across / (outside + inside / s.index), (across - maximum) / outside);
   for (int i = 0; i < steps; ++i) {
     const F w = F(1.0f) / sqrt(mul_add(more, slope * slope, n2)), t = slope * w;
     slope = (across - inside * more * (t * t * t)) / mul_add(inside * n2, w * w * w, outside);
@@ -221,26 +190,21 @@ TYNDALL_INLINE F find_slope(F index, F outside, F inside, F across, int steps) {
   return slope;
 }
 
-/// A path through a slab.
+/// The path of an event sequence that has a given slope.
 template <class F>
-struct SlabPath {
-  MaskOf<F> found;                ///< the path meets the faces
-  Vec3<F> direction, arrive;      ///< unit directions in which the path leaves the near end and arrives at the far end
-  F near_distance, far_distance;  ///< distances from each end to the slab
-  F within;                       ///< length of the path in the glass
-  F throughput;                   ///< fraction of light that the faces send along this path
-  F spread;                       ///< area across the path at the far end over solid angle at the near end
-};
-
-/// Sets the throughput and the spread of a path from its slope.
-template <class F>
-TYNDALL_INLINE void follow_slope(const SlabFrame<F>& s, const SlabSequence<F>& sequence, const SlabSlope<F>& at,
-                                 SlabPath<F>& path) {
-  const F stretch2 = mul_add(at.slope, at.slope, F(1.0f)), cosine = F(1.0f) / sqrt(stretch2);
+TYNDALL_INLINE FramedPath<F> path_of_slope(const SlabFrame<F>& s, const SlabSequence<F>& sequence, F slope) {
+  const auto [outside, inside] = heights_of(s, sequence);
+  const F n2 = s.index * s.index, more = (s.index - F(1.0f)) * (s.index + F(1.0f));
+  const F w2 = mul_add(more, slope * slope, n2), w = sqrt(w2);
+  const F reach = outside + inside / w;                      // the path covers slope · reach along the faces
+  const F growth = mul_add(inside, n2 / (w2 * w), outside);  // derivative of that product by the slope
+  const F stretch2 = mul_add(slope, slope, F(1.0f)), cosine = F(1.0f) / sqrt(stretch2);
   const F reflected = fresnel(cosine, s.index), passed = F(1.0f) - reflected;
-  path.throughput = select(equal(sequence.crossings, F(0.0f)), reflected,
-                           passed * passed * whole_power(reflected, max(sequence.crossings - F(1.0f), F(0.0f))));
-  path.spread = at.reach * at.growth * stretch2;
+  const F through = passed * passed * whole_power(reflected, max(sequence.crossings - F(1.0f), F(0.0f)));
+  return {slope,
+          {to_image(s, 0, sequence.image[0]) / reach, to_image(s, 1, sequence.image[1]) / reach},
+          select(equal(sequence.crossings, F(0.0f)), reflected, through),
+          reach * growth * stretch2};
 }
 
 /// Whether the path of an event sequence enters through its entry face and leaves through its exit face; both are
@@ -260,32 +224,30 @@ TYNDALL_INLINE MaskOf<F> meets_faces(const SlabFrame<F>& s, const SlabSequence<F
 
 /// Solves for the path of an event sequence. Both points must be outside of the slab.
 template <class F>
-TYNDALL_INLINE SlabPath<F> slab_path(const SpecularSlab<F>& slab, const SlabFrame<F>& s,
-                                     const SlabSequence<F>& sequence) {
+TYNDALL_INLINE SpecularPath<F> slab_path(const SpecularFlat<F>& slab, const SlabFrame<F>& s,
+                                         const SlabSequence<F>& sequence) {
   constexpr int steps = std::is_same_v<F, double> ? 40 : 6;
-  const F outside = max(s.near_gap + s.far_gap, F(1e-30f)), inside = F(2.0f) * sequence.crossings * s.half.height;
-  const F x = to_image(s, 0, sequence.image[0]), y = to_image(s, 1, sequence.image[1]);
-  const F slope = find_slope(s.index, outside, inside, sqrt(mul_add(x, x, y * y)), steps);
-  const SlabSlope<F> at = reach_of(s.index, outside, inside, slope);
-  const F gone[2] = {x / at.reach, y / at.reach};  // along each edge for each unit of height outside
-  SlabPath<F> path;
-  follow_slope(s, sequence, at, path);
-  path.found = meets_faces(s, sequence, gone, F(0.0f));
-  const F stretch = sqrt(mul_add(slope, slope, F(1.0f))), cosine = F(1.0f) / stretch;
+  const FramedPath<F> solved = path_of_slope(s, sequence, find_slope(s, sequence, steps));
+  SpecularPath<F> path;
+  path.throughput = solved.throughput, path.spread = solved.spread;
+  path.found = meets_faces(s, sequence, solved.gone, F(0.0f));
+  const F stretch = sqrt(mul_add(solved.slope, solved.slope, F(1.0f))), cosine = F(1.0f) / stretch;
   path.near_distance = s.near_gap * stretch, path.far_distance = s.far_gap * stretch;
-  const F sine = slope * cosine / s.index;
-  path.within = inside / sqrt(max(F(1.0f) - sine * sine, F(1e-12f)));
+  const F sine = solved.slope * cosine / s.index, inside = heights_of(s, sequence).y;
+  path.optical_depth = slab.medium_density * (inside / sqrt(max(F(1.0f) - sine * sine, F(1e-12f))));
+  // The two faces across one edge are elements that follow each other, the lower one first.
+  const IntOf<F> lower = slab.element + sequence.across + sequence.across, upper = lower + IntOf<F>(1);
+  path.wall = select(less(F(0.0f), s.near.height), upper, lower);
+  path.from = select(less(F(0.0f), s.far.height), upper, lower) * IntOf<F>(4);
   const IntOf<F> edge[3] = {next_edge<F>(sequence.across), next_edge<F>(next_edge<F>(sequence.across)),
                             sequence.across};
   const F up = copy_sign(cosine, s.near.height);
-  const F leave[3] = {cosine * gone[0], cosine * gone[1], -up};
+  const F leave[3] = {cosine * solved.gone[0], cosine * solved.gone[1], -up};
   const F arrive[3] = {parity_sign(sequence.image[0]) * leave[0], parity_sign(sequence.image[1]) * leave[1],
                        select(s.same, up, -up)};
   path.direction = path.arrive = zero3<F>();
   for (int k = 0; k < 3; ++k) {
-    const Vec3<F> row{of_edge<F>({slab.row[0].x, slab.row[1].x, slab.row[2].x}, edge[k]),
-                      of_edge<F>({slab.row[0].y, slab.row[1].y, slab.row[2].y}, edge[k]),
-                      of_edge<F>({slab.row[0].z, slab.row[1].z, slab.row[2].z}, edge[k])};
+    const Vec3<F> row = of_edge<F>(slab.row, edge[k]);
     path.direction = point_at(path.direction, leave[k], row), path.arrive = point_at(path.arrive, arrive[k], row);
   }
   return path;

@@ -14,62 +14,53 @@ namespace tyndall {
 /// The query of each lane: a sphere, mirror or slab, a light, a point of that light, and the geometry between them.
 template <class F>
 struct SpecularQuery {
-  LightChoice<F> pair;
   F probability;  ///< that a specular path is queried, times that of this pair
   SpecularSphere<F> sphere;
-  SpecularMirror<F> mirror;
-  SpecularSlab<F> slab;
+  SpecularFlat<F> flat;
   DrawnSlabSequence<F> slab_path;  ///< event sequence through the slab
   MaskOf<F> by_mirror, by_slab;
   IntOf<F> light;
   LightColumns<F> light_columns;
-  Vec3<F> receiver;  ///< the shading point; for slabs the centre of its image, see seen_by_slab()
+  BoundingSphere<F> seen;  ///< the sphere, or the image of the shading point, as the light sees it
+  Vec3<F> receiver;        ///< the shading point; for slabs the centre of its image
   LightPoint<F> at;
   PathPlane<F> plane;
   PathEnds<F> ends;
 };
 
-/// Draws an event sequence through a slab. Returns the sphere in which the light sees the shading point through the
-/// slab.
+/// Draws an event sequence through a slab.
 template <class F>
-TYNDALL_INLINE SpecularSphere<F> query_slab(const auto& s, const SpecularRequest<F>& q, MaskOf<F> lanes,
-                                            SpecularQuery<F>& a) {
-  const SpecularPairs& c = s.specular;
-  a.slab = load_slab<F>(
-      c, select(a.by_slab, lookup_int<F>(c.sphere, c.pairs(), a.pair.light) - IntOf<F>(c.first_slab), IntOf<F>(0)));
+TYNDALL_INLINE void query_slab(const SpecularRequest<F>& q, MaskOf<F> lanes, SpecularQuery<F>& a) {
   const BoundingSphere<F> around = bounding_sphere(a.light_columns, q.time);
   const Vec3<F> normal = select(q.in_medium, zero3<F>(), q.facing);
   const Pair<F> u{q.sampler.independent_1d(dimension::event_sequence),
                   q.sampler.independent_1d(dimension::specular_root)};
-  a.slab_path = draw_slab_sequence(a.slab, q.point, normal, around, u, mask_and(lanes, a.by_slab));
-  return seen_by_slab(a.slab, slab_frame(a.slab, q.point, around.center, a.slab_path.sequence.across),
-                      a.slab_path.sequence);
+  a.slab_path = draw_slab_sequence(a.flat, q.point, normal, around, u, mask_and(lanes, a.by_slab));
+  const SlabSequence<F>& sequence = a.slab_path.sequence;
+  const auto seen = seen_by_slab(a.flat, slab_frame(a.flat, q.point, around.center, sequence.across), sequence);
+  put<F>(a.by_slab, seen, a.seen, &BoundingSphere<F>::center, &BoundingSphere<F>::radius);
+  a.receiver = select(a.by_slab, seen.center, a.receiver);
 }
 
 template <class F>
 TYNDALL_INLINE SpecularQuery<F> specular_query(const auto& s, const SpecularRequest<F>& q, MaskOf<F> lanes) {
   const SpecularPairs& c = s.specular;
-  const Vec3<F> point = q.point;
   SpecularQuery<F> a{};
-  a.pair = choose_light(c, point, q.sampler.independent_1d(dimension::specular_pair));
-  a.probability = connect_probability(s, point) * a.pair.probability;
-  const IntOf<F> sphere = lookup_int<F>(c.sphere, c.pairs(), a.pair.light), mirror = sphere - IntOf<F>(c.first_mirror);
+  const LightChoice<F> pair = choose_light(c, q.point, q.sampler.independent_1d(dimension::specular_pair));
+  a.probability = connect_probability(s, q.point) * pair.probability;
+  const IntOf<F> sphere = lookup_int<F>(c.sphere, c.pairs(), pair.light);
+  const IntOf<F> flat = sphere - IntOf<F>(c.first_mirror);
+  const auto is_flat = less_equal(IntOf<F>(0), flat);
   a.sphere = load_sphere<F>(c, sphere, q.time);
-  a.light = lookup_int<F>(c.light, c.pairs(), a.pair.light);
+  a.light = lookup_int<F>(c.light, c.pairs(), pair.light);
   a.light_columns = load_light_or_sun<F>(s, a.light, a.sphere);
   a.by_slab = less_equal(IntOf<F>(c.first_slab), sphere);
-  a.by_mirror = mask_and_not(less_equal(IntOf<F>(0), mirror), a.by_slab);
-  if (c.has_mirrors()) {
-    a.mirror = load_mirror<F>(c, select(a.by_mirror, mirror, IntOf<F>(0)));
-    a.sphere.center = select(a.by_mirror, mirrored(a.mirror, point), a.sphere.center);  // see seen_by_mirror()
-  }
-  a.receiver = point;
-  if (c.has_slabs() && any(mask_and(lanes, a.by_slab))) {
-    const SpecularSphere<F> seen = query_slab(s, q, lanes, a);
-    a.sphere.center = select(a.by_slab, seen.center, a.sphere.center);
-    a.sphere.radius = select(a.by_slab, seen.radius, a.sphere.radius);
-    a.receiver = select(a.by_slab, seen.center, a.receiver);
-  }
+  a.by_mirror = mask_and_not(is_flat, a.by_slab);
+  a.seen = {a.sphere.center, a.sphere.radius};
+  a.receiver = q.point;
+  if (c.has_mirrors() || c.has_slabs()) a.flat = load_flat<F>(c, select(is_flat, flat, IntOf<F>(0)));
+  if (c.has_mirrors()) a.seen.center = select(a.by_mirror, mirrored(a.flat, q.point), a.seen.center);
+  if (c.has_slabs() && any(mask_and(lanes, a.by_slab))) query_slab(q, lanes, a);
   return a;
 }
 
@@ -77,86 +68,53 @@ TYNDALL_INLINE SpecularQuery<F> specular_query(const auto& s, const SpecularRequ
 template <class F>
 TYNDALL_INLINE void aim_at_light(const auto& s, Vec3<F> point, F time, Pair<F> u, SpecularQuery<F>& a) {
   const IntOf<F> light = s.has_sun_paths() ? select(is_sky<F>(a.light), IntOf<F>(0), a.light) : a.light;
-  a.at = sample_light_point(s, light, a.light_columns, a.sphere, a.receiver, time, u);
+  a.at = sample_light_point(s, light, a.light_columns, a.seen, a.receiver, time, u);
   if (!s.specular.has_spheres()) return;
   a.plane = plane_of(a.sphere, point, a.at.point);
   a.ends = ends_of(a.sphere, a.plane.near, a.plane.far);
 }
 
+/// The path by a sphere that was solved for.
 template <class F>
-TYNDALL_INLINE SpecularRays<F> rays_of(const SpecularQuery<F>& a, const EventSequence<F>& sequence,
-                                       const SolvedPath<F>& c) {
-  const Deflection<F>& deflection = c.path.deflection;
-  const F at = c.root.s, p = deflection.maximum * (F(1.0f) - at * at);
+TYNDALL_INLINE SpecularPath<F> sphere_path(const SpecularQuery<F>& a, const EventSequence<F>& sequence,
+                                           const SolvedPath<F>& c) {
+  const Deflection<F>& deflection = c.deflection;
+  const F at = c.root.s, p = c.root.p;
   const auto ray = [&](F reach, F side, Vec3<F> out, Vec3<F> across) __attribute__((always_inline)) {
     const F inverse = F(1.0f) / reach, cosine = depth_of(deflection, reach, at) * inverse;
     return point_at((side * cosine) * out, c.root.sense * p * inverse, across);
   };
-  SpecularRays<F> r;
-  r.found = c.root.found, r.count = F(1.0f), r.optical_depth = F(0.0f);
+  SpecularPath<F> r;
+  r.found = c.root.found;
   r.direction = ray(a.ends.near_reach, -c.sign.near, a.plane.near_out, a.plane.near_side);
   r.arrive = ray(a.ends.far_reach, c.sign.far, a.plane.far_out, a.plane.far_side);
   r.near_distance =
-      distance_to_sphere(a.sphere, deflection, a.ends.near, a.ends.near_reach, c.sign.near, at, a.ends.near_in_glass);
+      distance_to_sphere(a.sphere, deflection, a.plane.near, a.ends.near_reach, c.sign.near, at, a.ends.near_in_glass);
   r.far_distance =
-      distance_to_sphere(a.sphere, deflection, a.ends.far, a.ends.far_reach, c.sign.far, at, less(F(1.0f), F(0.0f)));
+      distance_to_sphere(a.sphere, deflection, a.plane.far, a.ends.far_reach, c.sign.far, at, less(F(1.0f), F(0.0f)));
   const IntOf<F> wall = select(a.ends.deep, a.sphere.inner, a.sphere.outer);
   const auto near_in = less(a.plane.near, a.sphere.radius), far_in = less(a.plane.far, a.sphere.radius);
   r.wall =
       select(mask_and_not(near_in, mask_and(a.ends.near_in_glass, less(c.sign.near, F(0.0f)))), wall, a.sphere.outer);
   r.from = select(far_in, wall, a.sphere.outer) * IntOf<F>(4) + select(far_in, IntOf<F>(1), IntOf<F>(0));
   r.throughput = throughput_of(a.sphere, a.ends, sequence, p);
+  r.queries = expected_queries(a.sphere, a.ends, sequence);
   const F cosine = light_cosine(a.light_columns, a.at.normal, r.arrive);
-  const F spread = spread_of(c.path, a.ends, a.plane.sine, at, c.root.slope, cosine);
-  r.pdf = spread * a.at.pdf * (a.probability * expected_queries(a.sphere, a.ends, sequence));
-  return r;
-}
-
-/// The rays of a path between flat faces, which go on with the light's spread alone: off a mirror or through a slab.
-template <class F>
-TYNDALL_INLINE SpecularRays<F> rays_by_faces(const SpecularQuery<F>& a, const auto& path) {
-  const F cosine = light_cosine(a.light_columns, a.at.normal, path.arrive);
-  SpecularRays<F> r;
-  r.found = path.found, r.direction = path.direction, r.arrive = path.arrive;
-  r.near_distance = path.near_distance, r.far_distance = path.far_distance;
-  r.pdf = path.spread / max(cosine, F(1e-30f)) * a.at.pdf * a.probability;
-  r.throughput = F(1.0f), r.count = F(1.0f), r.optical_depth = F(0.0f);
-  return r;
-}
-
-template <class F>
-TYNDALL_INLINE SpecularRays<F> rays_off_mirror(const SpecularQuery<F>& a, Vec3<F> point) {
-  const MirrorPath<F> path = mirror_path(a.mirror, point, a.at.point);
-  SpecularRays<F> r = rays_by_faces(a, path);
-  r.wall = a.sphere.outer, r.from = a.sphere.outer * IntOf<F>(4) + select(path.behind, IntOf<F>(1), IntOf<F>(0));
-  return r;
-}
-
-template <class F>
-TYNDALL_INLINE SpecularRays<F> rays_through_slab(const SpecularQuery<F>& a, Vec3<F> point) {
-  const SlabFrame<F> s = slab_frame(a.slab, point, a.at.point, a.slab_path.sequence.across);
-  const SlabPath<F> path = slab_path(a.slab, s, a.slab_path.sequence);
-  // The two faces across one edge are elements that follow each other, the lower one first.
-  const IntOf<F> lower = a.slab.element + a.slab_path.sequence.across + a.slab_path.sequence.across;
-  const IntOf<F> upper = lower + IntOf<F>(1);
-  SpecularRays<F> r = rays_by_faces(a, path);
-  r.wall = select(less(F(0.0f), s.near.height), upper, lower);
-  r.from = select(less(F(0.0f), s.far.height), upper, lower) * IntOf<F>(4);
-  r.throughput = path.throughput, r.count = F(1.0f) / max(a.slab_path.probability, F(1e-30f));
-  r.optical_depth = a.slab.medium_density * path.within;
+  r.spread = spread_of(deflection, a.ends, a.plane.sine, at, c.root.slope, cosine);
   return r;
 }
 
 /// Factor on the light's radiance if nothing blocks the path. It includes the weight of the power heuristic.
 template <class F>
 TYNDALL_INLINE F weight_of(const auto& s, const SpecularRequest<F>& q, const SpecularQuery<F>& a,
-                           const SpecularRays<F>& rays) {
-  const F cosine = light_cosine(a.light_columns, a.at.normal, rays.arrive);
-  const F scattered = scattered_pdf(s, q, rays.direction) * rays.throughput;
-  const auto useful = mask_and(mask_and(rays.found, less(F(0.0f), cosine)), less(F(0.0f), scattered));
-  const F ratio = scattered / max(rays.pdf, F(1e-37f));
+                           const SpecularPath<F>& path) {
+  const F cosine = light_cosine(a.light_columns, a.at.normal, path.arrive);
+  const F scattered = scattered_pdf(s, q, path.direction) * path.throughput;
+  const auto useful = mask_and(mask_and(path.found, less(F(0.0f), cosine)), less(F(0.0f), scattered));
+  const F pdf = path.spread * a.at.pdf * (a.probability * path.queries);
+  const F ratio = scattered / max(pdf, F(1e-37f));
   // The weight is 0 at a caustic's edge, where the pdf is 0.
-  const F weight = rays.count / (ratio + F(1.0f) / max(ratio, F(1e-37f)));
+  const F weight = path.count / (ratio + F(1.0f) / max(ratio, F(1e-37f)));
   return select(mask_and(useful, less(weight, F(1e30f))), weight, F(0.0f));
 }
 
@@ -165,24 +123,22 @@ TYNDALL_INLINE F weight_of(const auto& s, const SpecularRequest<F>& q, const Spe
 template <class F>
 struct SampledPath {
   Reservoir<F> reservoir;
-  SpecularRays<F> rays{};
+  SpecularPath<F> path{};
   Vec3<F> light_point{};   ///< where the path starts on the light
   PathEnds<F> ends{};      ///< set where the sphere is overlapped
   InsidePath<F> inside{};  ///< likewise
 };
 
-/// Offers the rays with the weight of weight_of(). Returns which lanes take them.
+/// Offers a path with the weight of weight_of(). Returns which lanes take it.
 template <class F>
-TYNDALL_INLINE MaskOf<F> offer_rays(const auto& s, const SpecularRequest<F>& q, const SpecularQuery<F>& a,
-                                    const SpecularRays<F>& rays, SampledPath<F>& taken) {
-  const auto takes = taken.reservoir.offer(weight_of(s, q, a, rays));
+TYNDALL_INLINE MaskOf<F> offer_path(const auto& s, const SpecularRequest<F>& q, const SpecularQuery<F>& a,
+                                    const SpecularPath<F>& path, SampledPath<F>& taken) {
+  using P = SpecularPath<F>;
+  const auto takes = taken.reservoir.offer(weight_of(s, q, a, path));
   if (!any(takes)) return takes;
-  const auto put = [takes](const auto& from, auto& to) __attribute__((always_inline)) { to = select(takes, from, to); };
-  SpecularRays<F>& r = taken.rays;
-  put(rays.direction, r.direction), put(rays.arrive, r.arrive), put(rays.near_distance, r.near_distance);
-  put(rays.far_distance, r.far_distance), put(rays.wall, r.wall), put(rays.from, r.from),
-      put(rays.optical_depth, r.optical_depth);
-  put(a.at.point, taken.light_point);
+  put<F>(takes, path, taken.path, &P::direction, &P::arrive, &P::near_distance, &P::far_distance, &P::wall, &P::from,
+         &P::optical_depth);
+  taken.light_point = select(takes, a.at.point, taken.light_point);
   return takes;
 }
 
@@ -190,14 +146,11 @@ TYNDALL_INLINE MaskOf<F> offer_rays(const auto& s, const SpecularRequest<F>& q, 
 template <class F>
 TYNDALL_INLINE void keep_inside(const SpecularQuery<F>& a, const SolvedPath<F>& c, const EventSequence<F>& sequence,
                                 MaskOf<F> lanes, SampledPath<F>& taken) {
-  const F p = c.path.deflection.maximum * (F(1.0f) - c.root.s * c.root.s);
-  put(lanes, inside_path(a.sphere, a.plane, a.ends, c.sign.near, c.sign.far, c.root.sense, p, sequence), taken.inside);
-  const auto copy = [lanes](const auto& from, auto& mask) __attribute__((always_inline)) {
-    mask = mask_or(mask_and(lanes, from), mask_and_not(mask, lanes));
-  };
-  PathEnds<F>& ends = taken.ends;
-  copy(a.ends.both_out, ends.both_out), copy(a.ends.deep, ends.deep), copy(a.ends.valid, ends.valid);
-  copy(a.ends.both_in, ends.both_in), copy(a.ends.near_in_glass, ends.near_in_glass);
+  using I = InsidePath<F>;
+  using E = PathEnds<F>;
+  const I inside = inside_path(a.sphere, a.plane, a.ends, c.sign.near, c.sign.far, c.root.sense, c.root.p, sequence);
+  put<F>(lanes, inside, taken.inside, &I::out, &I::side, &I::p, &I::angle, &I::main);
+  put<F>(lanes, a.ends, taken.ends, &E::both_out, &E::deep, &E::valid, &E::both_in, &E::near_in_glass);
 }
 
 /// Lets a path to the sun, in the lanes `here`, begin where it leaves the sphere. Between there and the sun's window
@@ -205,14 +158,14 @@ TYNDALL_INLINE void keep_inside(const SpecularQuery<F>& a, const SolvedPath<F>& 
 template <class F>
 TYNDALL_INLINE void begin_at_sphere(const SpecularQuery<F>& a, const SolvedPath<F>& c, MaskOf<F> here,
                                     SampledPath<F>& taken) {
-  const Vec3<F> arrive = taken.rays.arrive;
+  const Vec3<F> arrive = taken.path.arrive;
   const Vec3<F> across = point_at(-dot(arrive, a.plane.far_side) * a.plane.far_out, dot(arrive, a.plane.far_out),
                                   a.plane.far_side);  // at right angles to the ray
-  const F p = c.path.deflection.maximum * (F(1.0f) - c.root.s * c.root.s);
+  const F p = c.root.p;
   const F forward = sqrt(max(mul_add(a.sphere.radius, a.sphere.radius, -(p * p)), F(0.0f)));
   const Vec3<F> point = point_at(point_at(a.sphere.center, forward, arrive), -c.root.sense * p, across);
   taken.light_point = select(here, point, taken.light_point);
-  taken.rays.far_distance = select(here, F(0.0f), taken.rays.far_distance);
+  taken.path.far_distance = select(here, F(0.0f), taken.path.far_distance);
 }
 
 /// Offers all specular paths of an event sequence at a sphere. Both signs are tried for each end inside it (see
@@ -230,10 +183,10 @@ TYNDALL_INLINE void offer_sequence(const auto& s, const SpecularRequest<F>& q, c
     const F near_sign = select(a.ends.near_in_glass, sequence.near_sign, F(i & 1 ? -1.0f : 1.0f));
     const EndSigns<F> sign{near_sign, F(i & 2 ? -1.0f : 1.0f)};
     SolvedPath<F> c{deflection_of(s.specular, a.sphere, a.ends, sequence, sign), sign, {}};
-    const DeflectionRoots<F> roots = list_roots(c.path.deflection, a.plane.angle, mask_and(here, c.path.possible));
+    const DeflectionRoots<F> roots = list_roots(c.deflection, a.plane.angle, mask_and(here, c.deflection.possible));
     for (F index = F(0.0f); any(less(index, roots.count)); index = index + F(1.0f)) {
-      c.root = take_root(c.path.deflection, roots, a.plane.angle, index);
-      const auto takes = offer_rays(s, q, a, rays_of(a, sequence, c), taken),
+      c.root = take_root(c.deflection, roots, a.plane.angle, index);
+      const auto takes = offer_path(s, q, a, sphere_path(a, sequence, c), taken),
                  overlapped = mask_and(takes, a.sphere.overlapped);
       if (s.specular.has_overlaps && any(overlapped)) keep_inside(a, c, sequence, overlapped, taken);
       if (s.has_sun_paths()) begin_at_sphere(a, c, mask_and(takes, is_sky<F>(a.light)), taken);
@@ -245,21 +198,23 @@ TYNDALL_INLINE void offer_sequence(const auto& s, const SpecularRequest<F>& q, c
 template <class F>
 TYNDALL_INLINE void offer_flat(const auto& s, const SpecularRequest<F>& q, const SpecularQuery<F>& a, MaskOf<F> lanes,
                                IntOf<F> events_left, SampledPath<F>& taken) {
+  const auto offer = [&](SpecularPath<F> path, MaskOf<F> here) __attribute__((always_inline)) {
+    path.found = mask_and(path.found, here);
+    path.spread = path.spread / max(light_cosine(a.light_columns, a.at.normal, path.arrive), F(1e-30f));
+    offer_path(s, q, a, path, taken);
+  };
   const auto by_mirror = mask_and(mask_and(lanes, a.by_mirror), less(IntOf<F>(1), events_left));
-  if (s.specular.has_mirrors() && any(by_mirror)) {
-    SpecularRays<F> rays = rays_off_mirror(a, q.point);
-    rays.found = mask_and(rays.found, by_mirror);
-    offer_rays(s, q, a, rays, taken);
-  }
+  if (s.specular.has_mirrors() && any(by_mirror)) offer(mirror_path(a.flat, q.point, a.at.point), by_mirror);
   if (!s.specular.has_slabs()) return;
   const SlabSequence<F>& sequence = a.slab_path.sequence;
   const F events = sequence.crossings + F(1.0f) + abs(sequence.image[0]) + abs(sequence.image[1]);
   const auto by_slab =
       mask_and(mask_and(mask_and(lanes, a.by_slab), a.slab_path.drawn), less(to_int(events), events_left));
   if (!any(by_slab)) return;
-  SpecularRays<F> rays = rays_through_slab(a, q.point);
-  rays.found = mask_and(rays.found, by_slab);
-  offer_rays(s, q, a, rays, taken);
+  const SlabFrame<F> frame = slab_frame(a.flat, q.point, a.at.point, sequence.across);
+  SpecularPath<F> path = slab_path(a.flat, frame, sequence);
+  path.count = F(1.0f) / max(a.slab_path.probability, F(1e-30f));
+  offer(path, by_slab);
 }
 
 template <class F>
@@ -292,7 +247,7 @@ TYNDALL_INLINE Vec3<F> radiance_at_end(const auto& s, IntOf<F> light, IntOf<F> e
                                        MaskOf<F> lanes) {
   if (!s.has_sun_paths()) return light_radiance(s, element, taken.light_point, lanes);
   const auto far = is_sky<F>(light), near = mask_and_not(lanes, far);
-  const Vec3<F> sun = sky_towards(s.sky, taken.rays.arrive).radiance;
+  const Vec3<F> sun = sky_towards(s.sky, taken.path.arrive).radiance;
   if (!any(near)) return sun;
   return select(far, sun, light_radiance(s, select(far, IntOf<F>(0), element), taken.light_point, near));
 }
@@ -306,7 +261,7 @@ template <class F>
   const Decisions<F> decisions{q.sampler.independent_bits(dimension::event_sequence),
                                q.sampler.independent_bits(dimension::event_sequence_tail)};
   const SampledPath<F> taken = sample_specular_path(s, q, a, decisions, lanes);
-  const SpecularRays<F>& found = taken.rays;
+  const SpecularPath<F>& found = taken.path;
   F weight = taken.reservoir.weight;
   auto arrives = less(F(0.0f), weight);
   if (!any(arrives)) return zero3<F>();

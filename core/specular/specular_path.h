@@ -8,6 +8,40 @@
 /// through one slab, to a point where light scatters.
 namespace tyndall {
 
+/// A specular path: its segments between its ends and the object, and what it contributes. The near end is the shading
+/// point, the far end the point of the light.
+template <class F>
+struct SpecularPath {
+  MaskOf<F> found;                ///< the object lets such a path pass
+  Vec3<F> direction, arrive;      ///< unit directions in which the path leaves the near end and arrives at the far end
+  F near_distance, far_distance;  ///< distances from each end to the object
+  IntOf<F> wall;                  ///< element to which the near segment leads
+  IntOf<F> from;                  ///< Ray::from of the segment that leads to the far end
+  F spread;                ///< area at the far end, across the path or on the light, over solid angle at the near end
+  F throughput = F(1.0f);  ///< fraction of light that the surfaces send along this path
+  F queries = F(1.0f);     ///< expected number of times that a query tries its events: see expected_queries()
+  F count = F(1.0f);       ///< for slabs 1 / probability of the event sequence, which `queries` leaves out
+  F optical_depth = F(0.0f);  ///< of media in a slab: density times length of the path inside
+};
+
+/// Copies members of a struct in the lanes `here`.
+template <class F, class T>
+TYNDALL_INLINE void put(MaskOf<F> here, const T& from, T& to, auto... members) {
+  const auto put_member = [here](const auto& in, auto& out) __attribute__((always_inline)) {
+    if constexpr (std::is_same_v<decltype(out), MaskOf<F>&>)
+      out = mask_or(mask_and(here, in), mask_and_not(out, here));
+    else
+      out = select(here, in, out);
+  };
+  (put_member(from.*members, to.*members), ...);
+}
+
+template <class F>
+struct BoundingSphere {
+  Vec3<F> center;
+  F radius;
+};
+
 /// A point on a light's surface, drawn without regard to visibility.
 template <class F>
 struct LightPoint {
@@ -15,16 +49,7 @@ struct LightPoint {
   F pdf;  ///< per unit of area
 };
 
-/// A glass or mirror sphere sees a cap of a sphere light. Returns the least cosine between a normal of that cap and the
-/// axis from the light to the sphere; -1, for the whole light, if the sphere holds the light's centre. distance:
-/// between the two centres.
-template <class F>
-TYNDALL_INLINE F seen_from_sphere(F distance, F light_radius, F sphere_radius) {
-  return select(less(sphere_radius, distance), max((light_radius - sphere_radius) / max(distance, F(1e-30f)), F(-1.0f)),
-                F(-1.0f));
-}
-
-/// How points are drawn on a sphere light: by z, the cosine between a point's normal and `axis`.
+/// How points are drawn on a sphere light towards a sphere: by z, the cosine between a point's normal and `axis`.
 /// Light outside of the sphere: the axis leads to the sphere's centre. The pdf grows with z from 0 at the edge of the
 /// cap that the sphere sees, because the light that reaches the sphere grows likewise.
 /// Light's centre in the sphere: most of the light leaves the sphere almost straight. The axis leads to the receiver,
@@ -32,21 +57,22 @@ TYNDALL_INLINE F seen_from_sphere(F distance, F light_radius, F sphere_radius) {
 template <class F>
 struct LightSide {
   Vec3<F> center, axis;
-  F radius, first;    ///< radius of the light; first: least z that the sphere sees
+  F radius, first;    ///< radius of the light; first: least z that the sphere sees, of a cap or of the whole light
   MaskOf<F> outside;  ///< the light's centre is outside of the sphere
 };
 /// For a light in the sphere: fractions of points on the half that faces the axis, on the other half, and uniform.
 inline constexpr float facing_fraction = 0.75f, averted_fraction = 0.125f, even_fraction = 0.125f;
 
 template <class F>
-TYNDALL_INLINE LightSide<F> light_side(const LightColumns<F>& light, const SpecularSphere<F>& b, Vec3<F> receiver,
+TYNDALL_INLINE LightSide<F> light_side(const LightColumns<F>& light, const BoundingSphere<F>& b, Vec3<F> receiver,
                                        F time) {
   const Vec3<F> center = sphere_light_center(light, time);
   const F distance = length(b.center - center);
   const auto outside = less(b.radius, distance);
   const Vec3<F> to_axis_end = select(outside, b.center, receiver) - center;
   const F scale = F(1.0f) / max(length(to_axis_end), F(1e-30f));
-  return {center, scale * to_axis_end, light.length_u, seen_from_sphere(distance, light.length_u, b.radius), outside};
+  const F cap = max((light.length_u - b.radius) / max(distance, F(1e-30f)), F(-1.0f));
+  return {center, scale * to_axis_end, light.length_u, select(outside, cap, F(-1.0f)), outside};
 }
 
 /// Pdf, per unit of area, of the points that draw_on_light_side() gives at the cosine z.
@@ -70,11 +96,11 @@ TYNDALL_INLINE F draw_on_light_side(const LightSide<F>& side, F u) {
   return select(side.outside, growing, within);
 }
 
-/// Draws a point of the light k for a specular path at sphere `b`. light: its columns. receiver: the shading point, as
-/// seen from the light.
+/// Draws a point of the light k for a specular path at an object. light: its columns. b: the sphere in which the light
+/// sees the object, or beyond a flat one the shading point. receiver: the shading point, as seen from the light.
 template <class F>
 TYNDALL_INLINE LightPoint<F> sample_light_point(const auto& s, IntOf<F> k, const LightColumns<F>& light,
-                                                const SpecularSphere<F>& b, Vec3<F> receiver, F time, Pair<F> u) {
+                                                const BoundingSphere<F>& b, Vec3<F> receiver, F time, Pair<F> u) {
   const Pair<F> drawn = on_flat_light(s, k, light.kind, u);
   const Vec3<F> flat =
       point_at(point_at(light.corner, drawn.x * light.length_u, light.edge_u), drawn.y * light.length_v, light.edge_v);
@@ -90,7 +116,7 @@ TYNDALL_INLINE LightPoint<F> sample_light_point(const auto& s, IntOf<F> k, const
 
 /// Returns a given point of the light, with its normal and the pdf with which sample_light_point() draws it.
 template <class F>
-TYNDALL_INLINE LightPoint<F> light_point_at(const LightColumns<F>& light, const SpecularSphere<F>& b, Vec3<F> receiver,
+TYNDALL_INLINE LightPoint<F> light_point_at(const LightColumns<F>& light, const BoundingSphere<F>& b, Vec3<F> receiver,
                                             F time, Vec3<F> point) {
   LightPoint<F> at{point, light.normal, F(1.0f) / max(light.area, F(1e-37f))};
   const auto round = equal(light.kind, IntOf<F>(Lights::sphere));
@@ -108,8 +134,7 @@ TYNDALL_INLINE F light_cosine(const LightColumns<F>& light, Vec3<F> normal, Vec3
   return select(equal(light.kind, IntOf<F>(Lights::sphere)), cosine, abs(cosine));
 }
 
-/// The plane of a specular path. It holds both ends and the sphere's centre. The near end is the shading point, the far
-/// end the point of the light.
+/// The plane of a specular path. It holds both ends and the sphere's centre.
 template <class F>
 struct PathPlane {
   Vec3<F> near_out, far_out;  ///< unit vectors from the centre to each end
@@ -146,8 +171,7 @@ TYNDALL_INLINE F depth_of(const Deflection<F>& deflection, F reach, F s) {
 /// end, dA · cosine = b sin φ dψ · b cos θ' dφ at the far end, and dφ = deflection'(p) dp. cosine: of the ray at the
 /// light. a, b: distances of the ends from the centre. slope: derivative of the deflection by s.
 template <class F>
-TYNDALL_INLINE F spread_of(const SpecularDeflection<F>& path, const PathEnds<F>& e, F sine, F s, F slope, F cosine) {
-  const Deflection<F>& deflection = path.deflection;
+TYNDALL_INLINE F spread_of(const Deflection<F>& deflection, const PathEnds<F>& e, F sine, F s, F slope, F cosine) {
   const F p = max(deflection.maximum * (F(1.0f) - s * s), F(1e-30f));
   const F rate = F(2.0f) * deflection.maximum * s * p * e.far_index * e.far_index;
   const F depths = depth_of(deflection, e.near_reach, s) * depth_of(deflection, e.far_reach, s);
@@ -172,23 +196,9 @@ TYNDALL_INLINE F distance_to_sphere(const SpecularSphere<F>& b, const Deflection
 /// One of the specular paths between two points with one event sequence.
 template <class F>
 struct SolvedPath {
-  SpecularDeflection<F> path;
+  Deflection<F> deflection;
   EndSigns<F> sign;
   DeflectionRoot<F> root;
-};
-
-/// The segments of a specular path between its ends and the object, and what the path contributes.
-template <class F>
-struct SpecularRays {
-  MaskOf<F> found;
-  Vec3<F> direction, arrive;      ///< unit directions in which the path leaves the near end and arrives at the light
-  F near_distance, far_distance;  ///< distances from each end to the object
-  IntOf<F> wall;                  ///< element to which the near segment leads
-  IntOf<F> from;                  ///< Ray::from of the segment that leads to the light
-  F throughput;                   ///< fraction of light that the surfaces send along this path
-  F pdf;                          ///< expected queries of the direction at the near end, per steradian
-  F count;                        ///< for slabs 1 / probability of the event sequence, which pdf leaves out; else 1
-  F optical_depth;                ///< of media in a slab: density times length of the path inside
 };
 
 // The part of a specular path inside its sphere is tested for occlusion only if the sphere is overlapped: if other
@@ -203,14 +213,6 @@ struct InsidePath {
   F angle;            ///< from `out` to the point where the path first meets the sphere
   MaskOf<F> main;     ///< the path has the main event sequence
 };
-
-/// Copies `from` to `to` in the lanes `here`.
-template <class F>
-TYNDALL_INLINE void put(MaskOf<F> here, const InsidePath<F>& from, InsidePath<F>& to) {
-  to.out = select(here, from.out, to.out), to.side = select(here, from.side, to.side);
-  to.p = select(here, from.p, to.p), to.angle = select(here, from.angle, to.angle);
-  to.main = mask_or(mask_and(here, from.main), mask_and_not(to.main, here));
-}
 
 /// The angle about the centre that a path covers between its closest point to the centre and the radius reach / n, in
 /// radians: acos(p / reach), see Deflection. 0 where p > reach, because the path stays outside of that radius.

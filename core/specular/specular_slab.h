@@ -1,5 +1,4 @@
 #pragma once
-#include "core/specular/history.h"
 #include "core/specular/specular_flat.h"
 
 /// Lists the event sequences tried for a slab (for example: enter, reflect, leave) and the probability of each. Both
@@ -10,12 +9,6 @@ inline constexpr int max_images = 2;           ///< tried along each edge, to ei
 inline constexpr float max_crossings = 13.0f;  ///< paths with more are left to BSDF sampling
 
 /// A sphere that encloses a light at a given time.
-template <class F>
-struct BoundingSphere {
-  Vec3<F> center;
-  F reach;  ///< radius
-};
-
 template <class F>
 TYNDALL_INLINE BoundingSphere<F> bounding_sphere(const LightColumns<F>& light, F time) {
   const F half_u = F(0.5f) * light.length_u, half_v = F(0.5f) * light.length_v;
@@ -37,15 +30,15 @@ struct SlabBounds {
 /// s: its far point must be the centre of `light`.
 template <class F>
 TYNDALL_INLINE SlabBounds<F> bounds_of(const SlabFrame<F>& s, F crossings, const BoundingSphere<F>& light) {
-  const F near = s.near_gap, close = max(s.far_gap - light.reach, F(0.0f)), wide = s.far_gap + light.reach;
+  const F near = s.near_gap, close = max(s.far_gap - light.radius, F(0.0f)), wide = s.far_gap + light.radius;
   const F inside = F(2.0f) * crossings * s.half.height / s.index;
   const F skin = F(1e-5f) * (s.half.side[0] + s.half.side[1] + s.half.height);
   SlabBounds<F> b;
-  b.valid = mask_and(less(skin, near), less(F(1.001f) * light.reach + skin, s.far_gap));
+  b.valid = mask_and(less(skin, near), less(F(1.001f) * light.radius + skin, s.far_gap));
   const F one = F(1.0f), safe = max(near, F(1e-30f));
   b.entry_min = safe / (safe + wide + inside), b.entry_max = safe / (safe + close);
   b.leave_min = safe / (safe + wide), b.leave_max = one - close / (safe + close + inside);
-  b.reach = light.reach;
+  b.reach = light.radius;
   return b;
 }
 
@@ -64,7 +57,7 @@ TYNDALL_INLINE MaskOf<F> may_meet(const SlabFrame<F>& s, const SlabBounds<F>& b,
 
 /// Whether a path meets no face that another object touches.
 template <class F>
-TYNDALL_INLINE MaskOf<F> is_open(const SpecularSlab<F>& slab, const SlabFrame<F>& s, const SlabSequence<F>& sequence) {
+TYNDALL_INLINE MaskOf<F> is_open(const SpecularFlat<F>& slab, const SlabFrame<F>& s, const SlabSequence<F>& sequence) {
   using I = IntOf<F>;
   if (all(equal(slab.closed, I(0)))) return less(F(-1.0f), F(0.0f));
   const auto lower_of = [](I edge) __attribute__((always_inline)) {
@@ -83,7 +76,7 @@ TYNDALL_INLINE MaskOf<F> is_open(const SpecularSlab<F>& slab, const SlabFrame<F>
 
 /// Whether an event sequence is among those that draw_slab_sequence() may draw.
 template <class F>
-TYNDALL_INLINE MaskOf<F> is_looked_for(const SpecularSlab<F>& slab, const SlabFrame<F>& s,
+TYNDALL_INLINE MaskOf<F> is_looked_for(const SpecularFlat<F>& slab, const SlabFrame<F>& s,
                                        const BoundingSphere<F>& light, const SlabSequence<F>& sequence) {
   const SlabBounds<F> bounds = bounds_of(s, sequence.crossings, light);
   const F maximum = max(abs(sequence.image[0]), abs(sequence.image[1]));
@@ -136,31 +129,25 @@ struct SlabSequences {
 template <class F>
 TYNDALL_INLINE F slab_weight(const SlabFrame<F>& s, const SlabSequence<F>& sequence, const SlabPlace<F>& normal,
                              F blur) {
-  const F outside = max(s.near_gap + s.far_gap, F(1e-30f)), inside = F(2.0f) * sequence.crossings * s.half.height;
-  const F x = to_image(s, 0, sequence.image[0]), y = to_image(s, 1, sequence.image[1]);
-  const F slope = find_slope(s.index, outside, inside, sqrt(mul_add(x, x, y * y)), 2);
-  const SlabSlope<F> at = reach_of(s.index, outside, inside, slope);
-  const F gone[2] = {x / at.reach, y / at.reach};
-  SlabPath<F> path;
-  follow_slope(s, sequence, at, path);
+  const FramedPath<F> path = path_of_slope(s, sequence, find_slope(s, sequence, 2));
   const F up = select(less(F(0.0f), s.near.height), -normal.height, normal.height);
-  const F cosine =
-      mul_add(gone[0], normal.side[0], mul_add(gone[1], normal.side[1], up)) / sqrt(mul_add(slope, slope, F(1.0f)));
+  const F cosine = mul_add(path.gone[0], normal.side[0], mul_add(path.gone[1], normal.side[1], up)) /
+                   sqrt(mul_add(path.slope, path.slope, F(1.0f)));
   const auto in_medium = equal(abs(normal.side[0]) + abs(normal.side[1]) + abs(normal.height), F(0.0f));
-  const F meets = select(meets_faces(s, sequence, gone, blur), F(1.0f), F(0.02f));
+  const F meets = select(meets_faces(s, sequence, path.gone, blur), F(1.0f), F(0.02f));
   return meets * path.throughput * select(in_medium, F(1.0f), max(cosine, F(0.02f))) / max(path.spread, F(1e-30f));
 }
 
 /// Lists the event sequences of paths that enter at the ends of the edge `across`.
 template <class F>
-TYNDALL_INLINE void list_sequences(const SpecularSlab<F>& slab, const SlabFrame<F>& s, const BoundingSphere<F>& light,
+TYNDALL_INLINE void list_sequences(const SpecularFlat<F>& slab, const SlabFrame<F>& s, const BoundingSphere<F>& light,
                                    const SlabPlace<F>& normal, int across, MaskOf<F> lanes,
                                    SlabSequences<F>& sequences) {
   const SlabCrossings<F>& crossings = sequences.crossings[across];
   const SlabBounds<F> bounds = bounds_of(s, crossings.count, light);
   const auto valid = mask_and(mask_and(lanes, bounds.valid), less_equal(crossings.count, F(max_crossings)));
   if (!any(valid)) return;
-  const F blur = mul_add(F(0.01f), s.half.side[0] + s.half.side[1], light.reach);
+  const F blur = mul_add(F(0.01f), s.half.side[0] + s.half.side[1], light.radius);
   const auto reflected = equal(crossings.count, F(0.0f));
   for (int i = -max_images; i <= max_images; ++i) {
     const F first = F(static_cast<float>(i));
@@ -216,7 +203,7 @@ TYNDALL_INLINE DrawnSlabSequence<F> take_sequence(const SlabSequences<F>& sequen
 
 /// Draws an event sequence for a shading point. normal: of the surface there; 0 in media. u: two random numbers.
 template <class F>
-TYNDALL_INLINE DrawnSlabSequence<F> draw_slab_sequence(const SpecularSlab<F>& slab, Vec3<F> point, Vec3<F> normal,
+TYNDALL_INLINE DrawnSlabSequence<F> draw_slab_sequence(const SpecularFlat<F>& slab, Vec3<F> point, Vec3<F> normal,
                                                        const BoundingSphere<F>& light, Pair<F> u, MaskOf<F> lanes) {
   SlabSequences<F> sequences;
   const F edges[3] = {dot(slab.row[0], normal), dot(slab.row[1], normal), dot(slab.row[2], normal)};
@@ -229,10 +216,9 @@ TYNDALL_INLINE DrawnSlabSequence<F> draw_slab_sequence(const SpecularSlab<F>& sl
   return take_sequence(sequences, u.y);
 }
 
-/// The sphere in which a light sees the shading point through the slab. It takes the place of the glass sphere in
-/// sample_light_point(). s: its far point does not matter.
+/// The sphere in which a light sees the shading point through the slab. s: its far point does not matter.
 template <class F>
-TYNDALL_INLINE SpecularSphere<F> seen_by_slab(const SpecularSlab<F>& slab, const SlabFrame<F>& s,
+TYNDALL_INLINE BoundingSphere<F> seen_by_slab(const SpecularFlat<F>& slab, const SlabFrame<F>& s,
                                               const SlabSequence<F>& sequence) {
   const F height = copy_sign(F(1.0f), s.near.height) *
                    mul_add(F(2.0f) * s.half.height, sequence.crossings - F(1.0f), abs(s.near.height));
@@ -240,9 +226,7 @@ TYNDALL_INLINE SpecularSphere<F> seen_by_slab(const SpecularSlab<F>& slab, const
   for (int k = 0; k < 2; ++k)
     side[k] = parity_sign(sequence.image[k]) * mul_add(F(-2.0f) * sequence.image[k], s.half.side[k], s.near.side[k]);
   const IntOf<F> first = next_edge<F>(sequence.across);
-  SpecularSphere<F> b{};
-  b.radius = F(2.0f) * sequence.crossings * s.half.height;
-  b.center = zero3<F>();
+  BoundingSphere<F> b{zero3<F>(), F(2.0f) * sequence.crossings * s.half.height};
   for (int k = 0; k < 3; ++k) {
     const IntOf<F> edge(k);
     const F place = select(equal(edge, sequence.across), -parity_sign(sequence.crossings) * height,
@@ -250,22 +234,6 @@ TYNDALL_INLINE SpecularSphere<F> seen_by_slab(const SpecularSlab<F>& slab, const
     b.center = point_at(b.center, place - slab.offset[k], slab.row[k]);
   }
   return b;
-}
-
-/// The event sequence of a path that met a slab by BSDF sampling. direction: in which the path left the slab.
-template <class F>
-TYNDALL_INLINE SlabSequence<F> slab_sequence_of(const SpecularSlab<F>& slab, SpecularHistory<F> met,
-                                                Vec3<F> direction) {
-  const F count[3] = {from_int<F>(met.template at_faces<0>()), from_int<F>(met.template at_faces<1>()),
-                      from_int<F>(met.template at_faces<2>())};
-  const F rises[3] = {dot(slab.row[0], direction), dot(slab.row[1], direction), dot(slab.row[2], direction)};
-  SlabSequence<F> sequence;
-  sequence.across = met.first_edge();
-  const SlabPlace<F> counts = framed<F>(count, sequence.across), heading = framed<F>(rises, sequence.across);
-  sequence.crossings = counts.height - F(1.0f);
-  for (int k = 0; k < 2; ++k)
-    sequence.image[k] = copy_sign(counts.side[k], parity_sign(counts.side[k]) * heading.side[k]);
-  return sequence;
 }
 
 /// Estimated contribution, > 0, of pair k of a slab and a light at a point: that of the light alone if the straight

@@ -1,6 +1,5 @@
 #pragma once
-#include "core/specular/event_sequence.h"
-#include "core/trace/light_choice.h"
+#include "core/specular/specular_path.h"
 #include "core/trace/sky.h"
 
 /// The sun of a picture of the sky as specular paths at spheres know it.
@@ -30,23 +29,6 @@ TYNDALL_INLINE LightColumns<F> sun_window(const SkyColumns& sky, const SpecularS
   return w;
 }
 
-template <class F>
-struct WindowHit {
-  MaskOf<F> hits;
-  Vec3<F> point;
-};
-
-/// Where rays that leave the scene pass through a window.
-template <class F>
-TYNDALL_INLINE WindowHit<F> pass_window(const LightColumns<F>& w, const Ray<F>& ray) {
-  const F slope = dot(ray.direction, w.normal);
-  const F t = dot(w.corner - ray.origin, w.normal) / max(slope, F(1e-30f));
-  const Vec3<F> point = point_at(ray.origin, t, ray.direction), off = point - w.corner;
-  const F u = dot(off, w.edge_u), v = dot(off, w.edge_v);
-  const auto in = [&](F x) { return mask_and(less_equal(F(0.0f), x), less_equal(x, w.length_u)); };
-  return {mask_and(mask_and(less(F(0.5f), slope), less(F(0.0f), t)), mask_and(in(u), in(v))), point};
-}
-
 /// The columns of lights, or of the sun's window where `light` is -1.
 template <class F>
 TYNDALL_INLINE LightColumns<F> load_light_or_sun(const auto& s, IntOf<F> light, const SpecularSphere<F>& b) {
@@ -54,11 +36,11 @@ TYNDALL_INLINE LightColumns<F> load_light_or_sun(const auto& s, IntOf<F> light, 
   const LightColumns<F> sun = sun_window(s.sky, b);
   const auto far = is_sky<F>(light);
   if (s.lights.count() == 0 || all(far)) return sun;
-  const LightColumns<F> near = load_light<F>(s.lights, select(far, IntOf<F>(0), light));
-  return {select(far, sun.kind, near.kind),         select(far, sun.corner, near.corner),
-          select(far, sun.edge_u, near.edge_u),     select(far, sun.edge_v, near.edge_v),
-          select(far, sun.normal, near.normal),     select(far, sun.length_u, near.length_u),
-          select(far, sun.length_v, near.length_v), select(far, sun.area, near.area)};
+  using L = LightColumns<F>;
+  L light_or_sun = load_light<F>(s.lights, select(far, IntOf<F>(0), light));
+  put<F>(far, sun, light_or_sun, &L::kind, &L::corner, &L::edge_u, &L::edge_v, &L::normal, &L::length_u, &L::length_v,
+         &L::area);
+  return light_or_sun;
 }
 
 }  // namespace tyndall

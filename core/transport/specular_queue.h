@@ -22,20 +22,25 @@ struct WaitingRequests {
   TYNDALL_INLINE bool empty() const { return specular.count == 0 && guided.count == 0; }
 };
 
-/// The request of an event. slot: where the light is to be added.
+/// Requests light for the events in `lanes`. With one lane the answer, light_of(request), is added to the path's
+/// radiance at once. slot: where the light is to be added.
 template <class F>
-TYNDALL_INLINE SpecularRequest<F> request_of(const auto& s, const Paths<F>& p, const Event<F>& e, IntOf<F> slot) {
+TYNDALL_INLINE void request_light(const auto& s, Paths<F>& p, const Event<F>& e, MaskOf<F> lanes, IntOf<F> slot,
+                                  SpecularQueue<F>& waiting, auto& recorder, const auto& light_of) {
   Vec3<F> carried = p.throughput * e.colour;
   if constexpr (SpecularQueue<F>::waits) carried = weighed(s, p, carried);
-  return {e.point,   select(e.medium, p.ray.direction, e.incident.facing),
-          carried,   p.ray.time,
-          e.g,       e.from,
-          p.depth,   slot,
-          p.sampler, e.medium};
+  const Vec3<F> facing = select(e.medium, p.ray.direction, e.incident.facing);
+  SpecularRequest<F> request{e.point, facing, carried, p.ray.time, e.g, e.from, p.depth, slot, p.sampler, e.medium};
+  if constexpr (SpecularQueue<F>::waits) {
+    append_lanes<F>(s, request, lanes, waiting);
+  } else if (any(lanes)) {
+    const Vec3<F> light = light_of(request);
+    recorder.on_specular_path_light(light);
+    p.radiance = p.radiance + light;
+  }
 }
 
-/// Requests specular paths, at random, from events at diffuse surfaces and in media. With one lane the answer is added
-/// to the path's radiance at once. slot: where the light is to be added.
+/// Requests specular paths, at random, from events at diffuse surfaces and in media; see request_light().
 template <class F>
 TYNDALL_INLINE void request_specular_paths(const auto& s, Paths<F>& p, Event<F>& e, MaskOf<F> scattering, IntOf<F> slot,
                                            SpecularQueue<F>& waiting, auto& recorder, std::uint32_t& shadow_rays) {
@@ -43,17 +48,11 @@ TYNDALL_INLINE void request_specular_paths(const auto& s, Paths<F>& p, Event<F>&
   if (any(spreads)) e.connect_probability = connect_probability(s, e.point);
   const auto drawn = less(p.sampler.independent_1d(dimension::specular_connect), e.connect_probability);
   const auto receiver = mask_and(mask_and(scattering, drawn), spreads);
-  SpecularRequest<F> request = request_of(s, p, e, slot);
-  if constexpr (SpecularQueue<F>::waits) {
-    append_lanes<F>(s, request, receiver, waiting);
-  } else if (any(receiver)) {
-    const Vec3<F> light = specular_light(shared_view(s), request, receiver, shadow_rays);
-    recorder.on_specular_path_light(light);
-    p.radiance = p.radiance + light;
-  }
+  request_light(s, p, e, receiver, slot, waiting, recorder,
+                [&](const SpecularRequest<F>& q) { return specular_light(shared_view(s), q, receiver, shadow_rays); });
 }
 
-/// Requests guided light, at random, from events at diffuse surfaces; see request_specular_paths().
+/// Requests guided light, at random, from events at diffuse surfaces; see request_light().
 template <class F>
 TYNDALL_INLINE void request_guided_light(const auto& s, Paths<F>& p, const Event<F>& e, MaskOf<F> scattering,
                                          IntOf<F> slot, WaitingRequests<F>& waiting, auto& recorder,
@@ -62,14 +61,9 @@ TYNDALL_INLINE void request_guided_light(const auto& s, Paths<F>& p, const Event
   if (!any(diffuse)) return;
   const F probability = guided_query_probability<F>(s, e.point, diffuse);
   const auto drawn = mask_and(diffuse, less(p.sampler.independent_1d(dimension::guided_query), probability));
-  SpecularRequest<F> request = request_of(s, p, e, slot);
-  if constexpr (SpecularQueue<F>::waits) {
-    append_lanes<F>(s, request, drawn, waiting.guided);
-  } else if (any(drawn)) {
-    const Vec3<F> light = guided_light(s, request, drawn, waiting.guided_rays, shadow_rays);
-    recorder.on_specular_path_light(light);
-    p.radiance = p.radiance + light;
-  }
+  request_light(s, p, e, drawn, slot, waiting.guided, recorder, [&](const SpecularRequest<F>& q) {
+    return guided_light(s, q, drawn, waiting.guided_rays, shadow_rays);
+  });
 }
 
 /// Answers the first requests of a queue, as many as there are lanes, and removes them. light_of(request, lanes, rays,
@@ -96,16 +90,6 @@ TYNDALL_INLINE void answer_queue(const auto& s, SpecularQueue<F>& waiting, TileC
   for (auto& column : waiting.integer) store(column, load_int<F>(column + lanes));
 }
 
-/// Answers requests for the light of specular paths.
-template <class F>
-TYNDALL_INLINE void answer_requests(const auto& s, SpecularQueue<F>& waiting, TileCounts& counts, const auto& add) {
-  const auto light_of = [&](const SpecularRequest<F>& q, MaskOf<F> lanes, std::uint32_t&, std::uint32_t& shadow_rays)
-      __attribute__((always_inline)) {
-    return specular_light(shared_view(s), q, lanes, shadow_rays);
-  };
-  answer_queue(s, waiting, counts, light_of, add);
-}
-
 /// Answers the queues that fill all lanes. rest: those that do not, too.
 template <class F>
 TYNDALL_INLINE void answer_full_queues(const auto& s, WaitingRequests<F>& waiting, bool rest, TileCounts& counts,
@@ -113,13 +97,16 @@ TYNDALL_INLINE void answer_full_queues(const auto& s, WaitingRequests<F>& waitin
   const auto is_due = [rest](const SpecularQueue<F>& queue) __attribute__((always_inline)) {
     return queue.count >= lanes_of<F> || (rest && queue.count > 0);
   };
-  if (s.has_specular_paths() && is_due(waiting.specular)) answer_requests(s, waiting.specular, counts, add);
-  if (!s.has_guide() || !is_due(waiting.guided)) return;
-  const auto light_of = [&](const SpecularRequest<F>& q, MaskOf<F> lanes, std::uint32_t& rays,
-                            std::uint32_t& shadow_rays) __attribute__((always_inline)) {
+  const auto specular = [&](const SpecularRequest<F>& q, MaskOf<F> lanes, std::uint32_t&, std::uint32_t& shadow_rays)
+      __attribute__((always_inline)) {
+    return specular_light(shared_view(s), q, lanes, shadow_rays);
+  };
+  if (s.has_specular_paths() && is_due(waiting.specular)) answer_queue(s, waiting.specular, counts, specular, add);
+  const auto guided = [&](const SpecularRequest<F>& q, MaskOf<F> lanes, std::uint32_t& rays, std::uint32_t& shadow_rays)
+      __attribute__((always_inline)) {
     return guided_light(s, q, lanes, rays, shadow_rays);
   };
-  answer_queue(s, waiting.guided, counts, light_of, add);
+  if (s.has_guide() && is_due(waiting.guided)) answer_queue(s, waiting.guided, counts, guided, add);
 }
 
 }  // namespace tyndall

@@ -15,7 +15,7 @@ const Quad<> wall{{-6, 0, -4}, {12, 0, 0}, {0, 8, 0}};
 void check_floor(const std::string& name, Vec3d point, double less_noise, auto change) {
   Scene scene = lit_floor(0.3, hanging, 20);
   change(scene);
-  REQUIRE(compile(scene).specular.mirrors.size() > 0);
+  REQUIRE(compile(scene).specular.flats.size() > 0);
   check_point_of_floor(name, scene, point, less_noise);
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("specular paths: in a white furnace flat mirrors are invisible") {
   Scene scene = furnace_with_floor();
   add(scene, Box<>{{-2, 0.5, -1}, {-1, 1.5, 0}}, metal(1, 0), {RotateY{20}});
   add(scene, Quad<>{{-1, 0, 1}, {2.5, 0, 0}, {0, 2, 0.2}}, metal(1, 0));
-  CHECK(compile(scene).specular.mirrors.size() > 1);
+  CHECK(compile(scene).specular.flats.size() > 1);
   check_invisible(scene);
 }
 
@@ -109,7 +109,7 @@ TEST_CASE("specular paths: flat mirrors that another surface covers, even in par
     Scene scene = lit_floor(0.1, {0, 4, 0}, 1);
     add(scene, Quad<>{{-3, 0, -4}, {6, 0, 0}, {0, 4, 0}}, metal(0.8, 0));  // it stands on the floor
     change(scene);
-    return compile(scene).specular.mirrors.size();
+    return compile(scene).specular.flats.size();
   };
   const auto picture = [](double z) { return Quad<>{{-1, 1, z}, {1, 0, 0}, {0, 1, 0}}; };
   CHECK(mirrors([](Scene&) {}) == 1);
@@ -124,7 +124,7 @@ TEST_CASE("specular paths: flat mirrors that another surface covers, even in par
 }
 
 TEST_CASE("specular paths: no sample of a scene with flat mirrors is rejected, and tiles do not matter") {
-  CHECK(check_built_in("stress-mirror-wall").specular.mirrors.size() > 0);
+  CHECK(check_built_in("stress-mirror-wall").specular.flats.size() > 0);
 }
 
 }  // namespace tyndall::test::specular_mirrors_test

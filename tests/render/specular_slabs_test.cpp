@@ -20,7 +20,7 @@ Scene floor_with(double light_radius, auto change) {
 
 void check_floor(const std::string& name, Vec3d point, double less_noise, auto change) {
   Scene scene = floor_with(0.3, change);
-  REQUIRE(compile(scene).specular.slabs.size() > 0);
+  REQUIRE(compile(scene).specular.flats.size() > 0);
   check_point_of_floor(name, scene, point, less_noise);
 }
 
@@ -77,7 +77,7 @@ TEST_CASE("specular paths: in a white furnace slabs are invisible") {
   Scene scene = furnace_with_floor();
   add(scene, Box<>{{-2, 0.5, -1}, {-1, 1.5, 0}}, glass(1.5), {RotateY{20}});
   add(scene, Box<>{{-1, 0, 1}, {1.5, 2, 1.2}}, glass(1.7));
-  CHECK(compile(scene).specular.slabs.size() == 2);
+  CHECK(compile(scene).specular.flats.size() == 2);
   // Light that the floor scatters nearly level into the second slab, which stands on it, is kept in there for long: of
   // two million paths three have more than the usual 1000 events, none more than 4000.
   scene.render.max_depth = 10000;
@@ -86,7 +86,7 @@ TEST_CASE("specular paths: in a white furnace slabs are invisible") {
 
 TEST_CASE("specular paths: which slabs take part") {
   const auto slabs = [](double light_radius, auto change) {
-    return compile(floor_with(light_radius, change)).specular.slabs.size();
+    return compile(floor_with(light_radius, change)).specular.flats.size();
   };
   const auto with = [&](auto more) { return slabs(0.1, [&](Scene& s) { add(s, upright, glass(1.5)), more(s); }); };
   CHECK(with([](Scene&) {}) == 1);
@@ -114,8 +114,8 @@ TEST_CASE("specular paths: which slabs take part") {
 TEST_CASE("specular paths: faces of a slab that something touches are closed, and no others") {
   const auto closed = [](auto change) {
     const RenderScene compiled = compile(floor_with(0.1, change));
-    REQUIRE(compiled.specular.slabs.size() == 1);
-    return compiled.specular.slabs[0].closed;
+    REQUIRE(compiled.specular.flats.size() == 1);
+    return compiled.specular.flats[0].closed;
   };
   CHECK(closed([](Scene& s) { add(s, upright, glass(1.5)); }) == 0);
   CHECK(closed([](Scene& s) { add(s, Box<>{{-2, 0, -1.1}, {3, 3, -0.9}}, glass(1.5)); }) == 1 << 2);  // the floor
@@ -130,7 +130,7 @@ TEST_CASE("specular paths: faces of a slab that something touches are closed, an
 }
 
 TEST_CASE("specular paths: no sample of a scene with a slab is rejected, and tiles do not matter") {
-  CHECK(check_built_in("stress-pane").specular.slabs.size() == 1);
+  CHECK(check_built_in("stress-pane").specular.flats.size() == 1);
 }
 
 }  // namespace tyndall::test::specular_slabs_test

@@ -14,7 +14,7 @@ constexpr int upper(int edge) { return 2 << 2 * edge; }
 
 /// The faces without which a way is open: those whose closing closes it. The near point is above the pane if `above`.
 int faces_met(bool above, int across, double crossings, double first, double second) {
-  SpecularSlab<double> slab{};
+  SpecularFlat<double> slab{};
   SlabFrame<double> frame{};
   frame.near.height = above ? 3 : -3;
   const SlabSequence<double> sequence{across, crossings, {first, second}};

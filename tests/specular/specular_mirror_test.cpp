@@ -40,8 +40,8 @@ TEST_CASE(
   const SpecularPairs& specular = scene.view.view().specular;
   REQUIRE(specular.spheres() == 1);
   REQUIRE(specular.first_mirror == 0);
-  const SpecularMirror<double> m = load_mirror<double>(specular, 0);
-  const SpecularMirror<float> in_floats = load_mirror<float>(specular, 0);
+  const SpecularFlat<double> m = load_flat<double>(specular, 0);
+  const SpecularFlat<float> in_floats = load_flat<float>(specular, 0);
   const Vec3d normal = normalize(cross(scene.u, scene.v)), edge = cross(scene.v, normal),
               other = cross(normal, scene.u);
   Engine engine(3);
@@ -49,7 +49,7 @@ TEST_CASE(
   for (int i = 0; i < 4000; ++i) {
     const Vec3d near = scene.middle() + in_cube(engine, 4), far = scene.middle() + in_cube(engine, 4);
     const double below = dot(near - scene.middle(), normal), above = dot(far - scene.middle(), normal);
-    const MirrorPath<double> path = mirror_path(m, near, far);
+    const SpecularPath<double> path = mirror_path(m, near, far);
     if (below * above <= 0) {
       CHECK_FALSE(path.found);
       ++apart;
@@ -59,12 +59,12 @@ TEST_CASE(
     CHECK(std::abs(dot(from_middle, normal)) < 1e-5);
     CHECK(length(path.arrive - reflect(path.direction, normal)) < 1e-6);
     CHECK(length(at + path.far_distance * path.arrive - far) < 1e-5);
-    CHECK(path.behind == (below < 0));
+    CHECK(path.from == 4 * path.wall + (below < 0 ? 1 : 0));
     const double a = std::abs(dot(from_middle, edge) / dot(scene.u, edge));
     const double b = std::abs(dot(from_middle, other) / dot(scene.v, other));
     if (std::abs(a - 1) > 1e-4 && std::abs(b - 1) > 1e-4) CHECK(path.found == (a < 1 && b < 1));
     found += path.found ? 1 : 0;
-    const MirrorPath<float> rough = mirror_path(in_floats, rounded(near), rounded(far));
+    const SpecularPath<float> rough = mirror_path(in_floats, rounded(near), rounded(far));
     CHECK(length(exact(rough.direction) - path.direction) < 1e-4);
     CHECK(static_cast<double>(rough.spread) == doctest::Approx(path.spread).epsilon(1e-5).scale(0));
   }
@@ -74,10 +74,10 @@ TEST_CASE(
 
 TEST_CASE("specular paths: the area that a small solid angle off a flat mirror fills") {
   const MirrorScene scene;
-  const SpecularMirror<double> m = load_mirror<double>(scene.view.view().specular, 0);
+  const SpecularFlat<double> m = load_flat<double>(scene.view.view().specular, 0);
   const Vec3d normal = normalize(cross(scene.u, scene.v)), near = scene.middle() + Vec3d{0.4, 0.2, 2};
   const Vec3d far = scene.middle() + Vec3d{-0.5, 1, 1.2};
-  const MirrorPath<double> path = mirror_path(m, near, far);
+  const SpecularPath<double> path = mirror_path(m, near, far);
   REQUIRE(path.found);
   const auto arrival = [&](Vec3d direction) {  // on the plane through the far end, across the way
     const Vec3d d = normalize(direction), at = near + (dot(scene.middle() - near, normal) / dot(d, normal)) * d;
@@ -97,7 +97,7 @@ TEST_CASE(
     "specular paths: a mirror counts as much as its image of the light where that is seen, and little elsewhere") {
   const MirrorScene scene;
   const SpecularPairs& specular = scene.view.view().specular;
-  const SpecularMirror<double> m = load_mirror<double>(specular, 0);
+  const SpecularFlat<double> m = load_flat<double>(specular, 0);
   const Vec3d lamp = exact(specular.choice.center[0]);
   const double power = static_cast<double>(specular.choice.power[0]);
   Engine engine(7);

@@ -20,7 +20,7 @@ struct SlabScene {
   Vec3d half;
   RenderScene compiled;
   SceneViewOf view;
-  SpecularSlab<double> slab;
+  SpecularFlat<double> slab;
 
   static RenderScene make(Vec3d half, Vec3d light_at, double light_radius) {
     Scene scene = dark_room();
@@ -33,7 +33,7 @@ struct SlabScene {
   explicit SlabScene(Vec3d half_size, Vec3d light_at = {1, 4, 3}, double light_radius = 0.01)
       : half(half_size), compiled(make(half, light_at, light_radius)), view(compiled) {
     REQUIRE(view.view().specular.has_slabs());
-    slab = load_slab<double>(view.view().specular, 0);
+    slab = load_flat<double>(view.view().specular, 0);
   }
   Vec3d middle() const { return Vec3d{0.3, 0.2, 0.1} - compiled.origin; }
   double along_edge(int edge, Vec3d direction) const { return dot(slab.row[edge], direction); }
@@ -115,7 +115,7 @@ TEST_CASE("specular paths: a ray that starts along the one through a slab arrive
       const SlabFrame<double> frame = slab_frame(scene.slab, near, far, across);
       if (frame.near_gap < 0.02 || frame.far_gap < 0.02) continue;
       const SlabSequence<double> sequence = random_sequence(engine, across, frame.same);
-      const SlabPath<double> path = slab_path(scene.slab, frame, sequence);
+      const SpecularPath<double> path = slab_path(scene.slab, frame, sequence);
       int met[3];
       const std::optional<Traced> end =
           trace(scene, framed_ray(scene, near, path.direction), across, static_cast<int>(sequence.crossings), met);
@@ -148,15 +148,15 @@ TEST_CASE("specular paths: a ray that starts along the one through a slab arrive
 
 TEST_CASE("specular paths: floats find the same ones through slabs as doubles, at grazing angles, too") {
   const SlabScene scene({2, 1.5, 0.1});
-  const SpecularSlab<float> in_floats = load_slab<float>(scene.view.view().specular, 0);
+  const SpecularFlat<float> in_floats = load_flat<float>(scene.view.view().specular, 0);
   Engine engine(6);
   int found = 0;
   for (int i = 0; i < 20000; ++i) {
     const Vec3d near = scene.middle() + in_cube(engine, 2.5), far = scene.middle() + in_cube(engine, 2.5);
     const SlabFrame<double> frame = slab_frame(scene.slab, near, far, 2);
     if (frame.near_gap < 0.002 || frame.far_gap < 0.002 || frame.same) continue;
-    const SlabPath<double> in_doubles = slab_path(scene.slab, frame, {2, 3, {0, 0}});
-    const SlabPath<float> path =
+    const SpecularPath<double> in_doubles = slab_path(scene.slab, frame, {2, 3, {0, 0}});
+    const SpecularPath<float> path =
         slab_path(in_floats, slab_frame(in_floats, rounded(near), rounded(far), 2), {2, 3, {0, 0}});
     if (!in_doubles.found || !path.found) continue;
     ++found;
@@ -176,7 +176,7 @@ TEST_CASE("specular paths: the area that a small solid angle fills through a sla
     const SlabFrame<double> frame = slab_frame(scene.slab, near, far, 2);
     if (frame.near_gap < 0.02 || frame.far_gap < 0.02) continue;
     const SlabSequence<double> sequence = random_sequence(engine, 2, frame.same);
-    const SlabPath<double> path = slab_path(scene.slab, frame, sequence);
+    const SpecularPath<double> path = slab_path(scene.slab, frame, sequence);
     if (!path.found) continue;
     const auto arrival = [&](Vec3d direction) -> std::optional<Vec3d> {  // on the plane across the way at its far end
       int met[3];
@@ -243,9 +243,9 @@ TEST_CASE("specular paths: through a slab a light sees the shading point within 
     const SlabFrame<double> frame = slab_frame(scene.slab, near, far, across);
     if (frame.near_gap < 0.01 || frame.far_gap < 0.01) continue;
     const SlabSequence<double> sequence = random_sequence(engine, across, frame.same);
-    const SlabPath<double> path = slab_path(scene.slab, frame, sequence);
+    const SpecularPath<double> path = slab_path(scene.slab, frame, sequence);
     if (!path.found) continue;
-    const SpecularSphere<double> seen = seen_by_slab(scene.slab, frame, sequence);
+    const BoundingSphere<double> seen = seen_by_slab(scene.slab, frame, sequence);
     const Vec3d to = seen.center - far;
     const double beside = length(to + dot(to, -path.arrive) * path.arrive);
     CHECK(beside <= seen.radius + 1e-5);

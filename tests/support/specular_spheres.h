@@ -17,7 +17,7 @@ SpecularSphere<F> sphere_of(double index, double inner_radius) {
 }
 
 template <class F>
-SpecularDeflection<F> deflection_between(const SpecularSphere<F>& b, const EventSequence<F>& sequence, F near, F far,
+Deflection<F> deflection_between(const SpecularSphere<F>& b, const EventSequence<F>& sequence, F near, F far,
                                          EndSigns<F> sign = {F(1), F(1)}) {
   SpecularPairs view{};
   view.shells = b.hollow;
