@@ -99,14 +99,6 @@ bool crosses(const Slab& slab, const RoundBody& body, double slack) {
   return false;
 }
 
-/// Whether no sphere reaches into the slab.
-bool spheres_keep_out(const Flattened& flat, const Slab& slab, double slack) {
-  return std::none_of(flat.shapes.begin(), flat.shapes.end(), [&](const PlacedShape& shape) {
-    const auto* sphere = std::get_if<Sphere<>>(&shape.shape);
-    return sphere && crosses(slab, round_body(*sphere, shape.placement), slack);
-  });
-}
-
 /// Whether no flat reaches into the slab. Marks the faces that a flat touches as closed.
 bool flats_keep_out(const std::vector<Flat>& flats, Slab& slab, double slack) {
   const double radius = length(Vec3d{slab.half[0], slab.half[1], slab.half[2]}) + slack;
@@ -147,7 +139,12 @@ bool is_even(const PlacedVolume& volume, Slab& slab, double slack) {
 bool look_around(const Flattened& flat, const std::vector<Flat>& flats, Slab& slab) {
   const double longest = std::max({slab.half[0], slab.half[1], slab.half[2]}), slack = contact * longest;
   if (std::min({slab.half[0], slab.half[1], slab.half[2]}) < 100 * slack) return false;
-  if (!spheres_keep_out(flat, slab, slack) || !flats_keep_out(flats, slab, slack)) return false;
+  const auto reaches_in = [&](const PlacedShape& shape) {
+    const auto* sphere = std::get_if<Sphere<>>(&shape.shape);
+    return sphere && crosses(slab, round_body(*sphere, shape.placement), slack);
+  };
+  if (std::any_of(flat.shapes.begin(), flat.shapes.end(), reaches_in)) return false;
+  if (!flats_keep_out(flats, slab, slack)) return false;
   return std::all_of(flat.volumes.begin(), flat.volumes.end(),
                      [&](const PlacedVolume& volume) { return is_even(volume, slab, slack); });
 }

@@ -84,16 +84,6 @@ std::vector<SphereOrShell> join_shells(const std::vector<SmoothSphere>& spheres)
   return list;
 }
 
-std::vector<SpecularObject> list_objects(const Flattened& flat, const Scene& scene) {
-  const std::vector<Flat> flats = list_flats(flat);
-  std::vector<SpecularObject> list;
-  const auto append = [&](const auto& objects) { list.insert(list.end(), objects.begin(), objects.end()); };
-  append(join_shells(list_spheres(flat, scene)));
-  append(list_flat_mirrors(flat, flats, scene));
-  append(list_slabs(flat, flats, scene));
-  return list;
-}
-
 struct SpecularPair {
   std::size_t object;
   int light;  // -1: the sun
@@ -113,30 +103,23 @@ double worth_of(const SphereOrShell& object, const LightBounds& light) {
   return light.power * fraction * fraction;
 }
 
-/// The irradiance by the sun of the sky's picture; 0 if it has none.
-double irradiance_of_sun(const SkyColumns& sky) {
-  if (!sky.is_sampled() || sky.distribution.sun.tangent == 0) return 0;
-  return sky.distribution.sun.irradiance * static_cast<double>(sky.scale);
-}
-
 std::vector<SpecularPair> list_pairs(const Flattened& flat, const Scene& scene,
                                      const std::vector<SpecularObject>& objects, const RenderScene& compiled) {
-  const auto is_mirror = [](const SpecularObject& object) { return std::holds_alternative<FlatMirror>(object); };
-  std::vector<Receiver> receivers;
-  if (std::any_of(objects.begin(), objects.end(), is_mirror)) receivers = list_receivers(flat, scene);
-  const double sun = irradiance_of_sun(compiled.sky);
+  const SkyColumns& sky = compiled.sky;
+  const bool has_sun = sky.is_sampled() && sky.distribution.sun.tangent != 0;
+  const double sun = has_sun ? sky.distribution.sun.irradiance * static_cast<double>(sky.scale) : 0;  // irradiance
+  std::vector<Receiver> receivers;  // listed only if there are mirrors
   std::vector<SpecularPair> pairs;
   for (std::size_t i = 0; i < objects.size(); ++i) {
+    const auto* mirror = std::get_if<FlatMirror>(&objects[i]);
+    if (mirror && receivers.empty()) receivers = list_receivers(flat, scene);
     for (int k = 0; k < compiled.lights.count(); ++k) {
       const LightBounds light = light_bounds(compiled, static_cast<std::size_t>(k));
       const double worth = std::visit([&](const auto& object) { return worth_of(object, light); }, objects[i]);
-      const auto* mirror = std::get_if<FlatMirror>(&objects[i]);
       if (worth > 0 && (!mirror || may_light(*mirror, light, receivers))) pairs.push_back({i, k, worth});
     }
     const auto* sphere = std::get_if<SphereOrShell>(&objects[i]);
-    if (!sphere || sun <= 0) continue;
-    const double radius = sphere->outer.body.radius;
-    pairs.push_back({i, -1, sun * radius * radius});
+    if (sphere && sun > 0) pairs.push_back({i, -1, sun * sphere->outer.body.radius * sphere->outer.body.radius});
   }
   if (pairs.size() > max_pairs) {
     std::stable_sort(pairs.begin(), pairs.end(),
@@ -229,7 +212,12 @@ struct Filler {
 
 SpecularPairs find_specular_pairs(const Flattened& flat, const Scene& scene, const RenderScene& compiled) {
   if (!needs_trait<&BsdfTraits::diffuse>(compiled.features) && !compiled.features.media) return {};
-  const std::vector<SpecularObject> objects = list_objects(flat, scene);
+  const std::vector<Flat> flats = list_flats(flat);
+  std::vector<SpecularObject> objects;
+  const auto append = [&](const auto& list) { objects.insert(objects.end(), list.begin(), list.end()); };
+  append(join_shells(list_spheres(flat, scene)));
+  append(list_flat_mirrors(flat, flats, scene));
+  append(list_slabs(flat, flats, scene));
   std::vector<SpecularPair> pairs = list_pairs(flat, scene, objects, compiled);
   if (pairs.empty()) return {};
   weigh_by_visibility(flat, objects, compiled, pairs);

@@ -64,16 +64,6 @@ TYNDALL_INLINE SpecularQuery<F> specular_query(const auto& s, const SpecularRequ
   return a;
 }
 
-/// Draws a point of the light into `a`, and updates the plane and the ends of the path.
-template <class F>
-TYNDALL_INLINE void aim_at_light(const auto& s, Vec3<F> point, F time, Pair<F> u, SpecularQuery<F>& a) {
-  const IntOf<F> light = s.has_sun_paths() ? select(is_sky<F>(a.light), IntOf<F>(0), a.light) : a.light;
-  a.at = sample_light_point(s, light, a.light_columns, a.seen, a.receiver, time, u);
-  if (!s.specular.has_spheres()) return;
-  a.plane = plane_of(a.sphere, point, a.at.point);
-  a.ends = ends_of(a.sphere, a.plane.near, a.plane.far);
-}
-
 /// The path by a sphere that was solved for.
 template <class F>
 TYNDALL_INLINE SpecularPath<F> sphere_path(const SpecularQuery<F>& a, const EventSequence<F>& sequence,
@@ -104,20 +94,6 @@ TYNDALL_INLINE SpecularPath<F> sphere_path(const SpecularQuery<F>& a, const Even
   return r;
 }
 
-/// Factor on the light's radiance if nothing blocks the path. It includes the weight of the power heuristic.
-template <class F>
-TYNDALL_INLINE F weight_of(const auto& s, const SpecularRequest<F>& q, const SpecularQuery<F>& a,
-                           const SpecularPath<F>& path) {
-  const F cosine = light_cosine(a.light_columns, a.at.normal, path.arrive);
-  const F scattered = scattered_pdf(s, q, path.direction) * path.throughput;
-  const auto useful = mask_and(mask_and(path.found, less(F(0.0f), cosine)), less(F(0.0f), scattered));
-  const F pdf = path.spread * a.at.pdf * (a.probability * path.queries);
-  const F ratio = scattered / max(pdf, F(1e-37f));
-  // The weight is 0 at a caustic's edge, where the pdf is 0.
-  const F weight = path.count / (ratio + F(1.0f) / max(ratio, F(1e-37f)));
-  return select(mask_and(useful, less(weight, F(1e30f))), weight, F(0.0f));
-}
-
 /// One specular path per lane, drawn from all that were found in proportion to their weights. (J. Talbot, D. Cline, P.
 /// Egbert, Importance Resampling for Global Illumination, Eurographics Symposium on Rendering 2005)
 template <class F>
@@ -129,27 +105,47 @@ struct SampledPath {
   InsidePath<F> inside{};  ///< likewise
 };
 
-/// Offers a path with the weight of weight_of(). Returns which lanes take it.
+/// Offers a path. Its weight is a factor on the light's radiance if nothing blocks the path, and includes that of the
+/// power heuristic. Returns which lanes take the path.
 template <class F>
 TYNDALL_INLINE MaskOf<F> offer_path(const auto& s, const SpecularRequest<F>& q, const SpecularQuery<F>& a,
                                     const SpecularPath<F>& path, SampledPath<F>& taken) {
-  using P = SpecularPath<F>;
-  const auto takes = taken.reservoir.offer(weight_of(s, q, a, path));
+  const F cosine = light_cosine(a.light_columns, a.at.normal, path.arrive);
+  const F scattered = scattered_pdf(s, q, path.direction) * path.throughput;
+  const auto useful = mask_and(mask_and(path.found, less(F(0.0f), cosine)), less(F(0.0f), scattered));
+  const F pdf = path.spread * a.at.pdf * (a.probability * path.queries);
+  const F ratio = scattered / max(pdf, F(1e-37f));
+  // The weight is 0 at a caustic's edge, where the pdf is 0.
+  const F weight = path.count / (ratio + F(1.0f) / max(ratio, F(1e-37f)));
+  const auto counts = mask_and(useful, less(weight, F(1e30f)));
+  const auto takes = taken.reservoir.offer(select(counts, weight, F(0.0f)));
   if (!any(takes)) return takes;
+  using P = SpecularPath<F>;
   put<F>(takes, path, taken.path, &P::direction, &P::arrive, &P::near_distance, &P::far_distance, &P::wall, &P::from,
          &P::optical_depth);
   taken.light_point = select(takes, a.at.point, taken.light_point);
   return takes;
 }
 
-/// Stores the part inside the sphere of a path that was taken, for overlapped spheres.
+/// Stores the part inside the sphere of a path that was taken, for overlapped spheres. It is measured from the end
+/// inside the sphere, from the far end if both are, or from the near end if both are outside.
 template <class F>
 TYNDALL_INLINE void keep_inside(const SpecularQuery<F>& a, const SolvedPath<F>& c, const EventSequence<F>& sequence,
                                 MaskOf<F> lanes, SampledPath<F>& taken) {
+  const SpecularSphere<F>& b = a.sphere;
+  const F p = c.root.p, sense = c.root.sense;
+  const auto from_far = mask_and_not(less(a.plane.far, b.radius), a.ends.both_out);
+  const F reach = select(from_far, a.ends.far_reach, a.ends.near_reach);
+  const F within = select(a.ends.deep, b.inner_index * b.inner_radius, b.index * b.radius);
+  const F outside = deflection_above(p, reach) - deflection_above(p, b.radius);
+  const F inside =
+      mul_add(select(from_far, c.sign.far, c.sign.near), deflection_above(p, reach), deflection_above(p, within));
   using I = InsidePath<F>;
   using E = PathEnds<F>;
-  const I inside = inside_path(a.sphere, a.plane, a.ends, c.sign.near, c.sign.far, c.root.sense, c.root.p, sequence);
-  put<F>(lanes, inside, taken.inside, &I::out, &I::side, &I::p, &I::angle, &I::main);
+  const I path{select(from_far, a.plane.far_out, a.plane.near_out),
+               select(from_far, -sense * a.plane.far_side, sense * a.plane.near_side), p,
+               select(a.ends.both_out, outside, inside), same_sequence(sequence, main_sequence(b, a.ends))};
+  put<F>(lanes, path, taken.inside, &I::out, &I::side, &I::p, &I::angle, &I::main);
   put<F>(lanes, a.ends, taken.ends, &E::both_out, &E::deep, &E::valid, &E::both_in, &E::near_in_glass);
 }
 
@@ -229,7 +225,12 @@ TYNDALL_INLINE SampledPath<F> sample_specular_path(const auto& s, const Specular
     const auto here = i == 0 ? by_sphere : i == 1 ? twice : another;
     if (i > 0 && !any(here)) continue;
     const F shift = F(i == 0 ? 0.0f : 0.5f), x = u.x + shift, y = u.y + shift;
-    aim_at_light(s, q.point, q.time, {x - floor(x), y - floor(y)}, a);
+    const IntOf<F> light = s.has_sun_paths() ? select(is_sky<F>(a.light), IntOf<F>(0), a.light) : a.light;
+    a.at = sample_light_point(s, light, a.light_columns, a.seen, a.receiver, q.time, {x - floor(x), y - floor(y)});
+    if (s.specular.has_spheres()) {
+      a.plane = plane_of(a.sphere, q.point, a.at.point);
+      a.ends = ends_of(a.sphere, a.plane.near, a.plane.far);
+    }
     if (i == 0) offer_flat(s, q, a, lanes, events_left, taken);
     if (!any(here)) break;
     const auto valid = mask_and(mask_and(here, a.ends.valid), less(F(1e-7f), a.plane.sine));

@@ -222,22 +222,6 @@ TYNDALL_INLINE F deflection_above(F p, F reach) {
   return acos(sine);
 }
 
-/// The path through the sphere, measured from the end inside the sphere, from the far end if both are, or from the near
-/// end if both are outside.
-/// near_sign, far_sign: see EndSigns. sense: see DeflectionRoot.
-template <class F>
-TYNDALL_INLINE InsidePath<F> inside_path(const SpecularSphere<F>& b, const PathPlane<F>& plane, const PathEnds<F>& e,
-                                         F near_sign, F far_sign, F sense, F p, const EventSequence<F>& sequence) {
-  const auto from_far = mask_and_not(less(plane.far, b.radius), e.both_out);
-  const F reach = select(from_far, e.far_reach, e.near_reach), sign = select(from_far, far_sign, near_sign);
-  const F within = select(e.deep, b.inner_index * b.inner_radius, b.index * b.radius);
-  const F outside = deflection_above(p, reach) - deflection_above(p, b.radius);
-  const F inside = mul_add(sign, deflection_above(p, reach), deflection_above(p, within));
-  return {select(from_far, plane.far_out, plane.near_out),
-          select(from_far, -sense * plane.far_side, sense * plane.near_side), p, select(e.both_out, outside, inside),
-          same_sequence(sequence, main_sequence(b, e))};
-}
-
 /// The point of the path at `angle`, at distance `radius` from the sphere's centre.
 template <class F>
 TYNDALL_INLINE Vec3<F> point_inside(const SpecularSphere<F>& b, const InsidePath<F>& path, F angle, F radius) {
