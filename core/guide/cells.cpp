@@ -1,11 +1,8 @@
 #include "core/guide/cells.h"
 
-#include "core/guide/bins.h"
-#include "core/guide/lobes.h"
+#include "core/compile/columns.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <utility>
 
@@ -23,7 +20,11 @@ constexpr double eagerness = 0.5;          // queries over the fraction of light
 constexpr double min_query_probability = 0.05;
 constexpr double near_offset = 0.05;  // squared distance, in cells, at which errors are about those of the lobe itself
 
-constexpr std::int32_t steps[7][3] = {{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+constexpr CellCoordinates steps[] = {{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+
+CellCoordinates operator+(const CellCoordinates& cell, const CellCoordinates& step) {
+  return {cell.x + step.x, cell.y + step.y, cell.z + step.z};
+}
 
 /// The landings around a cell after the same events.
 struct Sequence {
@@ -83,9 +84,8 @@ Landing along_axes(Landing l) {
 
 class CellMaker {
  public:
-  CellMaker(const SceneView& scene, const LightPaths& paths, Guide& guide)
-      : scene_(scene), paths_(paths), landings_(paths.landings()), guide_(guide) {
-    set_sizes(middle_size(landings_), guide_.inverse_size);
+  CellMaker(const LightPaths& paths, Guide& guide) : paths_(paths), landings_(paths.landings), guide_(guide) {
+    set_sizes(landings_, guide_.inverse_size);
     sizes_ = guide_.view();
     for (int level = 0; level < guide_levels; ++level) bins_[level].fill(sizes_, landings_, level);
     std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> known;
@@ -106,7 +106,7 @@ class CellMaker {
  private:
   struct Cell {
     std::uint64_t key;
-    Coordinates at;
+    CellCoordinates at;
     std::int32_t first = 0, end = 0, refined = 0;
     double query_probability = 0;
   };
@@ -121,14 +121,14 @@ class CellMaker {
     std::vector<Cell>& cells = cells_[level];
     for (const Bins::Bin& bin : bins_[level].bins)
       if (has_cells(level, bin))
-        for (const auto& step : steps) cells.push_back({bin.at.stepped(step).key(), bin.at.stepped(step)});
+        for (const CellCoordinates& step : steps) cells.push_back({key_of(bin.at + step), bin.at + step});
     std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.key < b.key; });
     cells.erase(std::unique(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.key == b.key; }),
                 cells.end());
     for (Cell& cell : cells) make_cell(level, cell);
   }
 
-  Vec3d middle_of(int level, const Coordinates& at) const {
+  Vec3d middle_of(int level, const CellCoordinates& at) const {
     const auto middle = [&](std::int32_t v) { return (static_cast<double>(v) + 0.5 - 0.37) * size(level); };
     return {middle(at.x), middle(at.y), middle(at.z)};
   }
@@ -141,9 +141,9 @@ class CellMaker {
     for (int coarser = level; coarser < guide_levels; ++coarser, factor *= coarse_factor) {
       const std::size_t known = count_;
       if (known >= max_sequences_in_cell) break;
-      const Coordinates home = coordinates_of(sizes_, middle, coarser);
-      for (const auto& step : steps)
-        if (const Bins::Bin* bin = bins_[coarser].find(home.stepped(step)))
+      const CellCoordinates home = cell_at<float>(sizes_, to_float(middle), coarser);
+      for (const CellCoordinates& step : steps)
+        if (const Bins::Bin* bin = find_key(bins_[coarser].bins, key_of(home + step)))
           add_landings(coarser, *bin, &step == &steps[0], known, factor);
     }
   }
@@ -194,9 +194,9 @@ class CellMaker {
     cell.first = static_cast<std::int32_t>(guide_.events.size() / numbers_of_events);
     for (const Sequence* s : used) add_sequence(*s, middle, std::max(s->power, min_weight * total) / sum);
     cell.end = static_cast<std::int32_t>(guide_.events.size() / numbers_of_events);
-    const double h = size(level), brought = total / paths_.paths_of_pair() / (h * h);
+    const double h = size(level), brought = total / paths_.paths_of_pair / (h * h);
     cell.query_probability =
-        std::clamp(eagerness * brought / direct_light_at(scene_, middle, h), min_query_probability, 1.0);
+        std::clamp(eagerness * brought / direct_light_at(paths_.scene, middle, h), min_query_probability, 1.0);
   }
 
   /// Numbers the images of lights. Landings after the same events, of the same light, have the same one.
@@ -221,8 +221,7 @@ class CellMaker {
     for (const std::int32_t v :
          {l.events.low, l.events.high, l.next.low, l.next.high, l.count, image_of_[nearest], 0, 0})
       guide_.events.push_back(v);
-    const std::int32_t code = (l.next.low & 63) >> 1;
-    const Thing& thing = paths_.things()[static_cast<std::size_t>(code - 1)];
+    const Thing& thing = paths_.things[static_cast<std::size_t>(l.next.lowest_thing())];
     const Vec3f center = thing.is_sphere ? to_float(thing.center + 0.5 * thing.motion) : Vec3f{};
     const float radius = thing.is_sphere ? static_cast<float>(thing.radius) : 0;
     for (const float v : {static_cast<float>(weight), center.x, center.y, center.z, radius, 0.0f, 0.0f, 0.0f})
@@ -279,11 +278,9 @@ class CellMaker {
     for (int level = 0; level < guide_middle_level; ++level)
       for (const Cell& fine : cells_[level])
         for (int coarser = level + 1; coarser <= guide_middle_level; ++coarser) {
-          const std::uint64_t key = coordinates_of(sizes_, middle_of(level, fine.at), coarser).key();
-          std::vector<Cell>& cells = cells_[coarser];
-          const auto at = std::lower_bound(cells.begin(), cells.end(), key,
-                                           [](const Cell& c, std::uint64_t k) { return c.key < k; });
-          if (at != cells.end() && at->key == key) at->refined = 1;
+          const Vec3f middle = to_float(middle_of(level, fine.at));
+          if (Cell* cell = find_key(cells_[coarser], key_of(cell_at<float>(sizes_, middle, coarser))))
+            cell->refined = 1;
         }
   }
 
@@ -295,7 +292,7 @@ class CellMaker {
     guide_.cells.assign(slots * numbers_of_cell, 0);
     guide_.query_probability.assign(slots, 0);
     for (int level = 0; level < guide_levels; ++level)
-      for (const Cell& cell : cells_[level]) insert(tag_of<float>({cell.at.x, cell.at.y, cell.at.z}, level), cell);
+      for (const Cell& cell : cells_[level]) insert(tag_of<float>(cell.at, level), cell);
   }
 
   /// A cell whose tag is taken shares the other one's slot.
@@ -312,7 +309,6 @@ class CellMaker {
     guide_.query_probability[slot] = static_cast<float>(cell.query_probability);
   }
 
-  const SceneView& scene_;
   const LightPaths& paths_;
   const std::vector<Landing>& landings_;
   Guide& guide_;
@@ -329,8 +325,6 @@ class CellMaker {
 
 }  // namespace
 
-void make_cells(const SceneView& scene, const LightPaths& paths, Guide& guide) {
-  CellMaker(scene, paths, guide).make();
-}
+void make_cells(const LightPaths& paths, Guide& guide) { CellMaker(paths, guide).make(); }
 
 }  // namespace tyndall
