@@ -1,6 +1,6 @@
 #pragma once
 #include "core/film/groups.h"
-#include "core/transport/direct_light.h"
+#include "core/transport/event.h"
 
 /// Reuse of second vertices between pixels: P. Bekaert, M. Sbert, J. Halton, Accelerating Path Tracing by Re-Using
 /// Paths, Eurographics Workshop on Rendering 2002. Interiors are mostly lit by their walls, so most of their noise is

@@ -1,8 +1,7 @@
 #pragma once
 #include "core/film/film.h"
-#include "core/trace/camera.h"
 #include "core/trace/tile_job.h"
-#include "core/transport/direct_light.h"
+#include "core/transport/event.h"
 
 /// The samples of a tile job in kernels whose paths share no vertices, and where their light goes.
 namespace tyndall {

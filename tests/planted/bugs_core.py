@@ -117,11 +117,11 @@ CORE = [
 
     ("the power heuristic of one strategy beside the balance heuristic of the other", "core/guide/guide_trail.h",
      "F(1.0f) / «mul_add(inverse, inverse, F(1.0f)) → (inverse + F(1.0f))», F(1.0f))", "guide/guide"),
-    ("the sixth event back is forgotten", "core/guide/ordered_events.h", "const I carry = «as_int(shift_right<24>(as_uint(before.low))) → I(0)»;", "guide/guide"),
+    ("the sixth event back is forgotten", "core/guide/light_image.h", "const I carry = «as_int(shift_right<24>(as_uint(before.low))) → I(0)»;", "guide/guide"),
     ("the tail of a lobe counts as its middle", "core/guide/lobes.h", "const F shape = F(«1 - tail_fraction → 1.0f») / (near * near)", "guide/guide"),
     ("a probability without the sequence's weight", "core/guide/lobes.h",
      "drawn.probability = «drawn.probability * weight → drawn.probability»;", "guide/guide"),
-    ("copies of light paths add to their light", "core/guide/light_paths.cpp", "«for (const std::size_t i : landed) landings_[i].weight *= kept; → »", "guide/guide"),
+    ("copies of light paths add to their light", "core/guide/light_paths.cpp", "«for (const std::size_t i : landed) landings[i].weight *= kept; → »", "guide/guide"),
 
     ("the inside of a closed pane is open", "core/specular/specular_slab.h", "return equal(«met → I(0)» & slab.closed, I(0));", "specular/slab_faces"),
     ("a pane's faces in a wrong order", "core/specular/specular_slab.h",
@@ -135,13 +135,13 @@ CORE = [
 
     ("survivors of the roulette carry too little", "core/transport/scatter.h",
      "select(at_risk, «scale * p.throughput → p.throughput», p.throughput)", "render/depth"),
-    ("lamps that are found by chance count in full", "core/transport/direct_light.h",
+    ("lamps that are found by chance count in full", "core/transport/event.h",
      "«select(could, F(1.0f) - others / mul_add(ratio, ratio, others), F(1.0f)) → F(1.0f)»", "render/light_sampling"),
     ("both parts of a split path carry all", "core/transport/splitting.h",
      "carried = select(splits, «(one - part) * carried → carried», carried);", "render/splitting"),
     ("a path is cut one event too late", "core/transport/path.h",
      "const auto deep = «less_equal(IntOf<F>(s.max_depth), p.depth) → less(IntOf<F>(s.max_depth), p.depth)»;", "render/depth targets/render_tile"),
-    ("the sky is weighed against the wrong density", "core/transport/direct_light.h",
+    ("the sky is weighed against the wrong density", "core/transport/event.h",
      "const F chosen = sky.pdf * «sky_probability<F>(s, p.ray.origin) → F(1.0f)»;", "render/sky render/light_sampling"),
 
     ("links do not weaken with the distance", "core/reuse/reuse_tile.h", "F pdf = leaves * arrives / «square → distance»;", "render/sharing"),
