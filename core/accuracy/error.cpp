@@ -62,10 +62,7 @@ std::string place_text(const LinearImage& image, std::size_t pixel) {
 
 double grey(Vec3f v) { return (static_cast<double>(v.x) + static_cast<double>(v.y) + static_cast<double>(v.z)) / 3; }
 
-double deviation_of_half(const Film& film, const FilmPixel& pixel) {
-  return (grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1))) / 2;
-}
-
+/// The sum of the grey values of a region's pixels, and its variance.
 struct RegionSum {
   double value = 0, variance = 0;
   bool whole = true;  ///< both halves of every pixel have samples
@@ -74,7 +71,7 @@ struct RegionSum {
     const auto deviation = [&](const FilmPixel& pixel) {
       whole = whole && counted(film, pixel, 0) > 0 && counted(film, pixel, 1) > 0;
       value += grey(mean(film, pixel));
-      return deviation_of_half(film, pixel);
+      return (grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1))) / 2;
     };
     for (const double group : group_sums(film, region, deviation)) variance += square(group);
   }
@@ -83,15 +80,9 @@ struct RegionSum {
 }  // namespace
 
 FilmMean film_mean(const Film& film) {
-  double sum = 0, variance = 0;
-  const auto deviation = [&](const FilmPixel& pixel) {
-    if (counted(film, pixel, 0) == 0 || counted(film, pixel, 1) == 0) return infinity;
-    return deviation_of_half(film, pixel);
-  };
-  for (const FilmPixel& pixel : film.pixels) sum += grey(mean(film, pixel));
-  for (const double group : group_sums(film, film.region, deviation)) variance += square(group);
+  const RegionSum sum(film, film.region);
   const auto pixels = static_cast<double>(film.pixels.size());
-  return {sum / pixels, std::sqrt(variance) / pixels};
+  return {sum.value / pixels, sum.whole ? std::sqrt(sum.variance) / pixels : infinity};
 }
 
 std::vector<float> root_window_means(const std::vector<double>& squares, int width, int height) {

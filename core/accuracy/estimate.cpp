@@ -124,38 +124,38 @@ void find_errors(const std::array<const Row*, window>& rows, float floor, Row& c
   }
 }
 
-/// Calls use(y, errors of the row y of the region) for the rows of a band.
-template <class Use>
-void for_rows_of_band(const Film& film, int band, const Use& use) {
-  const int width = film.region.width(), height = film.region.height();
-  const int first = band * band_rows, last = std::min(first + band_rows, height);
-  const auto floor = std::max(static_cast<float>(floor_of_square / film.quantum / film.quantum), tiny);
-  const Row empty(width);
-  Row columns(width), sums(width);
-  std::vector<Row> ring(window, empty);
-  const std::vector<float> zeros(static_cast<std::size_t>(width));
-  RowErrors errors{zeros, zeros};
-  const auto is_there = [height](int y) { return y >= 0 && y < height; };
-  const auto in_ring = [&](int y) -> Row& { return ring[static_cast<std::size_t>((y + window) % window)]; };
-  for (int y = first - reach; y < last + reach; ++y) {
-    if (is_there(y)) read_row(film, y, in_ring(y));
-    const int middle = y - reach;
-    if (middle < first) continue;
-    std::array<const Row*, window> rows{};
-    for (int i = 0; i < window; ++i) {
-      const int at = middle + i - reach;
-      rows[static_cast<std::size_t>(i)] = is_there(at) ? &in_ring(at) : &empty;
-    }
-    find_errors(rows, floor, columns, sums, errors);
-    use(middle, errors);
-  }
-}
-
 int bands_of(const Film& film) { return (film.region.height() + band_rows - 1) / band_rows; }
 
-void for_bands(const Film& film, ThreadPool* thread_pool, const std::function<void(int)>& job) {
-  if (thread_pool) return thread_pool->for_each(bands_of(film), job);
-  for (int band = 0; band < bands_of(film); ++band) job(band);
+/// Calls use(y, errors of the row y of the region) for all rows. Threads share bands of rows; without threads the
+/// caller's does all.
+template <class Use>
+void for_rows(const Film& film, ThreadPool* thread_pool, const Use& use) {
+  const int width = film.region.width(), height = film.region.height();
+  const auto floor = std::max(static_cast<float>(floor_of_square / film.quantum / film.quantum), tiny);
+  const Row empty(width);
+  const std::vector<float> zeros(static_cast<std::size_t>(width));
+  const auto is_there = [height](int y) { return y >= 0 && y < height; };
+  const auto do_band = [&](int band) {
+    const int first = band * band_rows, last = std::min(first + band_rows, height);
+    Row columns(width), sums(width);
+    std::vector<Row> ring(window, empty);
+    RowErrors errors{zeros, zeros};
+    const auto in_ring = [&](int y) -> Row& { return ring[static_cast<std::size_t>((y + window) % window)]; };
+    for (int y = first - reach; y < last + reach; ++y) {
+      if (is_there(y)) read_row(film, y, in_ring(y));
+      const int middle = y - reach;
+      if (middle < first) continue;
+      std::array<const Row*, window> rows{};
+      for (int i = 0; i < window; ++i) {
+        const int at = middle + i - reach;
+        rows[static_cast<std::size_t>(i)] = is_there(at) ? &in_ring(at) : &empty;
+      }
+      find_errors(rows, floor, columns, sums, errors);
+      use(middle, errors);
+    }
+  };
+  if (thread_pool) return thread_pool->for_each(bands_of(film), do_band);
+  for (int band = 0; band < bands_of(film); ++band) do_band(band);
 }
 
 /// The squared relative errors of pixels, and their sum if levels are the pixels' own means.
@@ -168,19 +168,15 @@ struct Spread {
 Spread spread_of(const Film& film, ThreadPool* thread_pool, const std::vector<std::size_t>& left_out) {
   std::vector<Spread> bands(static_cast<std::size_t>(bands_of(film)));
   const auto width = static_cast<std::size_t>(film.region.width());
-  for_bands(film, thread_pool, [&](int band) {
-    Spread& to = bands[static_cast<std::size_t>(band)];
-    for_rows_of_band(film, band, [&](int y, const RowErrors& errors) {
-      const std::size_t first = static_cast<std::size_t>(y) * width;
-      auto next = std::lower_bound(left_out.begin(), left_out.end(), first);
-      for (std::size_t x = 0; x < width; ++x) {
-        if (next != left_out.end() && *next == first + x) {
-          ++next;
-          continue;
-        }
+  for_rows(film, thread_pool, [&](int y, const RowErrors& errors) {
+    Spread& to = bands[static_cast<std::size_t>(y / band_rows)];
+    const std::size_t first = static_cast<std::size_t>(y) * width;
+    auto next = std::lower_bound(left_out.begin(), left_out.end(), first);
+    for (std::size_t x = 0; x < width; ++x)
+      if (next != left_out.end() && *next == first + x)
+        ++next;
+      else
         to.freed.add({first + x, errors.freed[x]}), to.own += static_cast<double>(errors.own[x]);
-      }
-    });
   });
   Spread all;
   for (const Spread& band : bands) all.freed.add(band.freed), all.own += band.own;
@@ -263,10 +259,8 @@ double estimated_relative_error(const Film& film, ThreadPool* thread_pool) {
 std::vector<double> squared_relative_errors(const Film& film, ThreadPool* thread_pool) {
   std::vector<double> all(film.pixels.size());
   const auto width = static_cast<std::size_t>(film.region.width());
-  for_bands(film, thread_pool, [&](int band) {
-    for_rows_of_band(film, band, [&](int y, const RowErrors& errors) {
-      std::copy(errors.freed.begin(), errors.freed.end(), all.data() + static_cast<std::size_t>(y) * width);
-    });
+  for_rows(film, thread_pool, [&](int y, const RowErrors& errors) {
+    std::copy(errors.freed.begin(), errors.freed.end(), all.data() + static_cast<std::size_t>(y) * width);
   });
   return all;
 }

@@ -1,6 +1,6 @@
 // FLIP against numbers that do not come from this project's reading of the paper: what the authors' own program says,
 // and what can be worked out with pen and paper from published colours and from the integrals of the filters.
-#include "core/accuracy/flip.h"
+#include "core/accuracy/error.h"
 #include "tests/support/capture.h"
 
 #include <doctest/doctest.h>

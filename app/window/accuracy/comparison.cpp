@@ -6,7 +6,6 @@
 #include "app/window/picture/display.h"
 #include "core/accuracy/error.h"
 #include "core/accuracy/estimate.h"
-#include "core/accuracy/flip.h"
 #include "core/image/image_io_file.h"
 #include "core/render/render.h"
 #include "core/scene/load.h"
