@@ -1,39 +1,42 @@
 #include "core/clean/clean.h"
 
-#include "core/clean/filter_view.h"
+#include "core/clean/judge.h"
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <numeric>
 #include <tyndall_targets.h>
 
 namespace tyndall {
+
+/// One number at a time: the readable reference, for any processor.
+template <>
+filter::FilterSteps filter::filter_for<Target::scalar>() {
+  return filter_of<float>();
+}
+
 using namespace filter;
 namespace {
 
 static_assert(Planes::margin == row_margin);
 
-/// The products of columns that cells sum, in the order that product_sum() and channel_sum() expect.
+/// The column of a term i of a half.
+int column_of(int half, int i) { return i < plain_terms ? i : i + half * emission_terms; }
+
+/// The products of columns that cells sum, at the indices that product_sum() and channel_sum() tell.
 std::vector<ColumnPair> column_pairs() {
-  std::vector<ColumnPair> pairs;
-  const auto add = [&](int i, int j) { pairs.push_back({static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j)}); };
-  for (int i = 0; i < plain_terms; ++i)
-    for (int j = 0; j <= i; ++j) add(i, j);
+  std::vector<ColumnPair> pairs(all_sums);
+  const auto put = [&](int sum, int i, int j) {
+    pairs[static_cast<std::size_t>(sum)] = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j)};
+  };
+  for (int half = 0; half < 2; ++half)
+    for (int i = 0; i < terms; ++i)
+      for (int j = 0; j <= i; ++j) put(product_sum(half, i, j), column_of(half, i), column_of(half, j));
   for (int output = 0; output < outputs; ++output)
-    for (int i = 0; i < plain_terms; ++i) add(half_column + output, i);
-  for (int half = 0; half < 2; ++half) {
-    const int own = emission_column + half * emission_terms;
-    for (int k = 0; k < emission_terms; ++k)
-      for (int i = 0; i < plain_terms; ++i) add(own + k, i);
-    for (int k = 0; k < emission_terms; ++k)
-      for (int j = 0; j <= k; ++j) add(own + k, own + j);
-    for (int c = 0; c < outputs / 2; ++c)
-      for (int k = 0; k < emission_terms; ++k) add(half_column + half * 3 + c, own + k);
-  }
-  for (int k = 0; k < emission_terms; ++k) add(emission_column + emission_terms + k, emission_column + k);
-  assert(pairs.size() == all_sums);
+    for (int i = 0; i < terms; ++i) put(channel_sum(output, i), half_column + output, column_of(output / 3, i));
+  for (int k = 0; k < emission_terms; ++k)
+    put(emission_cross + k, emission_column + emission_terms + k, emission_column + k);
   return pairs;
 }
 
