@@ -49,12 +49,6 @@ void put_picture(const FilterView& view, float scale, int y, float* rgb) {
     rgb[0] = scale * red[x], rgb[1] = scale * green[x], rgb[2] = scale * blue[x];
 }
 
-/// Whether a few pixels make up most of the sum of all pixels' errors. squares: the sum of the squared errors. The
-/// second term subtracts the spread that small pictures show by chance.
-bool few_matter(double sum, double squares, double pixels) {
-  return std::sqrt(squares) - 3 / std::sqrt(pixels) * sum > 0.35 * sum;
-}
-
 /// Judges one pixel as judge_of() judges a row, but with a known level, in units of the planes. Returns the squared
 /// relative error.
 double judge_at_level(const FilterView& v, std::size_t pixel, Vec3f level) {
@@ -70,24 +64,6 @@ double judge_at_level(const FilterView& v, std::size_t pixel, Vec3f level) {
   }
   v.error[at] = bias + noise, v.noise[at] = noise;
   return static_cast<double>(v.error[at]);
-}
-
-double sum_of_row(const FilterView& v, const float* plane, int y) {
-  const float* row = plane + y * v.stride;
-  double sum = 0;
-  for (int x = 0; x < v.width; ++x) sum += static_cast<double>(row[x]);
-  return sum;
-}
-
-/// The squared relative errors of the pixels of some rows.
-ErrorSum errors_of_rows(const FilterView& v, int first, int end) {
-  ErrorSum sum;
-  for (int y = first; y < end; ++y) {
-    const float* row = v.error + y * v.stride;
-    const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(v.width);
-    for (int x = 0; x < v.width; ++x) sum.add({pixel + static_cast<std::size_t>(x), static_cast<double>(row[x])});
-  }
-  return sum;
 }
 
 /// Resizes in steps small enough to stop soon after `give_up` is set.
@@ -195,8 +171,10 @@ bool Cleaner::run(const CleanInput& input, ThreadPool& thread_pool, const std::a
                      mix(Rival::raw) && each_pixel_row([&](int y) { m.steps.judge(v, y); });
   std::vector<ErrorSum> bands(static_cast<std::size_t>(m.cells_y));
   const auto sum_errors = [&](int band) {
-    bands[static_cast<std::size_t>(band)] =
-        errors_of_rows(v, band * cell_edge, std::min((band + 1) * cell_edge, v.height));
+    for (int y = band * cell_edge; y < std::min((band + 1) * cell_edge, v.height); ++y)
+      for (int x = 0; x < v.width; ++x)
+        bands[static_cast<std::size_t>(band)].add({static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x),
+                                                   static_cast<double>(v.error[y * v.stride + x])});
   };
   if (!whole || !each(m.cells_y, sum_errors)) return false;
   ErrorSum errors;
@@ -209,14 +187,16 @@ bool Cleaner::run(const CleanInput& input, ThreadPool& thread_pool, const std::a
     const std::size_t row = static_cast<std::size_t>(y) * width;
     put_picture(v, input.scale, y, m.made.rgb.data() + 3 * row);
     m.steps.tell(v, y, m.made.pixel_error.data() + row);
-    m.row_noise[static_cast<std::size_t>(y)] = sum_of_row(v, v.noise, y);
+    const float* noise = v.noise + y * v.stride;
+    m.row_noise[static_cast<std::size_t>(y)] = std::accumulate(noise, noise + v.width, 0.0);
   });
   if (!copied) return false;
   const double pixels = static_cast<double>(width * height);
   // The errors are noise plus squared bias, and the estimate of the latter may be negative by chance.
   const double error = std::max(errors.sum(), std::accumulate(m.row_noise.begin(), m.row_noise.end(), 0.0));
   m.made.relative_error = std::sqrt(error / pixels);
-  m.made.rests_on_few_pixels = few_matter(error, errors.squares(), pixels);
+  // The second term subtracts the spread that small pictures show by chance.
+  m.made.rests_on_few_pixels = std::sqrt(errors.squares()) - 3 / std::sqrt(pixels) * error > 0.35 * error;
   std::swap(out, m.made);
   return true;
 }

@@ -21,14 +21,6 @@ namespace filter {
 struct FilterSteps;
 }
 
-/// The surface seen first through a pixel, free of noise: the mean over the parts of the pixel. A part that sees
-/// nothing counts as zeros.
-struct FirstSeen {
-  Vec3f albedo, normal;
-  float nearness = 0;  ///< 1 / (1 + depth over its harmonic mean in the picture), in [0, 1); 0: nothing is seen
-  bool sharp = true;   ///< lights and sky are not seen by chance there, as they are in glass and in brushed metal
-};
-
 /// A row of floats, aligned to 64 bytes as a group of lanes needs, initially zero. The memory is taken from the system
 /// page by page when it is first written, by the thread that writes, and in large pages where possible: otherwise
 /// getting the memory of a picture's planes would take as long as filtering it.
@@ -79,16 +71,15 @@ struct CleanInput {
   Planes halves;                        ///< 6: red, green, blue of A and B
   Planes emission;                      ///< likewise, or none
   std::vector<std::uint8_t> dark_rows;  ///< 1: the row's emission is 0; empty: not known of any
-  Planes seen;                          ///< 8: albedo, normal, nearness, 1 where sharp
+  /// 8 of the surface seen first through each pixel, free of noise, means over the parts of the pixel: albedo; normal;
+  /// nearness, 1 / (1 + depth over its harmonic mean in the picture); and whether it is sharp: 1 where lights and sky
+  /// are not seen by chance, as they are in glass and in brushed metal. A part that sees nothing counts as zeros.
+  Planes seen;
 };
 
 /// Fills all but `seen` from a film's region. If one half of a pixel has no samples, it gets the other half's mean.
 /// Returns false if `give_up` was set before the end; the planes are then unusable.
 bool read_film(const Film& film, ThreadPool& thread_pool, const std::atomic<bool>& give_up, CleanInput& input);
-/// Makes room in `seen`.
-void resize_first_seen(int width, int height, CleanInput& input);
-/// Sets what a pixel sees first.
-void put_first_seen(const FirstSeen& pixel, int x, int y, CleanInput& input);
 
 /// The filtered picture.
 struct CleanPicture {

@@ -121,16 +121,4 @@ bool read_film(const Film& film, ThreadPool& thread_pool, const std::atomic<bool
   return !give_up;
 }
 
-void resize_first_seen(int width, int height, CleanInput& input) {
-  input.seen.resize(width, height, filter::seen_features + 1);
-}
-
-void put_first_seen(const FirstSeen& pixel, int x, int y, CleanInput& input) {
-  const float values[filter::seen_features + 1] = {pixel.albedo.x, pixel.albedo.y,           pixel.albedo.z,
-                                                   pixel.normal.x, pixel.normal.y,           pixel.normal.z,
-                                                   pixel.nearness, pixel.sharp ? 1.0f : 0.0f};
-  const std::ptrdiff_t at = y * input.seen.stride() + x;
-  for (int k = 0; k <= filter::seen_features; ++k) input.seen.plane(k)[at] = values[k];
-}
-
 }  // namespace tyndall

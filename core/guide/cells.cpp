@@ -32,11 +32,6 @@ struct Sequence {
   const Landing* first = nullptr;
   double power = 0, inverse_size2 = 0;
   std::vector<std::size_t> own, others, extra;  ///< in the cell; in its neighbours; in coarser cells
-
-  void restart(std::int32_t its_number, const Landing& landing, double size) {
-    number = its_number, first = &landing, power = 0, inverse_size2 = 1 / (size * size);
-    own.clear(), others.clear(), extra.clear();
-  }
 };
 
 double squared_distance(Vec3d a, Vec3d b) { return dot(a - b, a - b); }
@@ -111,16 +106,13 @@ class CellMaker {
     double query_probability = 0;
   };
 
-  double size(int level) const { return 1 / static_cast<double>(sizes_.inverse_size[level]); }
-  bool has_cells(int level, const Bins::Bin& bin) const {
-    return level >= guide_middle_level || bin.end - bin.begin >= min_in_fine_cell;
-  }
+  double size(int level) const { return 1 / at(sizes_.inverse_size, level); }
 
   /// Cells with landings and their neighbours.
   void make_level(int level) {
     std::vector<Cell>& cells = cells_[level];
     for (const Bins::Bin& bin : bins_[level].bins)
-      if (has_cells(level, bin))
+      if (level >= guide_middle_level || bin.end - bin.begin >= min_in_fine_cell)
         for (const CellCoordinates& step : steps) cells.push_back({key_of(bin.at + step), bin.at + step});
     std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.key < b.key; });
     cells.erase(std::unique(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.key == b.key; }),
@@ -164,7 +156,9 @@ class CellMaker {
       if (q == nowhere) {
         q = count_++;
         if (q == sequences_.size()) sequences_.emplace_back();
-        sequences_[q].restart(number, l, size(level));
+        Sequence& fresh = sequences_[q];
+        fresh.number = number, fresh.first = &l, fresh.power = 0, fresh.inverse_size2 = 1 / (size(level) * size(level));
+        fresh.own.clear(), fresh.others.clear(), fresh.extra.clear();
       }
       Sequence& s = sequences_[q];
       s.power += l.weight * static_cast<double>(step) * factor * (home ? 1 : neighbour_factor);
@@ -172,24 +166,18 @@ class CellMaker {
     }
   }
 
-  /// Those of most power, the greatest first; of equal ones those that were listed first.
-  std::vector<const Sequence*> strongest() const {
-    std::vector<const Sequence*> list;
-    for (std::size_t q = 0; q < count_; ++q) list.push_back(&sequences_[q]);
-    const std::size_t kept = std::min(count_, max_sequences_in_cell);
-    std::partial_sort(
-        list.begin(), list.begin() + static_cast<std::ptrdiff_t>(kept), list.end(),
-        [](const Sequence* a, const Sequence* b) { return a->power != b->power ? a->power > b->power : a < b; });
-    list.resize(kept);
-    return list;
-  }
-
   void make_cell(int level, Cell& cell) {
     const Vec3d middle = middle_of(level, cell.at);
     list_sequences(level, middle);
     double total = 0, sum = 0;
-    for (std::size_t q = 0; q < count_; ++q) total += sequences_[q].power;
-    const std::vector<const Sequence*> used = strongest();
+    std::vector<const Sequence*> used;
+    for (std::size_t q = 0; q < count_; ++q) total += sequences_[q].power, used.push_back(&sequences_[q]);
+    // Those of most power are used, the greatest first; of equal ones those that were listed first.
+    const auto kept = used.begin() + static_cast<std::ptrdiff_t>(std::min(count_, max_sequences_in_cell));
+    std::partial_sort(used.begin(), kept, used.end(), [](const Sequence* a, const Sequence* b) {
+      return a->power != b->power ? a->power > b->power : a < b;
+    });
+    used.erase(kept, used.end());
     for (const Sequence* s : used) sum += std::max(s->power, min_weight * total);
     cell.first = static_cast<std::int32_t>(guide_.events.size() / numbers_of_events);
     for (const Sequence* s : used) add_sequence(*s, middle, std::max(s->power, min_weight * total) / sum);
@@ -215,8 +203,17 @@ class CellMaker {
   }
 
   void add_sequence(const Sequence& s, Vec3d middle, double weight) {
-    const std::size_t nearest = nearest_landing(s.own.empty() ? s.others : s.own, middle);
-    add_lobe(s, nearest);
+    const auto nearer = [&](std::size_t a, std::size_t b) {
+      return squared_distance(landings_[a].point, middle) < squared_distance(landings_[b].point, middle);
+    };
+    const std::vector<std::size_t>& from = s.own.empty() ? s.others : s.own;
+    const std::size_t nearest = *std::min_element(from.begin(), from.end(), nearer);
+    const Landing lobe = along_axes(landings_[nearest]);
+    for (const Vec3d& v : {lobe.point, lobe.flight, lobe.axis})
+      for (const double x : {v.x, v.y, v.z}) guide_.lobe.push_back(static_cast<float>(x));
+    for (const double x : {lobe.curvature.xx, lobe.curvature.xy, lobe.curvature.yy, lobe.variance.xx, lobe.variance.yy,
+                           error_of(s, nearest), s.inverse_size2})
+      guide_.lobe.push_back(static_cast<float>(x));
     const Landing& l = *s.first;
     for (const std::int32_t v :
          {l.events.low, l.events.high, l.next.low, l.next.high, l.count, image_of_[nearest], 0, 0})
@@ -226,19 +223,6 @@ class CellMaker {
     const float radius = thing.is_sphere ? static_cast<float>(thing.radius) : 0;
     for (const float v : {static_cast<float>(weight), center.x, center.y, center.z, radius, 0.0f, 0.0f, 0.0f})
       guide_.weights.push_back(v);
-  }
-
-  std::size_t nearest_landing(const std::vector<std::size_t>& from, Vec3d point) const {
-    return *std::min_element(from.begin(), from.end(), [&](std::size_t a, std::size_t b) {
-      return squared_distance(landings_[a].point, point) < squared_distance(landings_[b].point, point);
-    });
-  }
-
-  /// The direction of flight at one landing, by another one.
-  bool predict_at(std::size_t landing, std::size_t by, Vec3d& flight) const {
-    const Landing& l = landings_[landing];
-    flight = l.flight;
-    return (image_of_[by] >= 0 && image_of_[by] == image_of_[landing]) || predict(landings_[by], l.point, flight);
   }
 
   /// How well a lobe tells the directions of other landings: half of their mean squared difference, see LobeNumber.
@@ -252,8 +236,9 @@ class CellMaker {
       const std::size_t step = std::max<std::size_t>(1, list.size() / 8);
       for (std::size_t j = 0; j < list.size(); j += step) {
         const Landing& l = landings_[list[j]];
-        Vec3d flight;
-        if (list[j] == own || !predict_at(list[j], own, flight)) continue;
+        const bool same_image = image_of_[own] >= 0 && image_of_[own] == image_of_[list[j]];
+        Vec3d flight = l.flight;
+        if (list[j] == own || !(same_image || predict(landings_[own], l.point, flight))) continue;
         const double far = squared_distance(l.point, landings_[own].point) * s.inverse_size2;
         if (far > 9 && part < 2) continue;
         const double weight = 1 / (near_offset + far);
@@ -262,15 +247,6 @@ class CellMaker {
     }
     if (count < 2) return landings_[own].image ? 0 : lonely_error;
     return 0.5 * sum / weights;
-  }
-
-  void add_lobe(const Sequence& s, std::size_t index) {
-    const Landing l = along_axes(landings_[index]);
-    const double numbers[numbers_of_lobe] = {l.point.x,     l.point.y,      l.point.z,          l.flight.x,
-                                             l.flight.y,    l.flight.z,     l.axis.x,           l.axis.y,
-                                             l.axis.z,      l.curvature.xx, l.curvature.xy,     l.curvature.yy,
-                                             l.variance.xx, l.variance.yy,  error_of(s, index), s.inverse_size2};
-    for (const double v : numbers) guide_.lobe.push_back(static_cast<float>(v));
   }
 
   /// Marks the cells that hold finer ones.

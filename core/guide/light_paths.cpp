@@ -104,7 +104,7 @@ class Flight {
     const bool round = l.kind[start.light] == Lights::sphere;
     const Vec3d d = start.direction, middle = middle_of(l, start.light, start.time);
     const double skip = round ? columns.length_u : 0;  // paths start on the light's surface
-    wanted_ = wanted, met_.clear();
+    wanted_ = wanted, left_ = wanted ? *wanted : OrderedEvents<double>::none();
     landing_ = {}, landing_.start = start, landing_.weight = start.power, landing_.length = skip;
     landing_.image = LightImage<double>{middle, {}, 0};
     const double longest = std::max(columns.length_u, columns.length_v);
@@ -124,10 +124,8 @@ class Flight {
     double probability = reflected;
     if (reflected > 0 && reflected < 1) probability = std::clamp(reflected, min_reflected, 1 - min_reflected);
     if (wanted_) {  // the sum of the copies' weights is known, so that a factor of all does not matter
-      OrderedEvents<double> left = *wanted_;
-      for (std::size_t i = 0; i < met_.size(); ++i) left = left.without_lowest();
-      if (left.lowest_thing() != thing) return false;
-      reflects = left.lowest_reflects();
+      if (left_.lowest_thing() != thing) return false;
+      reflects = left_.lowest_reflects();
       probability = 0.5;
     } else {
       reflects = next(paths_.random) < probability;
@@ -152,7 +150,7 @@ class Flight {
 
   /// Sends the flight on from a thing. Returns false if it ends there.
   bool meet(std::int32_t index, const SurfacePoint<double>& p) {
-    if (met_.size() == max_guided_events) return false;
+    if (landing_.count == max_guided_events) return false;
     const Thing& thing = thing_of_index(index);
     const Vec3d direction = beam_.rays[0].direction, center = thing.center + landing_.start.time * thing.motion;
     const bool exiting = dot(direction, p.normal) > 0, inside = exiting != p.inverted;
@@ -170,30 +168,20 @@ class Flight {
     }
     extend_image(thing, m);
     beam_.from = 4 * p.element + (inside == m.reflects ? 1 : 0);
-    met_.push_back(2 * index + (m.reflects ? 1 : 0));
+    object_ = landing_.count == 0 || object_ == thing.object ? thing.object : -1;
+    landing_.next = append_event(landing_.next, index, m.reflects), ++landing_.count;
+    left_ = left_.without_lowest();
     return beam_.pass(m, thing.fuzz);
   }
 
-  /// Names the events of the flight. Returns false if exact paths cover them, or if they are not the wanted ones.
-  bool name_events() {
-    Landing& l = landing_;
-    l.events = l.next = OrderedEvents<double>::none();
-    l.count = static_cast<int>(met_.size());
-    bool one_object = true;
-    for (std::size_t i = 0; i < met_.size(); ++i) {
-      const std::int32_t first = met_[i], last = met_[met_.size() - 1 - i];
-      l.next = append_event(l.next, first >> 1, (first & 1) != 0);
-      l.events = append_event(l.events, last >> 1, (last & 1) != 0);
-      const int object = thing_of_index(first >> 1).object;
-      one_object = one_object && object >= 0 && object == thing_of_index(met_[0] >> 1).object;
-    }
-    return !one_object && !(wanted_ && !same_events(*wanted_, l.events));
-  }
-
-  /// Turns the flight into a landing, from how the rays beside it cross the plane across the flight there.
+  /// Turns the flight into a landing, from how the rays beside it cross the plane across the flight there; unless exact
+  /// paths cover its events, or they are not the wanted ones.
   void land(Vec3d point) {
     Landing& l = landing_;
-    if (met_.empty() || !beam_.is_whole() || !name_events()) return;
+    if (l.count == 0 || object_ >= 0 || !beam_.is_whole()) return;
+    for (OrderedEvents<double> e = l.next; e.has_events(); e = e.without_lowest())
+      l.events = append_event(l.events, e.lowest_thing(), e.lowest_reflects());
+    if (wanted_ && !same_events(*wanted_, l.events)) return;
     const Changes rotated = beam_.changes(1, point, angle_step),
                   moved = beam_.changes(3, point, move_step * light_radius_);
     if (std::abs(determinant(rotated.place)) < focus * l.length * l.length) return;
@@ -212,10 +200,11 @@ class Flight {
   LightPaths& paths_;
   const SceneView& scene_;
   const OrderedEvents<double>* wanted_ = nullptr;
+  OrderedEvents<double> left_{};  ///< wanted events to come, the next one in the lowest bits
+  int object_ = -1;               ///< Thing::object, if all events are at the same one
   Beam beam_;
   double light_radius_ = 0;
-  std::vector<std::int32_t> met_;  ///< 2 · thing + (1: reflected)
-  Landing landing_;                ///< as far as it is known
+  Landing landing_{};  ///< as far as it is known
 };
 
 /// The landings after one sequence of events.
