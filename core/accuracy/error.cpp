@@ -149,15 +149,12 @@ ImageError image_error(const std::vector<float>& image, const std::vector<float>
     sum_reference[i % 3] += ref;
   }
   const double count = static_cast<double>(image.size());
-  const auto mean_of = [count](const std::array<double, 3>& sum) {
-    return (3 / count) * Vec3d{sum[0], sum[1], sum[2]};
-  };
   error.mse /= count;
   error.rmse = std::sqrt(error.mse);
   error.rel_mse /= count;
   error.psnr = -10 * std::log10(displayed_mse / count);
-  error.mean_image = mean_of(sum_image);
-  error.mean_reference = mean_of(sum_reference);
+  error.mean_image = (3 / count) * Vec3d{sum_image[0], sum_image[1], sum_image[2]};
+  error.mean_reference = (3 / count) * Vec3d{sum_reference[0], sum_reference[1], sum_reference[2]};
   return error;
 }
 

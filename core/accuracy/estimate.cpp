@@ -28,13 +28,16 @@ struct Row {
   explicit Row(int width) {
     for (auto& plane : of) plane.resize(static_cast<std::size_t>(width) + std::size_t(2) * reach);
   }
+  /// The number of the first pixel.
+  float* plane(std::size_t i) { return of[i].data() + reach; }
+  const float* plane(std::size_t i) const { return of[i].data() + reach; }
 };
 
 void read_row(const Film& film, int row, Row& to) {
   const auto width = static_cast<std::size_t>(film.region.width());
   const FilmPixel* pixels = film.pixels.data() + static_cast<std::size_t>(row) * width;
   std::array<float*, Row::planes> planes{};
-  for (std::size_t i = 0; i < Row::planes; ++i) planes[i] = to.of[i].data() + reach;
+  for (std::size_t i = 0; i < Row::planes; ++i) planes[i] = to.plane(i);
   for (std::size_t x = 0; x < width; ++x) {
     const FilmPixel& pixel = pixels[x];
     const double count_a = counted(film, pixel, 0), count_b = counted(film, pixel, 1);
@@ -81,12 +84,10 @@ struct RowErrors {
 /// Adds the errors of a channel. sums: over the pixels around each pixel. floor: 0.01 in squared quanta of the film.
 /// This and the next function are separate because compilers do not vectorise both in one loop.
 void add_freed_errors(const Row& row, const Row& sums, std::size_t channel, float floor, RowErrors& errors) {
-  const float *own_m = row.of[Row::means + channel].data() + reach,
-              *own_n = row.of[Row::noises + channel].data() + reach,
-              *own_min = row.of[Row::minimum + channel].data() + reach,
-              *sum_m = sums.of[Row::means + channel].data() + reach,
-              *sum_n = sums.of[Row::noises + channel].data() + reach,
-              *sum_ab = sums.of[Row::products + channel].data() + reach, *counts = sums.of[Row::counts].data() + reach;
+  const float *own_m = row.plane(Row::means + channel), *own_n = row.plane(Row::noises + channel),
+              *own_min = row.plane(Row::minimum + channel), *sum_m = sums.plane(Row::means + channel),
+              *sum_n = sums.plane(Row::noises + channel), *sum_ab = sums.plane(Row::products + channel),
+              *counts = sums.plane(Row::counts);
   float* __restrict freed = errors.freed.data();
   const std::size_t width = errors.freed.size();
   for (std::size_t x = 0; x < width; ++x) {
@@ -101,7 +102,7 @@ void add_freed_errors(const Row& row, const Row& sums, std::size_t channel, floa
 }
 
 void add_own_errors(const Row& row, std::size_t channel, float floor, RowErrors& errors) {
-  const float *m = row.of[Row::means + channel].data() + reach, *n = row.of[Row::noises + channel].data() + reach;
+  const float *m = row.plane(Row::means + channel), *n = row.plane(Row::noises + channel);
   float* __restrict own = errors.own.data();
   const std::size_t width = errors.own.size();
   for (std::size_t x = 0; x < width; ++x) own[x] += std::min(n[x] / (m[x] * m[x] + floor), largest);
@@ -116,7 +117,7 @@ void find_errors(const std::array<const Row*, window>& rows, float floor, Row& c
     add_freed_errors(*rows[reach], sums, channel, floor, errors);
     add_own_errors(*rows[reach], channel, floor, errors);
   }
-  const float* counts = rows[reach]->of[Row::counts].data() + reach;
+  const float* counts = rows[reach]->plane(Row::counts);
   for (std::size_t x = 0; x < errors.own.size(); ++x) {
     const bool whole = counts[x] > 0;
     errors.freed[x] = whole ? errors.freed[x] / 3 : infinity;
@@ -192,11 +193,7 @@ double relative_square(Vec3f d, Vec3f level) {
   return (of_channel(d.x, level.x) + of_channel(d.y, level.y) + of_channel(d.z, level.z)) / 3;
 }
 
-/// The squared relative error of a pixel of known level: estimated from the two halves, and the true one.
-double noise_at_level(const Film& film, std::size_t pixel, Vec3f level) {
-  const FilmPixel& of = film.pixels[pixel];
-  return relative_square(0.5f * (half_mean(film, of, 0) - half_mean(film, of, 1)), level);
-}
+/// The true squared relative error of a pixel of known level.
 double error_at_level(const Film& film, std::size_t pixel, Vec3f level) {
   return relative_square(mean(film, film.pixels[pixel]) - level, level);
 }
@@ -231,7 +228,10 @@ ErrorEstimate estimate_error(const Film& film, ThreadPool* thread_pool, const Le
     if (levels_of) ask_levels(levels_of, film.pixels.size(), error_at, all.freed);
     return all;
   };
-  const auto noise_at = [&](std::size_t pixel, Vec3f level) { return noise_at_level(film, pixel, level); };
+  const auto noise_at = [&](std::size_t pixel, Vec3f level) {  // estimated from the two halves
+    const FilmPixel& of = film.pixels[pixel];
+    return relative_square(0.5f * (half_mean(film, of, 0) - half_mean(film, of, 1)), level);
+  };
   const Spread by_noise = ask(noise_at, plain);
   ErrorEstimate estimate{std::sqrt(by_noise.freed.sum() / pixels),
                          few_matter(by_noise, pixels) || (by_noise.freed.sum() == 0 && awaits_light(film))};

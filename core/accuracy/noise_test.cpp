@@ -175,14 +175,14 @@ std::array<GroupSums, 3> sums_of(const NoisyImage& a, const NoisyImage& b, const
 }
 
 /// D², E² and F² of each pixel, summed over the channels.
-using Energies = std::array<std::vector<float>, 3>;
+using Energies = std::vector<std::array<float, 3>>;
 
 Energies energies_of(const NoisyImage& a, const NoisyImage& b, const Region& region) {
   Energies energies;
   for (int y = region.y0; y < region.y1; ++y)
     for (int x = region.x0; x < region.x1; ++x) {
       const std::size_t in_a = index_of(a.region, x, y), in_b = index_of(b.region, x, y);
-      float sums[3] = {};
+      std::array<float, 3>& sums = energies.emplace_back();
       for (std::size_t c = 0; c < 3; ++c) {
         const float mean_a = a.mean[in_a + c], mean_b = b.mean[in_b + c];
         const float d = mean_a - mean_b, allowed = static_cast<float>(rounding) * (std::abs(mean_a) + std::abs(mean_b));
@@ -191,7 +191,6 @@ Energies energies_of(const NoisyImage& a, const NoisyImage& b, const Region& reg
         sums[0] += std::abs(d) > allowed ? d * d : 0.0f;
         sums[1] += e * e, sums[2] += f * f;
       }
-      for (std::size_t k = 0; k < 3; ++k) energies[k].push_back(sums[k]);
     }
   return energies;
 }
@@ -205,12 +204,12 @@ int outliers_at(const Energies& energies, int width, int height, int x, int y) {
   for (int j = std::max(y - 1, 0); j <= std::min(y + 1, height - 1); ++j)
     for (int i = std::max(x - 1, 0); i <= std::min(x + 1, width - 1); ++i) {
       ++count;
-      for (std::size_t k = 0; k < 3; ++k) around[k] += energies[k][at(i, j)];
+      for (std::size_t k = 0; k < 3; ++k) around[k] += energies[at(i, j)][k];
     }
   int found = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const float noise = (around[(k + 1) % 3] + around[(k + 2) % 3]) / (2 * count);
-    found |= energies[k][at(x, y)] > outlier_ratio * noise ? 1 << k : 0;
+    found |= energies[at(x, y)][k] > outlier_ratio * noise ? 1 << k : 0;
   }
   return found;
 }
