@@ -90,14 +90,6 @@ TYNDALL_INLINE void sum_rows(const FilterView& v, int sums, int group, Strip<F>&
   }
 }
 
-/// Whether all pixels of a row of cells are known to have no emission.
-TYNDALL_INLINE bool is_dark_row(const FilterView& v, int y0, int rows) {
-  if (!v.has_emission()) return true;
-  bool dark = v.dark_rows != nullptr;
-  for (int y = y0; dark && y < y0 + rows; ++y) dark = v.dark_rows[y] != 0;
-  return dark;
-}
-
 /// Finds which cells of a strip have emission, and returns whether any has.
 template <class F>
 TYNDALL_INLINE bool find_emission(const FilterView& v, int x0, int y0, int rows, std::uint8_t* shines) {
@@ -121,7 +113,8 @@ TYNDALL_INLINE void sum_cells_of(const FilterView& v, int cell_row) {
   constexpr int n = lanes_of<F>;
   const int y0 = cell_row * cell_edge, rows = minimum(cell_edge, v.height - y0);
   float* row = v.sums + std::ptrdiff_t{cell_row + 1} * all_sums * v.cell_stride;
-  const bool dark = is_dark_row(v, y0, rows);
+  bool dark = !v.has_emission() || v.dark_rows;
+  for (int y = y0; v.has_emission() && dark && y < y0 + rows; ++y) dark = v.dark_rows[y] != 0;
   Strip<F> strip;
   for (int x = 0; x < Strip<F>::width; ++x) strip.across[x] = place_in_cell(x % cell_edge);
   for (int x0 = 0; x0 < v.width; x0 += Strip<F>::width) {

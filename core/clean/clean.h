@@ -1,11 +1,12 @@
 #pragma once
 #include "core/base/error_sum.h"
-#include "core/base/target.h"
 #include "core/base/thread_pool.h"
+#include "core/clean/filter_view.h"
 #include "core/film/film.h"
 
 #include <atomic>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -17,9 +18,6 @@
 /// the raw picture, and the disagreement is the error estimate (choice.h). With more samples more of the raw picture
 /// shows, so that the error has no floor.
 namespace tyndall {
-namespace filter {
-struct FilterSteps;
-}
 
 /// A row of floats, aligned to 64 bytes as a group of lanes needs, initially zero. The memory is taken from the system
 /// page by page when it is first written, by the thread that writes, and in large pages where possible: otherwise
@@ -32,10 +30,7 @@ class ZeroedFloats {
   const float* data() const { return first_; }
 
  private:
-  struct Free {
-    void operator()(float* floats) const;
-  };
-  std::unique_ptr<float, Free> memory_;
+  std::unique_ptr<float, void (*)(void*)> memory_{nullptr, std::free};
   float* first_ = nullptr;
 };
 
@@ -43,7 +38,7 @@ class ZeroedFloats {
 /// everywhere.
 class Planes {
  public:
-  static constexpr int margin = 16;
+  static constexpr int margin = filter::row_margin;
 
   /// Makes all numbers zero. If the size is unchanged, the memory and the old numbers within the rows are kept, and
   /// false is returned.
@@ -100,9 +95,6 @@ class Cleaner {
   explicit Cleaner(Target target);
   /// Uses these steps in place of an instruction set's: for tests that count calls.
   explicit Cleaner(const filter::FilterSteps& steps);
-  ~Cleaner();
-  Cleaner(Cleaner&&) noexcept;
-  Cleaner& operator=(Cleaner&&) noexcept;
 
   /// Filters a picture whose pixels all have samples in both halves. Returns false and leaves `out` unchanged if
   /// `give_up` is set before the end: each thread then finishes its row of pixels, or of 8 x 8 pixels, in less than 1
@@ -113,8 +105,18 @@ class Cleaner {
            const LevelsOf& levels_of = {});
 
  private:
-  struct Memory;
-  std::unique_ptr<Memory> memory_;
+  void resize(int width, int height, bool grouped);
+  filter::FilterView view_of(const CleanInput& input);
+
+  filter::FilterSteps steps_;
+  std::vector<filter::ColumnPair> pairs_;
+  Planes work_;  ///< filtered 6, level, gain, distance; of grouped pixels also gain_by_noise
+  CleanPicture made_;
+  ZeroedFloats sums_, coefficients_;
+  std::vector<std::uint8_t> shines_;
+  std::vector<double> row_noise_;  ///< for each row the sum of its pixels' relative variance
+  int cells_x_ = 0, cells_y_ = 0;
+  std::ptrdiff_t cell_stride_ = 0;
 };
 
 }  // namespace tyndall

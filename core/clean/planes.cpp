@@ -1,10 +1,8 @@
 #include "core/clean/clean.h"
 
-#include "core/clean/filter_view.h"
 #include "core/system/process.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <new>
 #include <numeric>
 
@@ -79,8 +77,6 @@ void ZeroedFloats::resize(std::size_t count) {
   first_ = static_cast<float*>(std::align(group, bytes - group, begin, bytes));
   if (std::align(large_page, large_page, begin, bytes)) ask_for_large_pages(begin, bytes);
 }
-
-void ZeroedFloats::Free::operator()(float* floats) const { std::free(floats); }
 
 bool Planes::resize(int width, int height, int count) {
   if (width == width_ && height == height_ && count == count_) return false;

@@ -1,7 +1,6 @@
 #include "core/clean/clean.h"
 
 #include "core/accuracy/error.h"
-#include "core/clean/filter_view.h"
 #include "tests/support/first_seen.h"
 
 #include <doctest/doctest.h>

@@ -84,7 +84,7 @@ CORE = [
     ("noise counts in the estimate in place of the error", "core/clean/clean.cpp",
      "const double error = std::max(«errors.sum() → 0.0», std::accumulate", "render/clean_film clean/clean"),
     ("memory for another height is kept", "core/clean/clean.cpp",
-     "if (cells_x == cells_in(width) && «cells_y == cells_in(height) → true») return;", "clean/clean"),
+     "if (cells_x_ == cells_in(width) && «cells_y_ == cells_in(height) → true») return;", "clean/clean"),
 
     ("keys with a slash are not escaped", "core/scene/place.cpp", "out += «\"~1\" → \"~0\"»;", "scene/place scene/override"),
     ("the third component is not checked", "core/scene/check.cpp",
