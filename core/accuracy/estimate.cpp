@@ -252,10 +252,6 @@ ErrorEstimate estimate_error(const Film& film, ThreadPool* thread_pool, const Le
   return estimate;
 }
 
-double estimated_relative_error(const Film& film, ThreadPool* thread_pool) {
-  return estimate_error(film, thread_pool).relative_error;
-}
-
 std::vector<double> squared_relative_errors(const Film& film, ThreadPool* thread_pool) {
   std::vector<double> all(film.pixels.size());
   const auto width = static_cast<std::size_t>(film.region.width());

@@ -72,7 +72,7 @@ CORE = [
 
     ("black pixels dominate", "core/accuracy/error.cpp", "(square(ref) + «floor_of_square → 1e-6»)", "accuracy/error"),
     ("the noise of halves counted twice", "core/accuracy/error.cpp",
-     "(grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1))) / «2 → 1»", "accuracy/bias"),
+     "(grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1))) / «2 → 1»", "accuracy/error"),
     ("a wrong power in FLIP", "core/accuracy/flip.cpp", ", «0.7 → 0.75»);", "accuracy/flip_values"),
     ("the estimate takes half of the noise", "core/accuracy/estimate.cpp", "(a - b) * (a - b) / «4 → 8»", "accuracy/estimate"),
 
