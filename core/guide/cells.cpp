@@ -140,6 +140,9 @@ class CellMaker {
     }
   }
 
+  /// Adds the landings of a bin to their sequences: to all of them in a cell's own level, to those that coarser levels
+  /// bring from there on. known: number of sequences that finer levels have listed; of these a few landings are kept
+  /// to tell how well their lobes do.
   void add_landings(int level, const Bins::Bin& bin, bool home, std::size_t known, double factor) {
     const std::vector<std::size_t>& order = bins_[level].order;
     const std::size_t stride = std::max<std::size_t>(1, (bin.end - bin.rest) / max_looked_at);

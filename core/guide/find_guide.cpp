@@ -21,6 +21,7 @@ struct Found {
   int count = 0;
 };
 
+/// What lands in a bin, apart for each sequence of events. scale: irradiance of a landing over its weight.
 std::vector<Found> list_found(const Bins& bins, const Bins::Bin& bin, const std::vector<Landing>& landings,
                               double scale) {
   std::vector<Found> list;
