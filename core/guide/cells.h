@@ -8,7 +8,7 @@ namespace tyndall {
 
 using CellCoordinates = CellPlace<float>;
 
-/// By which cells are sorted.
+/// The number by which cells are sorted.
 std::uint64_t key_of(const CellCoordinates& cell);
 
 /// The item of that key in a list that is sorted by keys; null: there is none.

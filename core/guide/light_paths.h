@@ -31,6 +31,7 @@ struct Landing {
   LightStart start;
 };
 
+/// The light paths of a scene, and where those end that have landed so far.
 struct LightPaths {
   LightPaths(const SceneView& scene, std::vector<Thing> things);
 
@@ -47,9 +48,9 @@ struct LightPaths {
   std::vector<Thing> things;
   std::vector<std::int32_t> thing_of;  ///< by element; -1: none
   std::vector<Landing> landings;
-  double paths_of_pair = 0;  ///< what the sum of weights is to be divided by
-  int traced = 0;            ///< number of paths
-  std::uint64_t random = 0x2545f4914f6cdd1dull;
+  double paths_of_pair = 0;                      ///< what the sum of weights is to be divided by
+  int traced = 0;                                ///< number of paths
+  std::uint64_t random = 0x2545f4914f6cdd1dull;  ///< state of the random numbers
 };
 
 }  // namespace tyndall
