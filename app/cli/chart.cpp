@@ -85,7 +85,7 @@ class ChartJob {
     check_finite(file, reference.image);
     if (is_exr(file))
       if (const auto film = read_film(file)) {
-        const double error = estimated_relative_error(*film);
+        const double error = estimate_error(*film).relative_error;
         if (std::isfinite(error)) reference.noise = error * error;
       }
     return reference;

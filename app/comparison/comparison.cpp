@@ -1,7 +1,6 @@
 #include "app/comparison/comparison.h"
 
 #include "app/text/values.h"
-#include "core/accuracy/flip.h"
 #include "core/base/text.h"
 
 #include <fmt/core.h>

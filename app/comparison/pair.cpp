@@ -71,10 +71,6 @@ std::pair<Region, Region> places_of(const Placed& image, const Placed& reference
   return {whole, whole};
 }
 
-Region common(const Region& a, const Region& b) {
-  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
-}
-
 /// The pixels of `part`, which lies within `place`: where the pixels of the image lie.
 void cut(LinearImage& image, const Region& place, const Region& part) {
   if (place == part) return;
@@ -166,7 +162,7 @@ PicturePair read_pair(const Path& image_name, const Path& reference_name, PpmCur
   pair.image_pixels = pair.image.rgb.size() / 3, pair.reference_pixels = pair.reference.rgb.size() / 3;
   const Placed image{image_name, pair.image}, reference{reference_name, pair.reference};
   const auto [a, b] = places_of(image, reference);
-  const Region both = common(a, b);
+  const Region both = common_part(a, b);
   if (both.x0 >= both.x1 || both.y0 >= both.y1)
     refuse(image, reference, "pixels in the data window " + text_of(a) + " alone", "some in " + text_of(b));
   pair.image_place = a, pair.reference_place = b;
@@ -183,7 +179,7 @@ PictureFile read_whole_picture(const Path& name) {
   if (image.frame->pixel_aspect != 1)
     throw UsageError(
         fmt::format("{}: found pixelAspectRatio {}, expected square pixels", name.string(), image.frame->pixel_aspect));
-  if (!(common(data, display) == display))
+  if (!(common_part(data, display) == display))
     throw UsageError(
         fmt::format("{}: found the pixels of its data window {} alone, expected all of its display window {}",
                     name.string(), text_of(data), text_of(display)));

@@ -29,7 +29,7 @@ std::uint32_t enough_samples(const PreparedScene& scene, const std::string& isa,
 }
 
 double squared_error(const RenderResult& result) {
-  const double error = estimated_relative_error(result.film);
+  const double error = estimate_error(result.film).relative_error;
   return error * error;
 }
 

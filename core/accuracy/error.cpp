@@ -62,10 +62,7 @@ std::string place_text(const LinearImage& image, std::size_t pixel) {
 
 double grey(Vec3f v) { return (static_cast<double>(v.x) + static_cast<double>(v.y) + static_cast<double>(v.z)) / 3; }
 
-double deviation_of_half(const Film& film, const FilmPixel& pixel) {
-  return (grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1))) / 2;
-}
-
+/// The sum of the grey values of a region's pixels, and its variance.
 struct RegionSum {
   double value = 0, variance = 0;
   bool whole = true;  ///< both halves of every pixel have samples
@@ -74,7 +71,7 @@ struct RegionSum {
     const auto deviation = [&](const FilmPixel& pixel) {
       whole = whole && counted(film, pixel, 0) > 0 && counted(film, pixel, 1) > 0;
       value += grey(mean(film, pixel));
-      return deviation_of_half(film, pixel);
+      return (grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1))) / 2;
     };
     for (const double group : group_sums(film, region, deviation)) variance += square(group);
   }
@@ -83,15 +80,9 @@ struct RegionSum {
 }  // namespace
 
 FilmMean film_mean(const Film& film) {
-  double sum = 0, variance = 0;
-  const auto deviation = [&](const FilmPixel& pixel) {
-    if (counted(film, pixel, 0) == 0 || counted(film, pixel, 1) == 0) return infinity;
-    return deviation_of_half(film, pixel);
-  };
-  for (const FilmPixel& pixel : film.pixels) sum += grey(mean(film, pixel));
-  for (const double group : group_sums(film, film.region, deviation)) variance += square(group);
+  const RegionSum sum(film, film.region);
   const auto pixels = static_cast<double>(film.pixels.size());
-  return {sum / pixels, std::sqrt(variance) / pixels};
+  return {sum.value / pixels, sum.whole ? std::sqrt(sum.variance) / pixels : infinity};
 }
 
 std::vector<float> root_window_means(const std::vector<double>& squares, int width, int height) {
@@ -158,15 +149,12 @@ ImageError image_error(const std::vector<float>& image, const std::vector<float>
     sum_reference[i % 3] += ref;
   }
   const double count = static_cast<double>(image.size());
-  const auto mean_of = [count](const std::array<double, 3>& sum) {
-    return (3 / count) * Vec3d{sum[0], sum[1], sum[2]};
-  };
   error.mse /= count;
   error.rmse = std::sqrt(error.mse);
   error.rel_mse /= count;
   error.psnr = -10 * std::log10(displayed_mse / count);
-  error.mean_image = mean_of(sum_image);
-  error.mean_reference = mean_of(sum_reference);
+  error.mean_image = (3 / count) * Vec3d{sum_image[0], sum_image[1], sum_image[2]};
+  error.mean_reference = (3 / count) * Vec3d{sum_reference[0], sum_reference[1], sum_reference[2]};
   return error;
 }
 

@@ -28,13 +28,16 @@ struct Row {
   explicit Row(int width) {
     for (auto& plane : of) plane.resize(static_cast<std::size_t>(width) + std::size_t(2) * reach);
   }
+  /// The number of the first pixel.
+  float* plane(std::size_t i) { return of[i].data() + reach; }
+  const float* plane(std::size_t i) const { return of[i].data() + reach; }
 };
 
 void read_row(const Film& film, int row, Row& to) {
   const auto width = static_cast<std::size_t>(film.region.width());
   const FilmPixel* pixels = film.pixels.data() + static_cast<std::size_t>(row) * width;
   std::array<float*, Row::planes> planes{};
-  for (std::size_t i = 0; i < Row::planes; ++i) planes[i] = to.of[i].data() + reach;
+  for (std::size_t i = 0; i < Row::planes; ++i) planes[i] = to.plane(i);
   for (std::size_t x = 0; x < width; ++x) {
     const FilmPixel& pixel = pixels[x];
     const double count_a = counted(film, pixel, 0), count_b = counted(film, pixel, 1);
@@ -81,12 +84,10 @@ struct RowErrors {
 /// Adds the errors of a channel. sums: over the pixels around each pixel. floor: 0.01 in squared quanta of the film.
 /// This and the next function are separate because compilers do not vectorise both in one loop.
 void add_freed_errors(const Row& row, const Row& sums, std::size_t channel, float floor, RowErrors& errors) {
-  const float *own_m = row.of[Row::means + channel].data() + reach,
-              *own_n = row.of[Row::noises + channel].data() + reach,
-              *own_min = row.of[Row::minimum + channel].data() + reach,
-              *sum_m = sums.of[Row::means + channel].data() + reach,
-              *sum_n = sums.of[Row::noises + channel].data() + reach,
-              *sum_ab = sums.of[Row::products + channel].data() + reach, *counts = sums.of[Row::counts].data() + reach;
+  const float *own_m = row.plane(Row::means + channel), *own_n = row.plane(Row::noises + channel),
+              *own_min = row.plane(Row::minimum + channel), *sum_m = sums.plane(Row::means + channel),
+              *sum_n = sums.plane(Row::noises + channel), *sum_ab = sums.plane(Row::products + channel),
+              *counts = sums.plane(Row::counts);
   float* __restrict freed = errors.freed.data();
   const std::size_t width = errors.freed.size();
   for (std::size_t x = 0; x < width; ++x) {
@@ -101,7 +102,7 @@ void add_freed_errors(const Row& row, const Row& sums, std::size_t channel, floa
 }
 
 void add_own_errors(const Row& row, std::size_t channel, float floor, RowErrors& errors) {
-  const float *m = row.of[Row::means + channel].data() + reach, *n = row.of[Row::noises + channel].data() + reach;
+  const float *m = row.plane(Row::means + channel), *n = row.plane(Row::noises + channel);
   float* __restrict own = errors.own.data();
   const std::size_t width = errors.own.size();
   for (std::size_t x = 0; x < width; ++x) own[x] += std::min(n[x] / (m[x] * m[x] + floor), largest);
@@ -116,7 +117,7 @@ void find_errors(const std::array<const Row*, window>& rows, float floor, Row& c
     add_freed_errors(*rows[reach], sums, channel, floor, errors);
     add_own_errors(*rows[reach], channel, floor, errors);
   }
-  const float* counts = rows[reach]->of[Row::counts].data() + reach;
+  const float* counts = rows[reach]->plane(Row::counts);
   for (std::size_t x = 0; x < errors.own.size(); ++x) {
     const bool whole = counts[x] > 0;
     errors.freed[x] = whole ? errors.freed[x] / 3 : infinity;
@@ -124,38 +125,38 @@ void find_errors(const std::array<const Row*, window>& rows, float floor, Row& c
   }
 }
 
-/// Calls use(y, errors of the row y of the region) for the rows of a band.
-template <class Use>
-void for_rows_of_band(const Film& film, int band, const Use& use) {
-  const int width = film.region.width(), height = film.region.height();
-  const int first = band * band_rows, last = std::min(first + band_rows, height);
-  const auto floor = std::max(static_cast<float>(floor_of_square / film.quantum / film.quantum), tiny);
-  const Row empty(width);
-  Row columns(width), sums(width);
-  std::vector<Row> ring(window, empty);
-  const std::vector<float> zeros(static_cast<std::size_t>(width));
-  RowErrors errors{zeros, zeros};
-  const auto is_there = [height](int y) { return y >= 0 && y < height; };
-  const auto in_ring = [&](int y) -> Row& { return ring[static_cast<std::size_t>((y + window) % window)]; };
-  for (int y = first - reach; y < last + reach; ++y) {
-    if (is_there(y)) read_row(film, y, in_ring(y));
-    const int middle = y - reach;
-    if (middle < first) continue;
-    std::array<const Row*, window> rows{};
-    for (int i = 0; i < window; ++i) {
-      const int at = middle + i - reach;
-      rows[static_cast<std::size_t>(i)] = is_there(at) ? &in_ring(at) : &empty;
-    }
-    find_errors(rows, floor, columns, sums, errors);
-    use(middle, errors);
-  }
-}
-
 int bands_of(const Film& film) { return (film.region.height() + band_rows - 1) / band_rows; }
 
-void for_bands(const Film& film, ThreadPool* thread_pool, const std::function<void(int)>& job) {
-  if (thread_pool) return thread_pool->for_each(bands_of(film), job);
-  for (int band = 0; band < bands_of(film); ++band) job(band);
+/// Calls use(y, errors of the row y of the region) for all rows. Threads share bands of rows; without threads the
+/// caller's does all.
+template <class Use>
+void for_rows(const Film& film, ThreadPool* thread_pool, const Use& use) {
+  const int width = film.region.width(), height = film.region.height();
+  const auto floor = std::max(static_cast<float>(floor_of_square / film.quantum / film.quantum), tiny);
+  const Row empty(width);
+  const std::vector<float> zeros(static_cast<std::size_t>(width));
+  const auto is_there = [height](int y) { return y >= 0 && y < height; };
+  const auto do_band = [&](int band) {
+    const int first = band * band_rows, last = std::min(first + band_rows, height);
+    Row columns(width), sums(width);
+    std::vector<Row> ring(window, empty);
+    RowErrors errors{zeros, zeros};
+    const auto in_ring = [&](int y) -> Row& { return ring[static_cast<std::size_t>((y + window) % window)]; };
+    for (int y = first - reach; y < last + reach; ++y) {
+      if (is_there(y)) read_row(film, y, in_ring(y));
+      const int middle = y - reach;
+      if (middle < first) continue;
+      std::array<const Row*, window> rows{};
+      for (int i = 0; i < window; ++i) {
+        const int at = middle + i - reach;
+        rows[static_cast<std::size_t>(i)] = is_there(at) ? &in_ring(at) : &empty;
+      }
+      find_errors(rows, floor, columns, sums, errors);
+      use(middle, errors);
+    }
+  };
+  if (thread_pool) return thread_pool->for_each(bands_of(film), do_band);
+  for (int band = 0; band < bands_of(film); ++band) do_band(band);
 }
 
 /// The squared relative errors of pixels, and their sum if levels are the pixels' own means.
@@ -168,19 +169,15 @@ struct Spread {
 Spread spread_of(const Film& film, ThreadPool* thread_pool, const std::vector<std::size_t>& left_out) {
   std::vector<Spread> bands(static_cast<std::size_t>(bands_of(film)));
   const auto width = static_cast<std::size_t>(film.region.width());
-  for_bands(film, thread_pool, [&](int band) {
-    Spread& to = bands[static_cast<std::size_t>(band)];
-    for_rows_of_band(film, band, [&](int y, const RowErrors& errors) {
-      const std::size_t first = static_cast<std::size_t>(y) * width;
-      auto next = std::lower_bound(left_out.begin(), left_out.end(), first);
-      for (std::size_t x = 0; x < width; ++x) {
-        if (next != left_out.end() && *next == first + x) {
-          ++next;
-          continue;
-        }
+  for_rows(film, thread_pool, [&](int y, const RowErrors& errors) {
+    Spread& to = bands[static_cast<std::size_t>(y / band_rows)];
+    const std::size_t first = static_cast<std::size_t>(y) * width;
+    auto next = std::lower_bound(left_out.begin(), left_out.end(), first);
+    for (std::size_t x = 0; x < width; ++x)
+      if (next != left_out.end() && *next == first + x)
+        ++next;
+      else
         to.freed.add({first + x, errors.freed[x]}), to.own += static_cast<double>(errors.own[x]);
-      }
-    });
   });
   Spread all;
   for (const Spread& band : bands) all.freed.add(band.freed), all.own += band.own;
@@ -196,11 +193,7 @@ double relative_square(Vec3f d, Vec3f level) {
   return (of_channel(d.x, level.x) + of_channel(d.y, level.y) + of_channel(d.z, level.z)) / 3;
 }
 
-/// The squared relative error of a pixel of known level: estimated from the two halves, and the true one.
-double noise_at_level(const Film& film, std::size_t pixel, Vec3f level) {
-  const FilmPixel& of = film.pixels[pixel];
-  return relative_square(0.5f * (half_mean(film, of, 0) - half_mean(film, of, 1)), level);
-}
+/// The true squared relative error of a pixel of known level.
 double error_at_level(const Film& film, std::size_t pixel, Vec3f level) {
   return relative_square(mean(film, film.pixels[pixel]) - level, level);
 }
@@ -235,7 +228,10 @@ ErrorEstimate estimate_error(const Film& film, ThreadPool* thread_pool, const Le
     if (levels_of) ask_levels(levels_of, film.pixels.size(), error_at, all.freed);
     return all;
   };
-  const auto noise_at = [&](std::size_t pixel, Vec3f level) { return noise_at_level(film, pixel, level); };
+  const auto noise_at = [&](std::size_t pixel, Vec3f level) {  // estimated from the two halves
+    const FilmPixel& of = film.pixels[pixel];
+    return relative_square(0.5f * (half_mean(film, of, 0) - half_mean(film, of, 1)), level);
+  };
   const Spread by_noise = ask(noise_at, plain);
   ErrorEstimate estimate{std::sqrt(by_noise.freed.sum() / pixels),
                          few_matter(by_noise, pixels) || (by_noise.freed.sum() == 0 && awaits_light(film))};
@@ -256,17 +252,11 @@ ErrorEstimate estimate_error(const Film& film, ThreadPool* thread_pool, const Le
   return estimate;
 }
 
-double estimated_relative_error(const Film& film, ThreadPool* thread_pool) {
-  return estimate_error(film, thread_pool).relative_error;
-}
-
 std::vector<double> squared_relative_errors(const Film& film, ThreadPool* thread_pool) {
   std::vector<double> all(film.pixels.size());
   const auto width = static_cast<std::size_t>(film.region.width());
-  for_bands(film, thread_pool, [&](int band) {
-    for_rows_of_band(film, band, [&](int y, const RowErrors& errors) {
-      std::copy(errors.freed.begin(), errors.freed.end(), all.data() + static_cast<std::size_t>(y) * width);
-    });
+  for_rows(film, thread_pool, [&](int y, const RowErrors& errors) {
+    std::copy(errors.freed.begin(), errors.freed.end(), all.data() + static_cast<std::size_t>(y) * width);
   });
   return all;
 }

@@ -50,9 +50,6 @@ struct ErrorEstimate {
 ErrorEstimate estimate_error(const Film& film, ThreadPool* thread_pool = nullptr, const LevelsOf& levels_of = {},
                              const std::vector<std::size_t>& rare = {});
 
-/// The relative error of estimate_error alone.
-double estimated_relative_error(const Film& film, ThreadPool* thread_pool = nullptr);
-
 /// The mean over the channels of n / (g² + 0.01) of each pixel of the region, row by row; infinite where a half is
 /// empty.
 std::vector<double> squared_relative_errors(const Film& film, ThreadPool* thread_pool = nullptr);

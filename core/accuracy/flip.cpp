@@ -1,4 +1,4 @@
-#include "core/accuracy/flip.h"
+#include "core/accuracy/error.h"
 
 #include "core/base/vec.h"
 

@@ -97,19 +97,6 @@ struct Counts {
   }
 };
 
-/// Where one picture has fewer samples, its own noise may show too little of rare bright ones: it has at least the
-/// variance that the other picture, which has met more of them, has for as many samples.
-void raise_variances(GroupSums& sums, const Counts& counts) {
-  if (counts.exchangeable) return;
-  const double a = sums.variance_a, b = sums.variance_b;
-  sums.variance_a = std::max(a, b / counts.ratio), sums.variance_b = std::max(b, a * counts.ratio);
-}
-
-double effective_samples(const GroupSums& s, const Counts& counts) {
-  if (counts.exchangeable) return squared(s.level_a + s.level_b) / s.robust_variance();
-  return std::min(squared(s.level_a) / s.variance_a, squared(s.level_b) / s.variance_b);
-}
-
 /// The score of a block, or of the picture.
 Score score_of(GroupSums sums, const Counts& counts) {
   Score score;
@@ -117,10 +104,19 @@ Score score_of(GroupSums sums, const Counts& counts) {
     return level > 0 && squared(level) >= variance * (1 - rounding);  // a single sample is as bright as its noise
   };
   score.lit = above_noise(sums.level_a, sums.variance_a) || above_noise(sums.level_b, sums.variance_b);
-  raise_variances(sums, counts);
-  const bool noisy = sums.robust_variance() > 0;
-  score.effective_samples = noisy ? effective_samples(sums, counts) : std::numeric_limits<double>::infinity();
-  if (!noisy) return score;
+  score.effective_samples = std::numeric_limits<double>::infinity();
+  if (!counts.exchangeable) {
+    // Where one picture has fewer samples, its own noise may show too little of rare bright ones: it has at least the
+    // variance that the other picture, which has met more of them, has for as many samples.
+    const double a = sums.variance_a, b = sums.variance_b;
+    sums.variance_a = std::max(a, b / counts.ratio), sums.variance_b = std::max(b, a * counts.ratio);
+  }
+  if (!(sums.robust_variance() > 0)) return score;
+  if (counts.exchangeable)
+    score.effective_samples = squared(sums.level_a + sums.level_b) / sums.robust_variance();
+  else
+    score.effective_samples =
+        std::min(squared(sums.level_a) / sums.variance_a, squared(sums.level_b) / sums.variance_b);
   if (!score.clear()) {
     if (counts.exchangeable) score.log_p = log_bound(sums.difference / std::sqrt(sums.robust_variance()));
     return score;
@@ -179,16 +175,14 @@ std::array<GroupSums, 3> sums_of(const NoisyImage& a, const NoisyImage& b, const
 }
 
 /// D², E² and F² of each pixel, summed over the channels.
-struct Energies {
-  std::vector<float> of[3];
-};
+using Energies = std::vector<std::array<float, 3>>;
 
 Energies energies_of(const NoisyImage& a, const NoisyImage& b, const Region& region) {
   Energies energies;
   for (int y = region.y0; y < region.y1; ++y)
     for (int x = region.x0; x < region.x1; ++x) {
       const std::size_t in_a = index_of(a.region, x, y), in_b = index_of(b.region, x, y);
-      float sums[3] = {};
+      std::array<float, 3>& sums = energies.emplace_back();
       for (std::size_t c = 0; c < 3; ++c) {
         const float mean_a = a.mean[in_a + c], mean_b = b.mean[in_b + c];
         const float d = mean_a - mean_b, allowed = static_cast<float>(rounding) * (std::abs(mean_a) + std::abs(mean_b));
@@ -197,7 +191,6 @@ Energies energies_of(const NoisyImage& a, const NoisyImage& b, const Region& reg
         sums[0] += std::abs(d) > allowed ? d * d : 0.0f;
         sums[1] += e * e, sums[2] += f * f;
       }
-      for (std::size_t k = 0; k < 3; ++k) energies.of[k].push_back(sums[k]);
     }
   return energies;
 }
@@ -211,12 +204,12 @@ int outliers_at(const Energies& energies, int width, int height, int x, int y) {
   for (int j = std::max(y - 1, 0); j <= std::min(y + 1, height - 1); ++j)
     for (int i = std::max(x - 1, 0); i <= std::min(x + 1, width - 1); ++i) {
       ++count;
-      for (std::size_t k = 0; k < 3; ++k) around[k] += energies.of[k][at(i, j)];
+      for (std::size_t k = 0; k < 3; ++k) around[k] += energies[at(i, j)][k];
     }
   int found = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const float noise = (around[(k + 1) % 3] + around[(k + 2) % 3]) / (2 * count);
-    found |= energies.of[k][at(x, y)] > outlier_ratio * noise ? 1 << k : 0;
+    found |= energies[at(x, y)][k] > outlier_ratio * noise ? 1 << k : 0;
   }
   return found;
 }
@@ -246,25 +239,14 @@ double count_outliers(const NoisyImage& a, const NoisyImage& b, const Region& re
   return excess <= 0 ? 0 : log_bound(2 * excess / std::sqrt(ranges));
 }
 
-Region common_part(const Region& a, const Region& b) {
-  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
-}
-
 /// The score after correction for `tests` tests of a kind, and for the kinds.
 double corrected(double log_p, double tests, int kinds) { return z_of(log_p + std::log(tests * kinds)); }
 
-void set_means(const std::array<GroupSums, 3>& picture, const Counts& counts, double pixels, int kinds,
-               NoiseScores& scores) {
-  for (std::size_t c = 0; c < 3; ++c) {
-    const Score score = score_of(picture[c], counts);
-    scores.mean_z[c] = corrected(score.log_p, 3, kinds);
-    scores.difference[c] = (picture[c].level_a - picture[c].level_b) / pixels;
-    scores.error[c] = std::sqrt(picture[c].variance()) / pixels;
-    scores.z = std::max(scores.z, scores.mean_z[c]);
-  }
-}
-
 }  // namespace
+
+Region common_part(const Region& a, const Region& b) {
+  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
 
 std::optional<NoisyImage> noisy_image(const Film& film) {
   NoisyImage image{film.region, {}, {}, true};
@@ -311,7 +293,13 @@ NoiseScores noise_scores(const NoisyImage& a, const NoisyImage& b) {
   scores.blocks = static_cast<int>(blocks.size());
   scores.compares_outliers = a.halves && b.halves && counts.exchangeable;
   const int kinds = scores.compares_outliers ? 3 : 2;
-  set_means(picture, counts, static_cast<double>(r.width()) * r.height(), kinds, scores);
+  const double pixels = static_cast<double>(r.width()) * r.height();
+  for (std::size_t c = 0; c < 3; ++c) {
+    scores.mean_z[c] = corrected(score_of(picture[c], counts).log_p, 3, kinds);
+    scores.difference[c] = (picture[c].level_a - picture[c].level_b) / pixels;
+    scores.error[c] = std::sqrt(picture[c].variance()) / pixels;
+    scores.z = std::max(scores.z, scores.mean_z[c]);
+  }
   for (const Tested& tested : blocks) {
     const double z = corrected(tested.log_p, 3.0 * scores.blocks, kinds);
     scores.z_of_block.push_back(static_cast<float>(z));

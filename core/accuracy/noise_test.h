@@ -40,6 +40,9 @@ struct NoisyImage {
   double spp = 0;           ///< samples a pixel; 0: not known
 };
 
+/// The pixels that both have.
+Region common_part(const Region& a, const Region& b);
+
 /// The film with its halves; nothing while a half of some pixel is empty.
 std::optional<NoisyImage> noisy_image(const Film& film);
 

@@ -1,6 +1,5 @@
 #pragma once
 #include "core/accuracy/error.h"
-#include "core/accuracy/flip.h"
 #include "core/accuracy/noise_test.h"
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -41,7 +41,8 @@ TYNDALL_INLINE void take_rows(const float* plane, std::ptrdiff_t stride, int row
   for (int y = rows; y < cell_edge; ++y) store(to + y * lanes_of<F>, F(0.0f));
 }
 
-inline constexpr float middle_of_cell = 0.5f * (cell_edge - 1), per_block = 1.0f / (2 * cell_edge);
+/// Column or row of a pixel of a cell, counted from the middle of the cell, over the width of a block.
+TYNDALL_INLINE float place_in_cell(int i) { return (static_cast<float>(i) - 0.5f * (cell_edge - 1)) / (2 * cell_edge); }
 
 /// Fills the columns of the group of lanes from x on. rows: number of its rows inside the picture. Where a light is
 /// seen, its emission is subtracted from the halves, because the regression would smear it over the pixels around, and
@@ -58,7 +59,7 @@ TYNDALL_INLINE void fill_group(const FilterView& v, int x, int y0, int rows, boo
     const F inside = y < rows ? load<F>(one) : F(0.0f);
     store(strip.column[0] + y * n, inside);
     store(strip.column[1] + y * n, inside * load<F>(across));
-    store(strip.column[2] + y * n, inside * splat<F>((static_cast<float>(y) - middle_of_cell) * per_block));
+    store(strip.column[2] + y * n, inside * splat<F>(place_in_cell(y)));
   }
   for (int k = 0; k < seen_features; ++k) take_rows<F>(v.seen[k] + at, v.stride, rows, strip.column[3 + k]);
   for (int k = 0; shines && k < 2 * emission_terms; ++k)
@@ -89,14 +90,6 @@ TYNDALL_INLINE void sum_rows(const FilterView& v, int sums, int group, Strip<F>&
   }
 }
 
-/// Whether all pixels of a row of cells are known to have no emission.
-TYNDALL_INLINE bool is_dark_row(const FilterView& v, int y0, int rows) {
-  if (!v.has_emission()) return true;
-  bool dark = v.dark_rows != nullptr;
-  for (int y = y0; dark && y < y0 + rows; ++y) dark = v.dark_rows[y] != 0;
-  return dark;
-}
-
 /// Finds which cells of a strip have emission, and returns whether any has.
 template <class F>
 TYNDALL_INLINE bool find_emission(const FilterView& v, int x0, int y0, int rows, std::uint8_t* shines) {
@@ -120,10 +113,10 @@ TYNDALL_INLINE void sum_cells_of(const FilterView& v, int cell_row) {
   constexpr int n = lanes_of<F>;
   const int y0 = cell_row * cell_edge, rows = minimum(cell_edge, v.height - y0);
   float* row = v.sums + std::ptrdiff_t{cell_row + 1} * all_sums * v.cell_stride;
-  const bool dark = is_dark_row(v, y0, rows);
+  bool dark = !v.has_emission() || v.dark_rows;
+  for (int y = y0; v.has_emission() && dark && y < y0 + rows; ++y) dark = v.dark_rows[y] != 0;
   Strip<F> strip;
-  for (int x = 0; x < Strip<F>::width; ++x)
-    strip.across[x] = (static_cast<float>(x % cell_edge) - middle_of_cell) * per_block;
+  for (int x = 0; x < Strip<F>::width; ++x) strip.across[x] = place_in_cell(x % cell_edge);
   for (int x0 = 0; x0 < v.width; x0 += Strip<F>::width) {
     const std::ptrdiff_t first = x0 / cell_edge + 1;
     std::uint8_t* cell = v.shines + (cell_row + 1) * v.cell_stride + first;

@@ -25,6 +25,7 @@ constexpr bool in_hole(int k) {
   return beyond <= hole_reach || (spacing > 0 && beyond >= spacing - hole_reach);
 }
 
+/// Fills in the picture that may be mixed in, for `count` pixels of row y from x0 on.
 template <class F>
 TYNDALL_INLINE void take_rival(const FilterView& v, Rival rival, int y, int x0, int count, ChunkOfHalves& to) {
   if (rival == Rival::blurred) return blur_chunk<F>(v, y, x0, count, to);
@@ -58,17 +59,7 @@ TYNDALL_INLINE F pixels_around(const FilterView& v, int y, int x, int reach) {
   return covered(places<F>(x), reach, v.width) * covered(splat<F>(static_cast<float>(y)), reach, v.height);
 }
 
-/// The sum of a plane over the 3 x 3 pixels around each lane's pixel.
-template <class F>
-TYNDALL_INLINE F sum_around(const FilterView& v, const float* plane, int y, int x) {
-  F sum = F(0.0f);
-  for (int k = maximum(y - 1, 0); k <= minimum(y + 1, v.height - 1); ++k) {
-    const float* at = plane + k * v.stride + x;
-    sum = sum + (load<F>(at - 1) + load<F>(at) + load<F>(at + 1));
-  }
-  return sum;
-}
-
+/// Sets what stands behind a row to 0: windows at the right border of the picture read it.
 TYNDALL_INLINE void clear_behind(float* row, int width) {
   for (int x = width; x < width + row_margin; ++x) row[x] = 0;
 }
@@ -79,7 +70,12 @@ TYNDALL_INLINE void clear_behind(float* row, int width) {
 template <class F>
 TYNDALL_INLINE F level_around(const FilterView& v, int y, int x) {
   const std::ptrdiff_t at = y * v.stride + x;
-  const F around = max(sum_around<F>(v, v.level, y, x) / pixels_around<F>(v, y, x, 1), F(0.0f));
+  F sum = F(0.0f);
+  for (int k = maximum(y - 1, 0); k <= minimum(y + 1, v.height - 1); ++k) {
+    const float* middle = v.level + k * v.stride + x;
+    sum = sum + (load<F>(middle - 1) + load<F>(middle) + load<F>(middle + 1));
+  }
+  const F around = max(sum / pixels_around<F>(v, y, x, 1), F(0.0f));
   const F darker = max(min(load<F>(v.level + at), around), F(0.0f));
   return select(less(F(0.0f), load<F>(v.sharp + at)), darker, select(less(darker, F(0.1f) * around), darker, around));
 }
@@ -113,6 +109,7 @@ TYNDALL_INLINE void compare_pixels(const FilterView& v, const ChunkOfHalves& q, 
   if (v.grouped) store(v.gain_by_noise + at, weight * by_noise);
 }
 
+/// Compares the filtered picture with another one, pixel by pixel, in a row.
 template <class F>
 TYNDALL_INLINE void compare_of(const FilterView& v, Rival rival, int y) {
   ChunkOfHalves q;
@@ -159,22 +156,19 @@ struct WindowColumns {
   ColumnSums by_noise, by_noise_nearby;  ///< only of grouped pixels; the latter's hole is the middle 3 x 3
 };
 
-/// Adds a row of gains, their squares and distances to sums.
-template <class F>
-TYNDALL_INLINE void add_row(const FilterView& v, std::ptrdiff_t at, F (&sum)[3]) {
-  const F gain = load<F>(v.gain + at);
-  sum[0] = sum[0] + gain;
-  sum[1] = mul_add(gain, gain, sum[1]);
-  sum[2] = sum[2] + load<F>(v.distance + at);
-}
-
+/// Sums the columns of the windows around `count` pixels of row y, from x0 on: of gains, their squares and distances.
 template <int spacing, class F>
 TYNDALL_INLINE void sum_columns(const FilterView& v, int y, int x0, int count, WindowColumns& columns) {
   for (int x = -row_margin; x < count + window_reach; x += lanes_of<F>) {
     F outer[3] = {F(0.0f), F(0.0f), F(0.0f)}, inner[3] = {F(0.0f), F(0.0f), F(0.0f)};
 #pragma GCC unroll 13
-    for (int k = -window_reach; k <= window_reach; ++k)
-      if (y + k >= 0 && y + k < v.height) add_row(v, (y + k) * v.stride + x0 + x, in_hole<spacing>(k) ? inner : outer);
+    for (int k = -window_reach; k <= window_reach; ++k) {
+      if (y + k < 0 || y + k >= v.height) continue;
+      F(&sum)[3] = in_hole<spacing>(k) ? inner : outer;
+      const std::ptrdiff_t at = (y + k) * v.stride + x0 + x;
+      const F gain = load<F>(v.gain + at);
+      sum[0] = sum[0] + gain, sum[1] = mul_add(gain, gain, sum[1]), sum[2] = sum[2] + load<F>(v.distance + at);
+    }
     fetch(v, v.gain, y + window_reach + 1, x0 + x);
     fetch(v, v.distance, y + window_reach + 1, x0 + x);
     ColumnSums* const sums[] = {&columns.gain, &columns.squares, &columns.distance};
@@ -237,6 +231,7 @@ TYNDALL_INLINE F fraction_of_rival(const FilterView& v, const WindowColumns& col
   return min(max(fraction, F(0.0f)), F(1.0f));
 }
 
+/// Mixes another picture into the filtered one, in a row, as far as the pixels around say that it helps.
 template <int spacing, class F>
 TYNDALL_INLINE void mix_spaced(const FilterView& v, Rival rival, int y) {
   const float doubt = rival == Rival::raw ? 0.0f : 0.5f;

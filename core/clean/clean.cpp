@@ -1,39 +1,40 @@
 #include "core/clean/clean.h"
 
-#include "core/clean/filter_view.h"
+#include "core/clean/judge.h"
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <numeric>
 #include <tyndall_targets.h>
 
 namespace tyndall {
+
+/// One number at a time: the readable reference, for any processor.
+template <>
+filter::FilterSteps filter::filter_for<Target::scalar>() {
+  return filter_of<float>();
+}
+
 using namespace filter;
 namespace {
 
-static_assert(Planes::margin == row_margin);
+/// The column of a term i of a half.
+int column_of(int half, int i) { return i < plain_terms ? i : i + half * emission_terms; }
 
-/// The products of columns that cells sum, in the order that product_sum() and channel_sum() expect.
+/// The products of columns that cells sum, at the indices that product_sum() and channel_sum() tell.
 std::vector<ColumnPair> column_pairs() {
-  std::vector<ColumnPair> pairs;
-  const auto add = [&](int i, int j) { pairs.push_back({static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j)}); };
-  for (int i = 0; i < plain_terms; ++i)
-    for (int j = 0; j <= i; ++j) add(i, j);
+  std::vector<ColumnPair> pairs(all_sums);
+  const auto put = [&](int sum, int i, int j) {
+    pairs[static_cast<std::size_t>(sum)] = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j)};
+  };
+  for (int half = 0; half < 2; ++half)
+    for (int i = 0; i < terms; ++i)
+      for (int j = 0; j <= i; ++j) put(product_sum(half, i, j), column_of(half, i), column_of(half, j));
   for (int output = 0; output < outputs; ++output)
-    for (int i = 0; i < plain_terms; ++i) add(half_column + output, i);
-  for (int half = 0; half < 2; ++half) {
-    const int own = emission_column + half * emission_terms;
-    for (int k = 0; k < emission_terms; ++k)
-      for (int i = 0; i < plain_terms; ++i) add(own + k, i);
-    for (int k = 0; k < emission_terms; ++k)
-      for (int j = 0; j <= k; ++j) add(own + k, own + j);
-    for (int c = 0; c < outputs / 2; ++c)
-      for (int k = 0; k < emission_terms; ++k) add(half_column + half * 3 + c, own + k);
-  }
-  for (int k = 0; k < emission_terms; ++k) add(emission_column + emission_terms + k, emission_column + k);
-  assert(pairs.size() == all_sums);
+    for (int i = 0; i < terms; ++i) put(channel_sum(output, i), half_column + output, column_of(output / 3, i));
+  for (int k = 0; k < emission_terms; ++k)
+    put(emission_cross + k, emission_column + emission_terms + k, emission_column + k);
   return pairs;
 }
 
@@ -44,12 +45,6 @@ void put_picture(const FilterView& view, float scale, int y, float* rgb) {
               *blue = view.filtered[2] + y * view.stride;
   for (int x = 0; x < view.width; ++x, rgb += 3)
     rgb[0] = scale * red[x], rgb[1] = scale * green[x], rgb[2] = scale * blue[x];
-}
-
-/// Whether a few pixels make up most of the sum of all pixels' errors. squares: the sum of the squared errors. The
-/// second term subtracts the spread that small pictures show by chance.
-bool few_matter(double sum, double squares, double pixels) {
-  return std::sqrt(squares) - 3 / std::sqrt(pixels) * sum > 0.35 * sum;
 }
 
 /// Judges one pixel as judge_of() judges a row, but with a known level, in units of the planes. Returns the squared
@@ -69,24 +64,6 @@ double judge_at_level(const FilterView& v, std::size_t pixel, Vec3f level) {
   return static_cast<double>(v.error[at]);
 }
 
-double sum_of_row(const FilterView& v, const float* plane, int y) {
-  const float* row = plane + y * v.stride;
-  double sum = 0;
-  for (int x = 0; x < v.width; ++x) sum += static_cast<double>(row[x]);
-  return sum;
-}
-
-/// The squared relative errors of the pixels of some rows.
-ErrorSum errors_of_rows(const FilterView& v, int first, int end) {
-  ErrorSum sum;
-  for (int y = first; y < end; ++y) {
-    const float* row = v.error + y * v.stride;
-    const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(v.width);
-    for (int x = 0; x < v.width; ++x) sum.add({pixel + static_cast<std::size_t>(x), static_cast<double>(row[x])});
-  }
-  return sum;
-}
-
 /// Resizes in steps small enough to stop soon after `give_up` is set.
 void grow(std::vector<float>& numbers, std::size_t count, const std::atomic<bool>& give_up) {
   constexpr std::size_t step = std::size_t{1} << 18u;
@@ -98,69 +75,52 @@ void grow(std::vector<float>& numbers, std::size_t count, const std::atomic<bool
 
 }  // namespace
 
-struct Cleaner::Memory {
-  FilterSteps steps;
-  std::vector<ColumnPair> pairs = column_pairs();
-  Planes work;  ///< filtered 6, level, gain, distance; of grouped pixels also gain_by_noise
-  CleanPicture made;
-  ZeroedFloats sums, coefficients;
-  std::vector<std::uint8_t> shines;
-  std::vector<double> row_noise;  ///< for each row the sum of its pixels' relative variance
-  int cells_x = 0, cells_y = 0;
-  std::ptrdiff_t cell_stride = 0;
-
-  void resize(int width, int height, bool grouped) {
-    work.resize(width, height, outputs + (grouped ? 4 : 3));
-    if (made.width != width || made.height != height) made = {};  // its memory would stay that of a larger picture
-    row_noise.resize(static_cast<std::size_t>(height));
-    if (cells_x == cells_in(width) && cells_y == cells_in(height)) return;
-    cells_x = cells_y = 0;  // should there be no memory for the new size
-    constexpr int lanes = 16;
-    cell_stride = std::ptrdiff_t{(cells_in(width) + 2 + 2 * lanes) / lanes} * lanes;
-    const auto rows = static_cast<std::size_t>(cells_in(height)) + 2, row = static_cast<std::size_t>(cell_stride);
-    sums.resize(rows * all_sums * row + row);
-    shines.assign(rows * row + row, 0);
-    coefficients.resize((rows - 1) * outputs * terms * row);
-    cells_x = cells_in(width), cells_y = cells_in(height);
-  }
-  FilterView view_of(const CleanInput& input);
-};
-
 Cleaner::Cleaner(Target target)
     : Cleaner(use_target<TYNDALL_BUILT_TARGETS>(target, [](auto built) { return filter_for<built()>(); })) {}
-Cleaner::Cleaner(const FilterSteps& steps) : memory_(std::make_unique<Memory>()) { memory_->steps = steps; }
-Cleaner::~Cleaner() = default;
-Cleaner::Cleaner(Cleaner&&) noexcept = default;
-Cleaner& Cleaner::operator=(Cleaner&&) noexcept = default;
+Cleaner::Cleaner(const FilterSteps& steps) : steps_(steps), pairs_(column_pairs()) {}
 
-FilterView Cleaner::Memory::view_of(const CleanInput& input) {
+void Cleaner::resize(int width, int height, bool grouped) {
+  work_.resize(width, height, outputs + (grouped ? 4 : 3));
+  if (made_.width != width || made_.height != height) made_ = {};  // its memory would stay that of a larger picture
+  row_noise_.resize(static_cast<std::size_t>(height));
+  if (cells_x_ == cells_in(width) && cells_y_ == cells_in(height)) return;
+  cells_x_ = cells_y_ = 0;  // should there be no memory for the new size
+  constexpr int lanes = 16;
+  cell_stride_ = std::ptrdiff_t{(cells_in(width) + 2 + 2 * lanes) / lanes} * lanes;
+  const auto rows = static_cast<std::size_t>(cells_in(height)) + 2, row = static_cast<std::size_t>(cell_stride_);
+  sums_.resize(rows * all_sums * row + row);
+  shines_.assign(rows * row + row, 0);
+  coefficients_.resize((rows - 1) * outputs * terms * row);
+  cells_x_ = cells_in(width), cells_y_ = cells_in(height);
+}
+
+FilterView Cleaner::view_of(const CleanInput& input) {
   FilterView v;
-  v.width = input.width, v.height = input.height, v.stride = work.stride();
+  v.width = input.width, v.height = input.height, v.stride = work_.stride();
   v.floor = 0.01f / input.scale / input.scale;
   v.grouped = input.grouped;
   v.trust_in_dark = input.spp >= 16 ? 1.0f : 0.0f;
   const auto doubt = static_cast<float>(1 / std::sqrt(std::max(input.spp, 1.0)));
   v.by_far = std::max(16 * doubt, 2.0f), v.quiet = std::min(0.8f * doubt, 0.4f);
   for (int k = 0; k < outputs; ++k) {
-    v.half[k] = input.halves.plane(k), v.filtered[k] = work.plane(k);
+    v.half[k] = input.halves.plane(k), v.filtered[k] = work_.plane(k);
     v.emission[k] = input.emission.count() > 0 ? input.emission.plane(k) : nullptr;
   }
   v.dark_rows = input.dark_rows.empty() ? nullptr : input.dark_rows.data();
   for (int k = 0; k < seen_features; ++k) v.seen[k] = input.seen.plane(k);
   v.sharp = input.seen.plane(seen_features);
-  v.level = work.plane(outputs), v.gain = work.plane(outputs + 1), v.distance = work.plane(outputs + 2);
-  v.gain_by_noise = v.grouped ? work.plane(outputs + 3) : nullptr;
+  v.level = work_.plane(outputs), v.gain = work_.plane(outputs + 1), v.distance = work_.plane(outputs + 2);
+  v.gain_by_noise = v.grouped ? work_.plane(outputs + 3) : nullptr;
   v.error = v.gain, v.noise = v.distance;
-  v.pairs = pairs.data(), v.sums = sums.data(), v.shines = shines.data(), v.cell_stride = cell_stride;
-  v.coefficients = coefficients.data();
+  v.pairs = pairs_.data(), v.sums = sums_.data(), v.shines = shines_.data(), v.cell_stride = cell_stride_;
+  v.coefficients = coefficients_.data();
   return v;
 }
 
 bool Cleaner::run(const CleanInput& input, ThreadPool& thread_pool, const std::atomic<bool>& give_up, CleanPicture& out,
                   const LevelsOf& levels_of) {
-  Memory& m = *memory_;
-  m.resize(input.width, input.height, input.grouped);
-  const FilterView v = m.view_of(input);
+  resize(input.width, input.height, input.grouped);
+  const FilterView v = view_of(input);
   const auto each = [&](int rows, const auto& step) {
     thread_pool.for_each(rows, [&](int row) {
       if (!give_up.load(std::memory_order_relaxed)) step(row);
@@ -169,33 +129,36 @@ bool Cleaner::run(const CleanInput& input, ThreadPool& thread_pool, const std::a
   };
   // Rows of pixels are dealt out in bands, so that a thread finds neighbouring rows in its cache.
   const auto each_pixel_row = [&](const auto& step) {
-    return each(m.cells_y, [&](int band) {
+    return each(cells_y_, [&](int band) {
       const int end = std::min((band + 1) * cell_edge, v.height);
       for (int y = band * cell_edge; y < end && !give_up.load(std::memory_order_relaxed); ++y) step(y);
     });
   };
   const auto mix = [&](Rival rival) {
-    return each_pixel_row([&](int y) { m.steps.compare(v, rival, y); }) &&
-           each_pixel_row([&](int y) { m.steps.mix(v, rival, y); });
+    return each_pixel_row([&](int y) { steps_.compare(v, rival, y); }) &&
+           each_pixel_row([&](int y) { steps_.mix(v, rival, y); });
   };
   const auto width = static_cast<std::size_t>(v.width), height = static_cast<std::size_t>(v.height);
   // One thread allocates the result while the others sum, because the system takes time to provide new memory.
   const auto make_room = [&] {
-    m.made.width = v.width, m.made.height = v.height;
-    grow(m.made.rgb, 3 * width * height, give_up);
-    grow(m.made.pixel_error, width * height, give_up);
+    made_.width = v.width, made_.height = v.height;
+    grow(made_.rgb, 3 * width * height, give_up);
+    grow(made_.pixel_error, width * height, give_up);
   };
-  const auto sum_row = [&](int row) { row == 0 ? make_room() : m.steps.sum_cells(v, row - 1); };
-  const bool whole = each(m.cells_y + 1, sum_row) &&
-                     each(m.cells_y + 1, [&](int row) { m.steps.fit_blocks(v, row); }) &&
-                     each(m.cells_y, [&](int row) { m.steps.predict(v, row); }) && mix(Rival::blurred) &&
-                     mix(Rival::raw) && each_pixel_row([&](int y) { m.steps.judge(v, y); });
-  std::vector<ErrorSum> bands(static_cast<std::size_t>(m.cells_y));
+  const auto sum_row = [&](int row) { row == 0 ? make_room() : steps_.sum_cells(v, row - 1); };
+  const bool whole = each(cells_y_ + 1, sum_row) && each(cells_y_ + 1, [&](int row) { steps_.fit_blocks(v, row); }) &&
+                     each(cells_y_, [&](int row) { steps_.predict(v, row); }) && mix(Rival::blurred) &&
+                     mix(Rival::raw) && each_pixel_row([&](int y) { steps_.judge(v, y); });
+  std::vector<ErrorSum> bands(static_cast<std::size_t>(cells_y_));
   const auto sum_errors = [&](int band) {
-    bands[static_cast<std::size_t>(band)] =
-        errors_of_rows(v, band * cell_edge, std::min((band + 1) * cell_edge, v.height));
+    ErrorSum sum;
+    for (int y = band * cell_edge; y < std::min((band + 1) * cell_edge, v.height); ++y)
+      for (int x = 0; x < v.width; ++x)
+        sum.add({static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x),
+                 static_cast<double>(v.error[y * v.stride + x])});
+    bands[static_cast<std::size_t>(band)] = std::move(sum);
   };
-  if (!whole || !each(m.cells_y, sum_errors)) return false;
+  if (!whole || !each(cells_y_, sum_errors)) return false;
   ErrorSum errors;
   for (const ErrorSum& band : bands) errors.add(band);
   const auto judge_anew = [&](std::size_t pixel, Vec3f level) {
@@ -204,17 +167,19 @@ bool Cleaner::run(const CleanInput& input, ThreadPool& thread_pool, const std::a
   if (levels_of) ask_levels(levels_of, width * height, judge_anew, errors);
   const bool copied = each_pixel_row([&](int y) {
     const std::size_t row = static_cast<std::size_t>(y) * width;
-    put_picture(v, input.scale, y, m.made.rgb.data() + 3 * row);
-    m.steps.tell(v, y, m.made.pixel_error.data() + row);
-    m.row_noise[static_cast<std::size_t>(y)] = sum_of_row(v, v.noise, y);
+    put_picture(v, input.scale, y, made_.rgb.data() + 3 * row);
+    steps_.tell(v, y, made_.pixel_error.data() + row);
+    const float* noise = v.noise + y * v.stride;
+    row_noise_[static_cast<std::size_t>(y)] = std::accumulate(noise, noise + v.width, 0.0);
   });
   if (!copied) return false;
   const double pixels = static_cast<double>(width * height);
   // The errors are noise plus squared bias, and the estimate of the latter may be negative by chance.
-  const double error = std::max(errors.sum(), std::accumulate(m.row_noise.begin(), m.row_noise.end(), 0.0));
-  m.made.relative_error = std::sqrt(error / pixels);
-  m.made.rests_on_few_pixels = few_matter(error, errors.squares(), pixels);
-  std::swap(out, m.made);
+  const double error = std::max(errors.sum(), std::accumulate(row_noise_.begin(), row_noise_.end(), 0.0));
+  made_.relative_error = std::sqrt(error / pixels);
+  // The second term subtracts the spread that small pictures show by chance.
+  made_.rests_on_few_pixels = std::sqrt(errors.squares()) - 3 / std::sqrt(pixels) * error > 0.35 * error;
+  std::swap(out, made_);
   return true;
 }
 

@@ -1,11 +1,12 @@
 #pragma once
 #include "core/base/error_sum.h"
-#include "core/base/target.h"
 #include "core/base/thread_pool.h"
+#include "core/clean/filter_view.h"
 #include "core/film/film.h"
 
 #include <atomic>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -17,17 +18,6 @@
 /// the raw picture, and the disagreement is the error estimate (choice.h). With more samples more of the raw picture
 /// shows, so that the error has no floor.
 namespace tyndall {
-namespace filter {
-struct FilterSteps;
-}
-
-/// The surface seen first through a pixel, free of noise: the mean over the parts of the pixel. A part that sees
-/// nothing counts as zeros.
-struct FirstSeen {
-  Vec3f albedo, normal;
-  float nearness = 0;  ///< 1 / (1 + depth over its harmonic mean in the picture), in [0, 1); 0: nothing is seen
-  bool sharp = true;   ///< lights and sky are not seen by chance there, as they are in glass and in brushed metal
-};
 
 /// A row of floats, aligned to 64 bytes as a group of lanes needs, initially zero. The memory is taken from the system
 /// page by page when it is first written, by the thread that writes, and in large pages where possible: otherwise
@@ -40,10 +30,7 @@ class ZeroedFloats {
   const float* data() const { return first_; }
 
  private:
-  struct Free {
-    void operator()(float* floats) const;
-  };
-  std::unique_ptr<float, Free> memory_;
+  std::unique_ptr<float, void (*)(void*)> memory_{nullptr, std::free};
   float* first_ = nullptr;
 };
 
@@ -51,7 +38,7 @@ class ZeroedFloats {
 /// everywhere.
 class Planes {
  public:
-  static constexpr int margin = 16;
+  static constexpr int margin = filter::row_margin;
 
   /// Makes all numbers zero. If the size is unchanged, the memory and the old numbers within the rows are kept, and
   /// false is returned.
@@ -79,16 +66,15 @@ struct CleanInput {
   Planes halves;                        ///< 6: red, green, blue of A and B
   Planes emission;                      ///< likewise, or none
   std::vector<std::uint8_t> dark_rows;  ///< 1: the row's emission is 0; empty: not known of any
-  Planes seen;                          ///< 8: albedo, normal, nearness, 1 where sharp
+  /// 8 of the surface seen first through each pixel, free of noise, means over the parts of the pixel: albedo; normal;
+  /// nearness, 1 / (1 + depth over its harmonic mean in the picture); and whether it is sharp: 1 where lights and sky
+  /// are not seen by chance, as they are in glass and in brushed metal. A part that sees nothing counts as zeros.
+  Planes seen;
 };
 
 /// Fills all but `seen` from a film's region. If one half of a pixel has no samples, it gets the other half's mean.
 /// Returns false if `give_up` was set before the end; the planes are then unusable.
 bool read_film(const Film& film, ThreadPool& thread_pool, const std::atomic<bool>& give_up, CleanInput& input);
-/// Makes room in `seen`.
-void resize_first_seen(int width, int height, CleanInput& input);
-/// Sets what a pixel sees first.
-void put_first_seen(const FirstSeen& pixel, int x, int y, CleanInput& input);
 
 /// The filtered picture.
 struct CleanPicture {
@@ -109,9 +95,6 @@ class Cleaner {
   explicit Cleaner(Target target);
   /// Uses these steps in place of an instruction set's: for tests that count calls.
   explicit Cleaner(const filter::FilterSteps& steps);
-  ~Cleaner();
-  Cleaner(Cleaner&&) noexcept;
-  Cleaner& operator=(Cleaner&&) noexcept;
 
   /// Filters a picture whose pixels all have samples in both halves. Returns false and leaves `out` unchanged if
   /// `give_up` is set before the end: each thread then finishes its row of pixels, or of 8 x 8 pixels, in less than 1
@@ -122,8 +105,18 @@ class Cleaner {
            const LevelsOf& levels_of = {});
 
  private:
-  struct Memory;
-  std::unique_ptr<Memory> memory_;
+  void resize(int width, int height, bool grouped);
+  filter::FilterView view_of(const CleanInput& input);
+
+  filter::FilterSteps steps_;
+  std::vector<filter::ColumnPair> pairs_;
+  Planes work_;  ///< filtered 6, level, gain, distance; of grouped pixels also gain_by_noise
+  CleanPicture made_;
+  ZeroedFloats sums_, coefficients_;
+  std::vector<std::uint8_t> shines_;
+  std::vector<double> row_noise_;  ///< for each row the sum of its pixels' relative variance
+  int cells_x_ = 0, cells_y_ = 0;
+  std::ptrdiff_t cell_stride_ = 0;
 };
 
 }  // namespace tyndall

@@ -1,6 +1,6 @@
 // The filter for a wide instruction set; compiled once for each, see core/base/lanes_target.h.
 #include "core/base/lanes_target.h"
-#include "core/clean/filter_entry.h"
+#include "core/clean/judge.h"
 
 namespace tyndall::filter {
 

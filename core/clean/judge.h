@@ -1,7 +1,8 @@
 #pragma once
 #include "core/clean/choice.h"
+#include "core/clean/predict.h"
 
-/// Estimates the error of the chosen picture by the formula in choice.h.
+/// Estimates the error of the chosen picture by the formula in choice.h, and lists all steps of the filter.
 namespace tyndall::filter {
 
 /// Statistics of one channel, over both halves, in the 3 x 3 pixels around each lane's pixel.
@@ -132,6 +133,20 @@ TYNDALL_INLINE void tell_of(const FilterView& v, int y, float* pixel_error) {
     }
     __builtin_memcpy(pixel_error + x0, root, static_cast<std::size_t>(count) * sizeof(float));
   }
+}
+
+/// The steps over the number type F; a .cpp file for each instruction set asks for them. The functions are within a
+/// static one, so that each file has its own copy: of an ordinary template the linker keeps one copy for all files, and
+/// a copy with wide instructions would crash older CPUs.
+template <class F>
+static FilterSteps filter_of() {
+  return {[](const FilterView& view, int row) { sum_cells_of<F>(view, row); },
+          [](const FilterView& view, int row) { fit_blocks_of<F>(view, row); },
+          [](const FilterView& view, int row) { predict_of<F>(view, row); },
+          [](const FilterView& view, Rival rival, int y) { compare_of<F>(view, rival, y); },
+          [](const FilterView& view, Rival rival, int y) { mix_of<F>(view, rival, y); },
+          [](const FilterView& view, int y) { judge_of<F>(view, y); },
+          [](const FilterView& view, int y, float* pixel_error) { tell_of<F>(view, y, pixel_error); }};
 }
 
 }  // namespace tyndall::filter

@@ -1,10 +1,8 @@
 #include "core/clean/clean.h"
 
-#include "core/clean/filter_view.h"
 #include "core/system/process.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <new>
 #include <numeric>
 
@@ -17,22 +15,6 @@ constexpr std::size_t group = 64;
 /// a light is brighter than 2^25.
 float scale_of(const Film& film) { return static_cast<float>(std::max(film.quantum * 0x1p-25, 1.0)); }
 
-/// Returns the factor from the sums of a half to its means in the planes; 0 for a half without samples. The last factor
-/// is kept: most pixels have as many samples as the one before, and the division would take longer than everything
-/// else.
-class PerSample {
- public:
-  explicit PerSample(double quantum) : quantum_(quantum) {}
-  double of(std::uint32_t count) {
-    if (count != count_) count_ = count, per_ = count > 0 ? quantum_ / count : 0;
-    return per_;
-  }
-
- private:
-  double quantum_, per_ = 0;
-  std::uint32_t count_ = 0;
-};
-
 /// Returns the number of samples in the row.
 std::uint64_t read_row(const Film& film, int y, CleanInput& input) {
   const auto width = static_cast<std::size_t>(input.width);
@@ -42,11 +24,16 @@ std::uint64_t read_row(const Film& film, int y, CleanInput& input) {
   for (int k = 0; k < filter::outputs; ++k) to[k] = input.halves.plane(k) + row;
   std::uint64_t samples = 0;
   const double quantum = film.quantum / static_cast<double>(input.scale);
-  PerSample of_half[2] = {PerSample(quantum), PerSample(quantum)};
+  // The factors from the sums of a half to its means in the planes, 0 for a half without samples. The last ones are
+  // kept: most pixels have as many samples as the one before, and the division would take longer than everything else.
+  std::uint32_t counts[2] = {};
+  double per[2] = {};
   for (std::size_t x = 0; x < width; ++x) {
     const FilmPixel& pixel = pixels[x];
     samples += pixel.taken;
-    const double per[2] = {of_half[0].of(counted(film, pixel, 0)), of_half[1].of(counted(film, pixel, 1))};
+    for (int half = 0; half < 2; ++half)
+      if (const std::uint32_t count = counted(film, pixel, half); count != counts[half])
+        counts[half] = count, per[half] = count > 0 ? quantum / count : 0;
     for (int half = 0; half < 2; ++half) {
       const int from = per[half] > 0 ? half : 1 - half;
       for (int c = 0; c < 3; ++c) to[3 * half + c][x] = static_cast<float>(pixel.sum[from][c].value() * per[from]);
@@ -91,8 +78,6 @@ void ZeroedFloats::resize(std::size_t count) {
   if (std::align(large_page, large_page, begin, bytes)) ask_for_large_pages(begin, bytes);
 }
 
-void ZeroedFloats::Free::operator()(float* floats) const { std::free(floats); }
-
 bool Planes::resize(int width, int height, int count) {
   if (width == width_ && height == height_ && count == count_) return false;
   width_ = height_ = count_ = 0;  // should there be no memory for the new size
@@ -119,18 +104,6 @@ bool read_film(const Film& film, ThreadPool& thread_pool, const std::atomic<bool
   const auto all = std::accumulate(samples.begin(), samples.end(), std::uint64_t{0});
   input.spp = static_cast<double>(all) / static_cast<double>(film.pixels.size());
   return !give_up;
-}
-
-void resize_first_seen(int width, int height, CleanInput& input) {
-  input.seen.resize(width, height, filter::seen_features + 1);
-}
-
-void put_first_seen(const FirstSeen& pixel, int x, int y, CleanInput& input) {
-  const float values[filter::seen_features + 1] = {pixel.albedo.x, pixel.albedo.y,           pixel.albedo.z,
-                                                   pixel.normal.x, pixel.normal.y,           pixel.normal.z,
-                                                   pixel.nearness, pixel.sharp ? 1.0f : 0.0f};
-  const std::ptrdiff_t at = y * input.seen.stride() + x;
-  for (int k = 0; k <= filter::seen_features; ++k) input.seen.plane(k)[at] = values[k];
 }
 
 }  // namespace tyndall

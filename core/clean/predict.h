@@ -24,10 +24,8 @@ TYNDALL_INLINE void take_cell(const float* plane, std::ptrdiff_t stride, int row
 /// Fills the terms that are the same in each cell.
 TYNDALL_INLINE void fill_places(CellTerms& cell) {
   for (int pixel = 0; pixel < cell_pixels; ++pixel) {
-    const int x = pixel % cell_edge, y = pixel / cell_edge;
     cell.of[0][pixel] = 1;
-    cell.of[1][pixel] = (static_cast<float>(x) - middle_of_cell) * per_block;
-    cell.of[2][pixel] = (static_cast<float>(y) - middle_of_cell) * per_block;
+    cell.of[1][pixel] = place_in_cell(pixel % cell_edge), cell.of[2][pixel] = place_in_cell(pixel / cell_edge);
   }
 }
 

@@ -40,25 +40,14 @@ struct BlockCells {
   const float* part[4];  ///< first sums of the first block's cells: upper left, upper right, lower left, lower right
   std::ptrdiff_t stride;
 
-  TYNDALL_INLINE F sum(int s) const {
-    return (load<F>(part[0] + s * stride) + load<F>(part[1] + s * stride)) +
-           (load<F>(part[2] + s * stride) + load<F>(part[3] + s * stride));
-  }
+  TYNDALL_INLINE F at(int k, int s) const { return load<F>(part[k] + s * stride); }
+  TYNDALL_INLINE F sum(int s) const { return (at(0, s) + at(1, s)) + (at(2, s) + at(3, s)); }
   /// Moves the sum of a product with x from the middles of the cells to the middle of the block, a quarter of a block
   /// away: adds a quarter of the right cells' sums minus the left cells'. down(): the same for y.
-  TYNDALL_INLINE F across(int s) const {
-    return F(0.25f) * ((load<F>(part[1] + s * stride) - load<F>(part[0] + s * stride)) +
-                       (load<F>(part[3] + s * stride) - load<F>(part[2] + s * stride)));
-  }
-  TYNDALL_INLINE F down(int s) const {
-    return F(0.25f) * ((load<F>(part[2] + s * stride) - load<F>(part[0] + s * stride)) +
-                       (load<F>(part[3] + s * stride) - load<F>(part[1] + s * stride)));
-  }
+  TYNDALL_INLINE F across(int s) const { return F(0.25f) * ((at(1, s) - at(0, s)) + (at(3, s) - at(2, s))); }
+  TYNDALL_INLINE F down(int s) const { return F(0.25f) * ((at(2, s) - at(0, s)) + (at(3, s) - at(1, s))); }
   /// The same for the product of x and y.
-  TYNDALL_INLINE F across_down(int s) const {
-    return F(0.0625f) * ((load<F>(part[0] + s * stride) - load<F>(part[1] + s * stride)) +
-                         (load<F>(part[3] + s * stride) - load<F>(part[2] + s * stride)));
-  }
+  TYNDALL_INLINE F across_down(int s) const { return F(0.0625f) * ((at(0, s) - at(1, s)) + (at(3, s) - at(2, s))); }
 };
 
 /// The sums of products of a block, whose x and y are counted from its own middle.

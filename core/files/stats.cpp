@@ -139,7 +139,7 @@ std::string clean_stats_text(const Film& film, const CleanPicture& clean, double
   put(json, "height", film.region.height());
   put(json, "spp", labelled_spp(film, sum));
   put(json, "samples", sum.samples);
-  put(json, "relative_error_estimate", estimated_relative_error(film));
+  put(json, "relative_error_estimate", estimate_error(film).relative_error);
   put(json, "image_hash", hash_text(image_hash(film.region.width(), film.region.height(), resolve(film))));
   put(json, "denoised", true);
   put(json, "denoised_relative_error_estimate", clean.relative_error);

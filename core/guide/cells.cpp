@@ -1,10 +1,8 @@
 #include "core/guide/cells.h"
 
-#include "core/guide/bins.h"
-#include "core/guide/lobes.h"
+#include "core/compile/columns.h"
 
-#include <algorithm>
-#include <cmath>
+#include <array>
 #include <map>
 #include <utility>
 
@@ -22,7 +20,11 @@ constexpr double eagerness = 0.5;          // queries over the fraction of light
 constexpr double min_query_probability = 0.05;
 constexpr double near_offset = 0.05;  // squared distance, in cells, at which errors are about those of the lobe itself
 
-constexpr std::int32_t steps[7][3] = {{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+constexpr CellCoordinates steps[] = {{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+
+CellCoordinates operator+(const CellCoordinates& cell, const CellCoordinates& step) {
+  return {cell.x + step.x, cell.y + step.y, cell.z + step.z};
+}
 
 /// The landings around a cell after the same events.
 struct Sequence {
@@ -30,11 +32,6 @@ struct Sequence {
   const Landing* first = nullptr;
   double power = 0, inverse_size2 = 0;
   std::vector<std::size_t> own, others, extra;  ///< in the cell; in its neighbours; in coarser cells
-
-  void restart(std::int32_t its_number, const Landing& landing, double size) {
-    number = its_number, first = &landing, power = 0, inverse_size2 = 1 / (size * size);
-    own.clear(), others.clear(), extra.clear();
-  }
 };
 
 double squared_distance(Vec3d a, Vec3d b) { return dot(a - b, a - b); }
@@ -82,9 +79,8 @@ Landing along_axes(Landing l) {
 
 class CellMaker {
  public:
-  CellMaker(const SceneView& scene, const LightPaths& paths, Guide& guide)
-      : scene_(scene), paths_(paths), landings_(paths.landings()), guide_(guide) {
-    set_sizes(middle_size(landings_), guide_.inverse_size);
+  CellMaker(const LightPaths& paths, Guide& guide) : paths_(paths), landings_(paths.landings), guide_(guide) {
+    set_sizes(landings_, guide_.inverse_size);
     for (int level = 0; level < guide_levels; ++level) bins_[level].fill(guide_, landings_, level);
     std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> known;
     for (const Landing& l : landings_)
@@ -104,27 +100,24 @@ class CellMaker {
  private:
   struct Cell : GuideCell {
     std::uint64_t key;
-    Coordinates at;
+    CellCoordinates at;
   };
 
   double size(int level) const { return 1 / static_cast<double>(guide_.inverse_size[level]); }
-  bool has_cells(int level, const Bins::Bin& bin) const {
-    return level >= guide_middle_level || bin.end - bin.begin >= min_in_fine_cell;
-  }
 
   /// Cells with landings and their neighbours.
   void make_level(int level) {
     std::vector<Cell>& cells = cells_[level];
     for (const Bins::Bin& bin : bins_[level].bins)
-      if (has_cells(level, bin))
-        for (const auto& step : steps) cells.push_back({{}, bin.at.stepped(step).key(), bin.at.stepped(step)});
+      if (level >= guide_middle_level || bin.end - bin.begin >= min_in_fine_cell)
+        for (const CellCoordinates& step : steps) cells.push_back({{}, key_of(bin.at + step), bin.at + step});
     std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.key < b.key; });
     cells.erase(std::unique(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.key == b.key; }),
                 cells.end());
     for (Cell& cell : cells) make_cell(level, cell);
   }
 
-  Vec3d middle_of(int level, const Coordinates& at) const {
+  Vec3d middle_of(int level, const CellCoordinates& at) const {
     const auto middle = [&](std::int32_t v) { return (static_cast<double>(v) + 0.5 - 0.37) * size(level); };
     return {middle(at.x), middle(at.y), middle(at.z)};
   }
@@ -137,13 +130,16 @@ class CellMaker {
     for (int coarser = level; coarser < guide_levels; ++coarser, factor *= coarse_factor) {
       const std::size_t known = count_;
       if (known >= max_sequences_in_cell) break;
-      const Coordinates home = coordinates_of(guide_, middle, coarser);
-      for (const auto& step : steps)
-        if (const Bins::Bin* bin = bins_[coarser].find(home.stepped(step)))
+      const CellCoordinates home = cell_at<float>(guide_, to_float(middle), coarser);
+      for (const CellCoordinates& step : steps)
+        if (const Bins::Bin* bin = find_key(bins_[coarser].bins, key_of(home + step)))
           add_landings(coarser, *bin, &step == &steps[0], known, factor);
     }
   }
 
+  /// Adds the landings of a bin to their sequences: to all of them in a cell's own level, to those that coarser levels
+  /// bring from there on. known: number of sequences that finer levels have listed; of these a few landings are kept
+  /// to tell how well their lobes do.
   void add_landings(int level, const Bins::Bin& bin, bool home, std::size_t known, double factor) {
     const std::vector<std::size_t>& order = bins_[level].order;
     const std::size_t stride = std::max<std::size_t>(1, (bin.end - bin.rest) / max_looked_at);
@@ -160,7 +156,9 @@ class CellMaker {
       if (q == nowhere) {
         q = count_++;
         if (q == sequences_.size()) sequences_.emplace_back();
-        sequences_[q].restart(number, l, size(level));
+        Sequence& fresh = sequences_[q];
+        fresh.number = number, fresh.first = &l, fresh.power = 0, fresh.inverse_size2 = 1 / (size(level) * size(level));
+        fresh.own.clear(), fresh.others.clear(), fresh.extra.clear();
       }
       Sequence& s = sequences_[q];
       s.power += l.weight * static_cast<double>(step) * factor * (home ? 1 : neighbour_factor);
@@ -168,31 +166,25 @@ class CellMaker {
     }
   }
 
-  /// Those of most power, the greatest first; of equal ones those that were listed first.
-  std::vector<const Sequence*> strongest() const {
-    std::vector<const Sequence*> list;
-    for (std::size_t q = 0; q < count_; ++q) list.push_back(&sequences_[q]);
-    const std::size_t kept = std::min(count_, max_sequences_in_cell);
-    std::partial_sort(
-        list.begin(), list.begin() + static_cast<std::ptrdiff_t>(kept), list.end(),
-        [](const Sequence* a, const Sequence* b) { return a->power != b->power ? a->power > b->power : a < b; });
-    list.resize(kept);
-    return list;
-  }
-
   void make_cell(int level, Cell& cell) {
     const Vec3d middle = middle_of(level, cell.at);
     list_sequences(level, middle);
     double total = 0, sum = 0;
-    for (std::size_t q = 0; q < count_; ++q) total += sequences_[q].power;
-    const std::vector<const Sequence*> used = strongest();
+    std::vector<const Sequence*> used;
+    for (std::size_t q = 0; q < count_; ++q) total += sequences_[q].power, used.push_back(&sequences_[q]);
+    // Those of most power are used, the greatest first; of equal ones those that were listed first.
+    const auto kept = used.begin() + static_cast<std::ptrdiff_t>(std::min(count_, max_sequences_in_cell));
+    std::partial_sort(used.begin(), kept, used.end(), [](const Sequence* a, const Sequence* b) {
+      return a->power != b->power ? a->power > b->power : a < b;
+    });
+    used.erase(kept, used.end());
     for (const Sequence* s : used) sum += std::max(s->power, min_weight * total);
     cell.first = guide_.lobes();
     for (const Sequence* s : used) add_sequence(*s, middle, std::max(s->power, min_weight * total) / sum);
     cell.end = guide_.lobes();
-    const double h = size(level), brought = total / paths_.paths_of_pair() / (h * h);
+    const double h = size(level), brought = total / paths_.paths_of_pair / (h * h);
     cell.query_probability = static_cast<float>(
-        std::clamp(eagerness * brought / direct_light_at(scene_, middle, h), min_query_probability, 1.0));
+        std::clamp(eagerness * brought / direct_light_at(paths_.scene, middle, h), min_query_probability, 1.0));
   }
 
   /// Numbers the images of lights. Landings after the same events, of the same light, have the same one.
@@ -209,28 +201,22 @@ class CellMaker {
   }
 
   void add_sequence(const Sequence& s, Vec3d middle, double weight) {
-    const std::size_t nearest = nearest_landing(s.own.empty() ? s.others : s.own, middle);
-    add_lobe(s, nearest);
+    const auto nearer = [&](std::size_t a, std::size_t b) {
+      return squared_distance(landings_[a].point, middle) < squared_distance(landings_[b].point, middle);
+    };
+    const std::vector<std::size_t>& from = s.own.empty() ? s.others : s.own;
+    const std::size_t nearest = *std::min_element(from.begin(), from.end(), nearer);
+    const Landing lobe = along_axes(landings_[nearest]);
+    guide_.lobe.push_back({to_float(lobe.point), to_float(lobe.flight), to_float(lobe.axis),
+                           to_float({lobe.curvature.xx, lobe.curvature.xy, lobe.curvature.yy}),
+                           static_cast<float>(lobe.variance.xx), static_cast<float>(lobe.variance.yy),
+                           static_cast<float>(error_of(s, nearest)), static_cast<float>(s.inverse_size2)});
     const Landing& l = *s.first;
-    const std::int32_t code = (l.next.low & 63) >> 1;
-    const Thing& thing = paths_.things()[static_cast<std::size_t>(code - 1)];
+    const Thing& thing = paths_.things[static_cast<std::size_t>(l.next.lowest_thing())];
     const Vec3f center = thing.is_sphere ? to_float(thing.center + 0.5 * thing.motion) : Vec3f{};
     const float radius = thing.is_sphere ? static_cast<float>(thing.radius) : 0;
     guide_.sequences.push_back({l.events.low, l.events.high, l.next.low, l.next.high, l.count, image_of_[nearest],
                                 static_cast<float>(weight), radius, center});
-  }
-
-  std::size_t nearest_landing(const std::vector<std::size_t>& from, Vec3d point) const {
-    return *std::min_element(from.begin(), from.end(), [&](std::size_t a, std::size_t b) {
-      return squared_distance(landings_[a].point, point) < squared_distance(landings_[b].point, point);
-    });
-  }
-
-  /// The direction of flight at one landing, by another one.
-  bool predict_at(std::size_t landing, std::size_t by, Vec3d& flight) const {
-    const Landing& l = landings_[landing];
-    flight = l.flight;
-    return (image_of_[by] >= 0 && image_of_[by] == image_of_[landing]) || predict(landings_[by], l.point, flight);
   }
 
   /// How well a lobe tells the directions of other landings: half of their mean squared difference, see
@@ -245,8 +231,9 @@ class CellMaker {
       const std::size_t step = std::max<std::size_t>(1, list.size() / 8);
       for (std::size_t j = 0; j < list.size(); j += step) {
         const Landing& l = landings_[list[j]];
-        Vec3d flight;
-        if (list[j] == own || !predict_at(list[j], own, flight)) continue;
+        const bool same_image = image_of_[own] >= 0 && image_of_[own] == image_of_[list[j]];
+        Vec3d flight = l.flight;
+        if (list[j] == own || !(same_image || predict(landings_[own], l.point, flight))) continue;
         const double far = squared_distance(l.point, landings_[own].point) * s.inverse_size2;
         if (far > 9 && part < 2) continue;
         const double weight = 1 / (near_offset + far);
@@ -257,24 +244,14 @@ class CellMaker {
     return 0.5 * sum / weights;
   }
 
-  void add_lobe(const Sequence& s, std::size_t index) {
-    const Landing l = along_axes(landings_[index]);
-    guide_.lobe.push_back({to_float(l.point), to_float(l.flight), to_float(l.axis),
-                           to_float({l.curvature.xx, l.curvature.xy, l.curvature.yy}),
-                           static_cast<float>(l.variance.xx), static_cast<float>(l.variance.yy),
-                           static_cast<float>(error_of(s, index)), static_cast<float>(s.inverse_size2)});
-  }
-
   /// Marks the cells that hold finer ones.
   void mark_refined() {
     for (int level = 0; level < guide_middle_level; ++level)
       for (const Cell& fine : cells_[level])
         for (int coarser = level + 1; coarser <= guide_middle_level; ++coarser) {
-          const std::uint64_t key = coordinates_of(guide_, middle_of(level, fine.at), coarser).key();
-          std::vector<Cell>& cells = cells_[coarser];
-          const auto at = std::lower_bound(cells.begin(), cells.end(), key,
-                                           [](const Cell& c, std::uint64_t k) { return c.key < k; });
-          if (at != cells.end() && at->key == key) at->is_refined = 1;
+          const Vec3f middle = to_float(middle_of(level, fine.at));
+          if (Cell* cell = find_key(cells_[coarser], key_of(cell_at<float>(guide_, middle, coarser))))
+            cell->is_refined = 1;
         }
   }
 
@@ -285,7 +262,7 @@ class CellMaker {
     guide_.slot_mask = static_cast<std::int32_t>(slots - 1);
     guide_.cells.resize(slots);
     for (int level = 0; level < guide_levels; ++level)
-      for (const Cell& cell : cells_[level]) insert(tag_of<float>({cell.at.x, cell.at.y, cell.at.z}, level), cell);
+      for (const Cell& cell : cells_[level]) insert(tag_of<float>(cell.at, level), cell);
   }
 
   /// A cell whose tag is taken shares the other one's slot.
@@ -298,7 +275,6 @@ class CellMaker {
     guide_.cells[slot].tag = name;
   }
 
-  const SceneView& scene_;
   const LightPaths& paths_;
   const std::vector<Landing>& landings_;
   Guide& guide_;
@@ -314,8 +290,6 @@ class CellMaker {
 
 }  // namespace
 
-void make_cells(const SceneView& scene, const LightPaths& paths, Guide& guide) {
-  CellMaker(scene, paths, guide).make();
-}
+void make_cells(const LightPaths& paths, Guide& guide) { CellMaker(paths, guide).make(); }
 
 }  // namespace tyndall

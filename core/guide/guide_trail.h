@@ -15,16 +15,6 @@ struct GuideTrail {
   OrderedEvents<F> events;  ///< since then
 };
 
-/// Restarts the trail in lanes that have scattered at a diffuse surface; ends it in the lanes `lost`.
-template <class F>
-TYNDALL_INLINE void restart_trail(GuideTrail<F>& trail, MaskOf<F> lanes, MaskOf<F> lost, Vec3<F> start,
-                                  Vec3<F> direction, F pdf) {
-  trail.start = select(lanes, start, trail.start);
-  trail.direction = select(lanes, direction, trail.direction);
-  trail.pdf = select(lanes, pdf, trail.pdf);
-  trail.events = select(lanes, OrderedEvents<F>::none(), select(lost, OrderedEvents<F>::unknown(), trail.events));
-}
-
 /// The trail's events and one more, at `element`.
 template <class F>
 TYNDALL_INLINE OrderedEvents<F> events_with(const SceneView& s, const GuideTrail<F>& trail, IntOf<F> element,

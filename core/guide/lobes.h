@@ -2,7 +2,6 @@
 #include "core/base/random.h"
 #include "core/base/sampling.h"
 #include "core/guide/light_image.h"
-#include "core/guide/ordered_events.h"
 #include "core/trace/scene_view.h"
 
 /// Draws directions towards images of small lights in near-specular surfaces, and gives their pdf. Both are functions

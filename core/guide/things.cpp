@@ -2,9 +2,6 @@
 
 #include "core/trace/shade.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace tyndall {
 namespace {
 
@@ -39,14 +36,13 @@ Thing flat_thing(const Affine& map, std::int32_t element, int face) {
   return thing;
 }
 
+/// Sets what is not told by the shape.
 void complete(const SceneView& s, Thing& thing) {
   const std::int32_t material = s.elements.material[thing.element];
-  const bool metal = has_trait<&BsdfTraits::glossy>(s, s.materials.kind[material]);
-  thing.fuzz = metal ? lobe_width_of(s, material) : 0;
+  if (has_trait<&BsdfTraits::glossy>(s, s.materials.kind[material])) thing.fuzz = lobe_width_of(s, material);
   if (thing.fuzz <= static_cast<double>(min_sampled_fuzz)) thing.fuzz = 0;
   const Vec3d middle = thing.is_sphere ? thing.center : thing.corner + 0.5 * (thing.u + thing.v);
-  const Vec3d edges = cross(thing.u, thing.v);
-  const double area = thing.is_sphere ? pi * thing.radius * thing.radius : std::sqrt(dot(edges, edges));
+  const double area = thing.is_sphere ? pi * thing.radius * thing.radius : length(cross(thing.u, thing.v));
   for (int k = 0; k < std::min(s.lights.count(), max_guide_lights); ++k) {
     const Vec3d to_middle = middle - to_double(s.lights.center[k]);
     thing.power += at(s.lights.power, k) * std::min(area / std::max(dot(to_middle, to_middle), 1e-30), 4 * pi);

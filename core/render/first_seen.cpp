@@ -178,7 +178,7 @@ int parts_of_pixels(const FirstSeenParts& made, double spp) {
 bool find_first_seen(const Region& region, const RenderEngine& engine, const std::atomic<bool>& give_up,
                      CleanInput& input, FirstSeenParts& made) {
   const int height = region.height();
-  resize_first_seen(region.width(), height, input);
+  input.seen.resize(region.width(), height, planes);
   FirstSeenFinder finder{region, engine, input, {}, {}, {}};
   finder.rows.resize(static_cast<std::size_t>(height));
   finder.marks.resize(static_cast<std::size_t>(height) * static_cast<std::size_t>(region.width()));

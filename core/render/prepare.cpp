@@ -2,7 +2,6 @@
 
 #include "core/compile/compile.h"
 #include "core/compile/flatten.h"
-#include "core/guide/camera_images.h"
 #include "core/guide/find_guide.h"
 #include "core/specular/find_subpixel_lights.h"
 #include "core/targets/scalar.h"

@@ -1,6 +1,6 @@
 #pragma once
 #include "core/film/groups.h"
-#include "core/transport/direct_light.h"
+#include "core/transport/event.h"
 
 /// Reuse of second vertices between pixels: P. Bekaert, M. Sbert, J. Halton, Accelerating Path Tracing by Re-Using
 /// Paths, Eurographics Workshop on Rendering 2002. Interiors are mostly lit by their walls, so most of their noise is
@@ -75,24 +75,6 @@ TYNDALL_INLINE void note_vertices(const Paths<F>& p, const Event<F>& e, MaskOf<F
     for (int k = 0; k < columns; ++k) all[k][slot] = value[k][lane];
     to.surface[slot] = surfaces[lane];
   }
-}
-
-template <class F>
-TYNDALL_INLINE void note_first(const auto& s, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes,
-                               ReusedPaths& reused) {
-  note_vertices<F>(p, e, lanes, 0.25f, e.from, weighed(s, p, p.throughput * e.colour), reused.first, reused.albedo);
-}
-
-/// Stores the second vertices of the paths in `lanes`, and what the paths have gathered before them. From here on these
-/// paths gather what leaves the second vertex. They carry a grey throughput, as if the first vertex were white, so that
-/// no colour is lost that the first vertex of another path may reflect.
-template <class F>
-TYNDALL_INLINE void note_second(const auto& s, Paths<F>& p, const Event<F>& e, MaskOf<F> lanes, ReusedPaths& reused) {
-  const IntOf<F> element = select(e.surface, e.at.element, IntOf<F>(-1));
-  note_vertices<F>(p, e, lanes, 1.0f, element, weighed(s, p, p.radiance), reused.second, reused.own);
-  const F grey = max_component(p.throughput);
-  p.throughput = select(lanes, Vec3<F>{grey, grey, grey}, p.throughput);
-  p.radiance = select(lanes, zero3<F>(), p.radiance);
 }
 
 }  // namespace tyndall

@@ -3,7 +3,7 @@
 
 /// How paths find light. This is a header of its own because kernels know the integrator, but no other setting.
 ///
-/// To add one: give it a value and a word here; write what it does in core/transport (direct_light.h weighs light that
+/// To add one: give it a value and a word here; write what it does in core/transport (event.h weighs light that
 /// paths meet by chance and light that shadow rays ask for); say in core/compile/compile.cpp whether it sends shadow
 /// rays at all.
 namespace tyndall {

@@ -16,38 +16,12 @@ struct GuidedPath {
   std::uint32_t rays = 0, shadow_rays = 0;
 };
 
-/// Adds the light that a guided path hits after its last event.
-template <class F>
-TYNDALL_INLINE void add_guided_emission(const auto& s, GuidedPath<F>& g, const Hit<F>& hit, const Event<F>& e,
-                                        MaskOf<F> lanes) {
-  const auto last = equal(g.left.low, IntOf<F>(0));
-  const auto lit = mask_and(mask_and(lanes, last), has_trait<&BsdfTraits::emits>(s, e.kind));
-  if (!any(lit)) return;
-  const F weight = found_light_weight(s, g.path, e.at.element, hit.t, lit);
-  g.path.radiance = select(lit, g.path.radiance + weight * (g.path.throughput * e.colour), g.path.radiance);
-}
-
-/// Samples a light where a guided path meets its last surface, if that is metal.
-template <class F>
-TYNDALL_INLINE void add_guided_direct_light(const auto& s, GuidedPath<F>& g, const Event<F>& e, MaskOf<F> lanes) {
-  const auto last = equal(as_int(shift_right<6>(as_uint(g.left.low))), IntOf<F>(0));
-  const auto lit = mask_and(mask_and(lanes, last), has_trait<&BsdfTraits::glossy>(s, e.kind));
-  if (!any(lit)) return;
-  const Sampler<F>& sampler = g.path.sampler;
-  MediumFlight<F> flight{};
-  flight.medium = IntOf<F>(-1);
-  const LightQuery<F> query{choose_light(s.lights, e.point, sampler.next_1d(dimension::light_choice)),
-                            sampler.next_2d(dimension::light_point), flight, false};
-  g.path.radiance = g.path.radiance + direct_light(s, g.path, e, lit, query, g.shadow_rays);
-}
-
 /// Sends a guided path on from the surface of its next event. Returns the lanes that go on.
 template <class F>
 TYNDALL_INLINE MaskOf<F> scatter_guided(const auto& s, GuidedPath<F>& g, const Event<F>& e, MaskOf<F> lanes) {
-  using I = IntOf<F>;
   Paths<F>& p = g.path;
   const auto glossy = mask_and(lanes, has_trait<&BsdfTraits::glossy>(s, e.kind)), glass = mask_and_not(lanes, glossy);
-  const auto reflects = equal(g.left.low & I(1), I(1));
+  const auto reflects = g.left.lowest_reflects();
   p.throughput = select(lanes, p.throughput * e.colour, p.throughput);
   p.ray.origin = select(lanes, e.point, p.ray.origin), p.ray.from = select(lanes, e.from, p.ray.from);
   auto goes_on = lanes;
@@ -86,18 +60,27 @@ TYNDALL_INLINE MaskOf<F> step_guided(const auto& s, GuidedPath<F>& g, MaskOf<F> 
   Event<F> e = event_on(p.ray, p.sampler);
   e.surface = active;
   meet_surfaces(s, p.ray, hit, e);
-  add_guided_emission(s, g, hit, e, active);
+  const auto ended = mask_and_not(active, g.left.has_events());
+  const auto lit = mask_and(ended, has_trait<&BsdfTraits::emits>(s, e.kind));
+  if (any(lit)) {
+    const F weight = found_light_weight(s, p, e.at.element, hit.t, lit);
+    p.radiance = select(lit, p.radiance + weight * (p.throughput * e.colour), p.radiance);
+  }
   const I thing = lookup_int<F>(s.guide.thing_of, s.elements.count(), e.at.element);
-  const I expected = as_int(shift_right<1>(as_uint(g.left.low & I(63))));
-  active = mask_and(active, mask_and(less_equal(I(0), thing), equal(expected, thing + I(1))));
+  active = mask_and(active, mask_and(less_equal(I(0), thing), equal(g.left.lowest_thing(), thing)));
   if (!any(active)) return active;
   e.surface = active;
   describe_incidence(s, p, on_sphere(p.sampler.next_2d(dimension::direction)), e);
-  add_guided_direct_light(s, g, e, active);
+  // Where a path meets its last surface, and that is metal, a light is sampled.
+  const auto last = mask_and_not(active, g.left.without_lowest().has_events());
+  const auto at_metal = mask_and(last, has_trait<&BsdfTraits::glossy>(s, e.kind));
+  if (any(at_metal)) {
+    const LightQuery<F> query{choose_light(s.lights, e.point, p.sampler.next_1d(dimension::light_choice)),
+                              p.sampler.next_2d(dimension::light_point), p.flight, false};
+    p.radiance = p.radiance + direct_light(s, p, e, at_metal, query, g.shadow_rays);
+  }
   active = scatter_guided(s, g, e, active);
-  const I carry = as_int(shift_left<24>(as_uint(g.left.high & I(63))));
-  g.left.low = as_int(shift_right<6>(as_uint(g.left.low))) + carry;
-  g.left.high = as_int(shift_right<6>(as_uint(g.left.high)));
+  g.left = g.left.without_lowest();
   p.sampler.next_event();
   return active;
 }
@@ -137,22 +120,26 @@ template <class F>
   return select(followed, weight * g.path.radiance, zero3<F>());
 }
 
-/// What a path's trail remembers of an event. came: the ray that led to it. transmitted: lanes that pass a surface.
+/// What a path's trail remembers of an event: it starts anew where the path scatters at a diffuse surface, and ends in
+/// media. transmitted: lanes that pass a surface.
 template <class F>
 TYNDALL_INLINE void extend_guide_trail(const auto& s, Paths<F>& p, const Event<F>& e, MaskOf<F> transmitted) {
+  GuideTrail<F>& trail = p.guide;
   const auto diffuse = mask_and(e.surface, has_trait<&BsdfTraits::diffuse>(s, e.kind));
-  const auto met = mask_and_not(mask_and(e.surface, p.guide.events.is_known()), diffuse);
+  const auto met = mask_and_not(mask_and(e.surface, trail.events.is_known()), diffuse);
   if (any(met)) {
-    const OrderedEvents<F> events = events_with(s, p.guide, e.at.element, mask_not(transmitted));
-    p.guide.events = select(met, events, p.guide.events);
+    trail.events = select(met, events_with(s, trail, e.at.element, mask_not(transmitted)), trail.events);
     const auto glass = mask_and(met, has_trait<&BsdfTraits::smooth_boundary>(s, e.kind));
     if (any(glass)) {
       const F reflected = boundary_any(s, e.at.material, e.incident).reflected;
       const F fraction = select(transmitted, F(1.0f) - reflected, reflected);
-      p.guide.pdf = select(glass, fraction * p.guide.pdf, p.guide.pdf);
+      trail.pdf = select(glass, fraction * trail.pdf, trail.pdf);
     }
   }
-  restart_trail(p.guide, diffuse, e.medium, e.point, p.ray.direction, p.pdf);
+  trail.start = select(diffuse, e.point, trail.start), trail.pdf = select(diffuse, p.pdf, trail.pdf);
+  trail.direction = select(diffuse, p.ray.direction, trail.direction);
+  using Events = OrderedEvents<F>;
+  trail.events = select(diffuse, Events::none(), select(e.medium, Events::unknown(), trail.events));
 }
 
 /// Weighs direct light at metal, which guided paths find as well.

@@ -7,62 +7,43 @@
 namespace tyndall {
 
 /// What fly_by_angle() samples for each lane: a pair of a medium and a light near it, and a flight that ends in the
-/// medium at a distance chosen for that light. The members that describe the medium are set only in lanes that happen;
-/// texture is -1 in other lanes.
+/// medium at a distance chosen for that light.
 template <class F>
 struct NearEvent {
-  MaskOf<F> happens;  ///< the ray crosses the medium
+  MediumEvent<F> found;  ///< without `begin` and `far`; happens where the ray crosses the medium
   IntOf<F> light;
   MediumFlight<F> flight;
-  F density, g;  ///< of the medium
-  Vec3<F> albedo;
-  IntOf<F> texture, from;
 };
 
 /// Samples a place in media by angle. to_surface: distance along the ray to the next surface.
 template <class F>
 TYNDALL_INLINE NearEvent<F> fly_by_angle(const SceneView& s, const Paths<F>& p, MaskOf<F> lanes, F to_surface) {
-  const F count = splat<F>(static_cast<float>(s.near.medium.count()));
+  const F count = splat<F>(static_cast<float>(s.near.medium.count())), zero = F(0.0f);
   const IntOf<F> pair = to_int(min(p.sampler.next_1d(dimension::near_pair) * count, count - F(1.0f)));
-  NearEvent<F> event;
-  event.happens = less(F(1.0f), F(0.0f));
-  event.texture = IntOf<F>(-1);
-  event.light = lookup_int<F>(s.near.light, s.near.medium.count(), pair);
-  MediumFlight<F>& flight = event.flight;
-  flight = {lookup_int<F>(s.near.medium, s.near.medium.count(), pair),
-            p.ray.origin,
-            p.ray.direction,
-            F(0.0f),
-            F(1.0f),
-            F(0.0f),
-            F(0.0f)};
+  const Ray<F>& ray = p.ray;
+  MediumEvent<F> found = no_event<F>();
+  const IntOf<F> light = lookup_int<F>(s.near.light, s.near.medium.count(), pair),
+                 medium = lookup_int<F>(s.near.medium, s.near.medium.count(), pair);
+  MediumFlight<F> flight{medium, ray.origin, ray.direction, zero, F(1.0f), zero, zero};
   for (int k = 0; k < s.media.count(); ++k) {
     const MediumColumns& m = s.media[k];
-    const auto mine = mask_and(lanes, equal(flight.medium, IntOf<F>(k)));
+    const auto mine = mask_and(lanes, equal(medium, IntOf<F>(k)));
     if (!any(mine)) continue;
-    const Interval<F> inside = medium_interval(m, p.ray.origin, p.ray.direction, p.ray.from);
-    const F begin = max(inside.near, F(0.0f)), end = min(inside.far, to_surface);
+    const Interval<F> inside = medium_interval(m, ray.origin, ray.direction, ray.from);
+    const F begin = max(inside.near, zero), end = min(inside.far, to_surface);
     const auto here = mask_and(mask_and(mine, inside.hit), less(begin, end));
-    event.happens = mask_or(event.happens, here);
+    found.happens = mask_or(found.happens, here);
     flight.begin = select(here, begin, flight.begin), flight.end = select(here, end, flight.end);
-    event.density = select(here, splat<F>(m.density), event.density);
-    event.g = select(here, splat<F>(m.g), event.g);
-    event.albedo = select(here, splat<F>(m.albedo), event.albedo);
-    event.texture = select(here, IntOf<F>(m.texture), event.texture);
-    event.from = select(here, IntOf<F>(4 * m.first + static_cast<std::int32_t>(Side::within)), event.from);
+    found.density = select(here, splat<F>(m.density), found.density);
+    found.g = select(here, splat<F>(m.g), found.g);
+    found.albedo = select(here, splat<F>(m.albedo), found.albedo);
+    found.texture = select(here, IntOf<F>(m.texture), found.texture);
+    found.from = select(here, IntOf<F>(4 * m.first + static_cast<std::int32_t>(Side::within)), found.from);
   }
-  flight.distance = sample(distances_past(s.lights, event.light, flight), p.sampler.next_1d(dimension::near_distance));
-  flight.pdf = event.density * pass_media(s, p.ray, flight.distance, event.happens);
-  return event;
-}
-
-/// Describes the free flight that ended at the event `found`, so that its pdf can be weighed against that of a flight
-/// ended by angle. lengths: of the ray, to its event (x) and to the next surface (y).
-template <class F>
-TYNDALL_INLINE MediumFlight<F> free_flight_to(const SceneView& s, const Ray<F>& ray, const MediumEvent<F>& found,
-                                              Pair<F> lengths) {
-  const F pdf = found.density * pass_media(s, ray, lengths.x, found.happens);
-  return {found.medium, ray.origin, ray.direction, found.begin, min(found.far, lengths.y), lengths.x, pdf};
+  flight.distance = sample(distances_past(s.lights, light, flight), p.sampler.next_1d(dimension::near_distance));
+  flight.pdf = found.density * pass_media(s, ray, flight.distance, found.happens);
+  found.point = point_at(ray.origin, flight.distance, ray.direction);
+  return {found, light, flight};
 }
 
 /// Radiance that lights send to the places sampled by angle. It is not inlined, because it holds nearly all of the code
@@ -74,27 +55,26 @@ template <class F>
   Paths<F> p{};
   p.ray = ray, p.throughput = throughput, p.sampler = sampler;
   const NearEvent<F> near = fly_by_angle(s, p, lanes, to_surface);
-  if (!any(near.happens)) return zero3<F>();
+  if (!any(near.found.happens)) return zero3<F>();
   Event<F> e{};
-  e.surface = less(F(1.0f), F(0.0f));
-  e.medium = near.happens;
-  e.point = point_at(p.ray.origin, near.flight.distance, p.ray.direction);
-  e.from = near.from, e.g = near.g;
-  e.colour = s.has_textures() ? textured<F>(s, near.albedo, near.texture, e.medium, e.point, nullptr) : near.albedo;
+  e.surface = less(F(1.0f), F(0.0f)), e.medium = near.found.happens;
+  meet_media(s, near.found, e);
   const LightQuery<F> query{{near.light, beside_sky(s, e.point, choice_probability(s.lights, e.point, near.light))},
                             p.sampler.next_2d(dimension::near_point),
                             near.flight,
                             true};
-  return direct_light(s, p, e, near.happens, query, shadow_rays);
+  return direct_light(s, p, e, e.medium, query, shadow_rays);
 }
 
 /// Adds to the radiance of `p` the light of the places sampled by angle, and sets p.flight to the free flight that
-/// ended at the event `found`. throughput: at the start of the ray, because the weights include what media absorb up to
-/// such a place. lengths: of the ray, to its event (x) and to the next surface (y).
+/// ended at the event `found`, so that its pdf can be weighed against that of a flight ended by angle. throughput: at
+/// the start of the ray, because the weights include what media absorb up to such a place. lengths: of the ray, to its
+/// event (x) and to the next surface (y).
 template <class F>
 TYNDALL_INLINE void add_near_lights(const auto& s, Paths<F>& p, Vec3<F> throughput, const MediumEvent<F>& found,
                                     MaskOf<F> active, Pair<F> lengths, std::uint32_t& shadow_rays) {
-  p.flight = free_flight_to(s, p.ray, found, lengths);
+  const F pdf = found.density * pass_media(s, p.ray, lengths.x, found.happens);
+  p.flight = {found.medium, p.ray.origin, p.ray.direction, found.begin, min(found.far, lengths.y), lengths.x, pdf};
   const auto lanes = mask_and(active, less(p.depth, IntOf<F>(s.max_depth)));
   p.radiance = p.radiance + light_by_angle(shared_view(s), p.ray, throughput, p.sampler, lanes, lengths.y, shadow_rays);
 }

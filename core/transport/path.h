@@ -1,7 +1,5 @@
 #pragma once
-#include "core/transport/event.h"
 #include "core/transport/near_lights.h"
-#include "core/transport/path_pool.h"
 #include "core/transport/scatter.h"
 #include "core/transport/specular_queue.h"
 #include "core/transport/splitting.h"
@@ -12,7 +10,7 @@
 ///
 /// where x0 is on the lens and xk on a light or in the background (M. Pharr, W. Jakob, G. Humphreys, Physically Based
 /// Rendering, 4th edition, section 13.2). Each step makes the paths in all lanes one vertex longer; no lane waits for
-/// the others (path_pool.h). Light that several strategies can find is weighted by the power heuristic (E. Veach,
+/// the others (paths.h). Light that several strategies can find is weighted by the power heuristic (E. Veach,
 /// Robust Monte Carlo Methods for Light Transport Simulation, 1997, section 9.2): sampling the BSDF or the phase
 /// function, sampling lights, and in scenes that have them, specular paths (core/specular), guided paths (core/guide)
 /// and flights that end next to small lights in media (near_lights.h).
@@ -113,7 +111,7 @@ TYNDALL_INLINE StepResult<F> step(const auto& s, Paths<F>& p, MaskOf<F> active, 
 
   // ---- Russian roulette
   if (s.has_specular_paths()) exempt = mask_or(exempt, seeks_subpixel_light(p));
-  const auto survivors = s.has_reuse() || s.has_specular_paths() ? roulette_but(p, lanes, exempt) : roulette(p, lanes);
+  const auto survivors = roulette(p, lanes, exempt);
   p.sampler.next_event();
   recorder.on_branches(branches);
   recorder.on_end(p, on, StepResult<F>{survivors, cut});

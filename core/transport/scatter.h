@@ -80,23 +80,17 @@ TYNDALL_INLINE MaskOf<F> scatter(const auto& s, Paths<F>& p, const Event<F>& e, 
 }
 
 /// Russian roulette: ends paths at random, the more likely the less they carry, and divides the throughput of the
-/// survivors by the probability of survival. Paths with a throughput of at least `min_carried` are never ended. J.
-/// Arvo, D. Kirk, Particle Transport and Image Synthesis, SIGGRAPH 1990.
+/// survivors by the probability of survival. Paths in the lanes `exempt`, and those with a throughput of at least
+/// `min_carried`, are never ended. J. Arvo, D. Kirk, Particle Transport and Image Synthesis, SIGGRAPH 1990.
 template <class F>
-TYNDALL_INLINE MaskOf<F> roulette(Paths<F>& p, MaskOf<F> lanes) {
+TYNDALL_INLINE MaskOf<F> roulette(Paths<F>& p, MaskOf<F> lanes, MaskOf<F> exempt) {
   const F survival = F(1 / min_carried) * max_component(p.throughput);
-  const auto at_risk = mask_and(lanes, less(survival, F(1.0f)));
+  const auto at_risk = mask_and_not(mask_and(lanes, less(survival, F(1.0f))), exempt);
   if (!any(at_risk)) return lanes;
   const auto ended = mask_and_not(at_risk, less(p.sampler.next_1d(dimension::roulette), survival));
   const F scale = F(1.0f) / select(at_risk, max(survival, F(1e-37f)), F(1.0f));
   p.throughput = select(at_risk, scale * p.throughput, p.throughput);
   return mask_and_not(lanes, ended);
-}
-
-/// Roulette that never ends the lanes in `exempt`.
-template <class F>
-TYNDALL_INLINE MaskOf<F> roulette_but(Paths<F>& p, MaskOf<F> lanes, MaskOf<F> exempt) {
-  return mask_or(roulette(p, mask_and_not(lanes, exempt)), mask_and(lanes, exempt));
 }
 
 }  // namespace tyndall

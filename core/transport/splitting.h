@@ -1,6 +1,5 @@
 #pragma once
 #include "core/transport/event.h"
-#include "core/transport/path_pool.h"
 
 /// Splitting (J. Arvo, D. Kirk, Particle Transport and Image Synthesis, SIGGRAPH 1990) at smooth glass that the camera
 /// sees. Of the light that meets glass a fraction is reflected and the rest is transmitted. A path that chooses one of

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace tyndall::test::error_test {
 
@@ -84,6 +85,73 @@ TEST_CASE("error outside [0, 1]: only of values that one of both has there, in b
   CHECK(outside_error({0, 0.5f, 1}, {1, 0, 0}).rel_mse == 0);
   const float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
   CHECK(outside_error({nan, infinity, 2}, {3, infinity, 2}).values == 1);
+}
+
+TEST_CASE("not finite: how many pixels, and the first of them with its value") {
+  const float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  LinearImage image{3, 2, std::vector<float>(18, 0.5f)};
+  CHECK(not_finite_text(image).empty());
+  CHECK(is_finite(image, 5));
+  image.rgb[3 * 5 + 2] = -infinity;
+  CHECK(not_finite_text(image) == "1 of 6 pixels is not finite, the first at 2,1 (blue is -inf)");
+  CHECK_FALSE(is_finite(image, 5));
+  image.rgb[3 * 1 + 1] = nan, image.rgb[3 * 1 + 2] = nan;  // one pixel, whatever its channels
+  CHECK(not_finite_text(image) == "2 of 6 pixels are not finite, the first at 1,0 (green is nan)");
+  image.frame = ImageFrame{{0, 0, 9, 9}, {4, -3, 7, -1}};  // an EXR's data window: the place is the picture's
+  CHECK(not_finite_text(image) == "2 of 6 pixels are not finite, the first at 5,-3 (green is nan)");
+}
+
+namespace {
+
+constexpr int edge = 128;
+
+/// Exponential noise around a ramp, times `factor` in the right half.
+Film noisy_film(unsigned seed, float factor) {
+  Film film = make_film(edge, edge, {0, 0, edge, edge}, 0, 64);
+  std::mt19937 engine(seed);
+  std::exponential_distribution<float> noise;
+  for (int i = 0; i < edge * edge; ++i) {
+    FilmPixel& pixel = film.pixels[static_cast<std::size_t>(i)];
+    const float truth = (1 + static_cast<float>(i % edge)) * (i % edge < edge / 2 ? 1.0f : factor) / edge;
+    for (std::uint32_t s = 0; s < 16; ++s) {
+      const float v = truth * noise(engine);
+      add_sample(pixel, s & 1, {v, v, v}, 1 / film.quantum);
+    }
+    pixel.taken = 16;
+  }
+  return film;
+}
+
+}  // namespace
+
+TEST_CASE("block scores: films that differ by noise alone pass, ten percent more in half of the picture fails") {
+  const Film plain = noisy_film(1, 1);
+  for (unsigned seed = 2; seed < 6; ++seed) {
+    const BlockScores same = block_scores(plain, noisy_film(seed, 1));
+    CHECK(same.blocks == 64);
+    CHECK(same.mean_square > 0.4);
+    CHECK(same.noise());
+  }
+  const BlockScores biased = block_scores(noisy_film(1, 1), noisy_film(2, 1.1f));
+  CHECK_FALSE(biased.noise());
+  CHECK(biased.mean_square > 2);
+}
+
+TEST_CASE("block scores: films that are equal, of other regions, with empty halves, or different without noise") {
+  const Film film = noisy_film(1, 1);
+  CHECK(block_scores(film, film).mean_square == 0);
+  CHECK(block_scores(film, film).noise());
+  Film part = make_film(edge, edge, {0, 0, edge, edge / 2}, 0, 64);
+  CHECK(block_scores(film, part).blocks == 0);
+  CHECK(block_scores(film, make_film(edge, edge, film.region, 0, 64)).blocks == 0);
+  Film flat = make_film(8, 8, {0, 0, 8, 8}, 0, 64), brighter = flat;
+  for (std::size_t i = 0; i < 64; ++i)
+    for (std::uint32_t s = 0; s < 2; ++s) {
+      add_sample(flat.pixels[i], s, {1, 1, 1}, 1 / flat.quantum), ++flat.pixels[i].taken;
+      add_sample(brighter.pixels[i], s, {1.5f, 1.5f, 1.5f}, 1 / flat.quantum), ++brighter.pixels[i].taken;
+    }
+  CHECK(block_scores(flat, flat).noise());
+  CHECK_FALSE(block_scores(flat, brighter).noise());
 }
 
 }  // namespace tyndall::test::error_test

@@ -58,10 +58,10 @@ double true_error(const Film& film, int x0, int x1) {
 TEST_CASE("estimated error: close to the true one on noise of known size") {
   for (const std::uint32_t spp : {16u, 64u}) {
     const Film film = noisy_film(spp, 1);
-    const double ratio = estimated_relative_error(film) / true_error(film, 0, width);
+    const double ratio = estimate_error(film).relative_error / true_error(film, 0, width);
     CHECK(ratio == doctest::Approx(1).epsilon(0.03).scale(0));
     const ImageError error = image_error(resolve(film), true_image());
-    CHECK(estimated_relative_error(film) == doctest::Approx(std::sqrt(error.rel_mse)).epsilon(0.03).scale(0));
+    CHECK(estimate_error(film).relative_error == doctest::Approx(std::sqrt(error.rel_mse)).epsilon(0.03).scale(0));
   }
 }
 
@@ -72,18 +72,18 @@ TEST_CASE("estimated error: by hand for one pixel") {
   film.pixels[0].taken = 2;
   // Red: ((0.5 - 0.25) / 2)^2 / (0.375^2 + 0.01); the others agree.
   const double expected = std::sqrt(0.125 * 0.125 / (0.375 * 0.375 + 0.01) / 3);
-  CHECK(estimated_relative_error(film) == doctest::Approx(expected).epsilon(1e-6).scale(0));
+  CHECK(estimate_error(film).relative_error == doctest::Approx(expected).epsilon(1e-6).scale(0));
   CHECK(pixel_relative_error(film)[0] == doctest::Approx(expected).epsilon(1e-6).scale(0));
 }
 
 TEST_CASE("estimated error: infinite while a half of any pixel is empty") {
   Film film = noisy_film(2, 1);
-  CHECK(std::isfinite(estimated_relative_error(film)));
+  CHECK(std::isfinite(estimate_error(film).relative_error));
   film.pixels[5].rejected[1] = 1;
-  CHECK(estimated_relative_error(film) == std::numeric_limits<double>::infinity());
+  CHECK(estimate_error(film).relative_error == std::numeric_limits<double>::infinity());
   CHECK(std::isfinite(pixel_relative_error(film)[5]));  // from its neighbours
   CHECK(std::isinf(pixel_relative_error(make_film(3, 3, {0, 0, 3, 3}, 0, 1))[4]));
-  CHECK(std::isinf(estimated_relative_error(make_film(3, 3, {0, 0, 3, 3}, 0, 1))));
+  CHECK(std::isinf(estimate_error(make_film(3, 3, {0, 0, 3, 3}, 0, 1)).relative_error));
 }
 
 TEST_CASE("pixel error: follows the noise from place to place") {
@@ -135,7 +135,7 @@ TEST_CASE("estimated error: samples that are rare and bright do not hide how wro
   }
   const double expected = std::sqrt(sum / (width * height));
   CHECK(expected > 0.9);
-  CHECK(estimated_relative_error(film) == doctest::Approx(expected).epsilon(0.1).scale(0));
+  CHECK(estimate_error(film).relative_error == doctest::Approx(expected).epsilon(0.1).scale(0));
 }
 
 namespace {
@@ -195,11 +195,11 @@ TEST_CASE("estimated error: the levels of the pixels that decide it are asked fo
   CHECK(known.rests_on_few_pixels);
   // A rare path's level hardly changes its error, and the rest stays hidden behind it.
   CHECK(estimate({}, {0.3f, 0.3f, 0.3f}).relative_error ==
-        doctest::Approx(estimated_relative_error(film)).epsilon(1e-3).scale(0));
+        doctest::Approx(estimate_error(film).relative_error).epsilon(1e-3).scale(0));
   CHECK(query == std::vector<std::vector<std::size_t>>{{lamp}});
   // Where levels cannot be had, the film alone tells.
   const auto never = [](const std::vector<std::size_t>&) { return std::vector<Vec3f>(); };
-  CHECK(estimate_error(film, nullptr, never).relative_error == estimated_relative_error(film));
+  CHECK(estimate_error(film, nullptr, never).relative_error == estimate_error(film).relative_error);
 }
 
 TEST_CASE("estimated error: pixels known to be rare are as wrong as their means") {
@@ -227,7 +227,7 @@ TEST_CASE("estimated error: pixels known to be rare are as wrong as their means"
   CHECK(query.front() == rare);
   // Without levels they are like all others.
   const auto never = [](const std::vector<std::size_t>&) { return std::vector<Vec3f>(); };
-  CHECK(estimate_error(film, nullptr, never, rare).relative_error == estimated_relative_error(film));
+  CHECK(estimate_error(film, nullptr, never, rare).relative_error == estimate_error(film).relative_error);
   film.pixels[plain] = {};
   CHECK(std::isinf(estimate_error(film, nullptr, levels_of, rare).relative_error));
 }
@@ -285,7 +285,7 @@ TEST_CASE("estimated error: the unit of a film does not matter, however bright o
       film.pixels[i].taken = 2;
       for (const std::uint32_t half : {0u, 1u}) film.pixels[i].sum[half][0].add(i % 3 == half ? 0.5 : 0.25);
     }
-    const double error = estimated_relative_error(film);
+    const double error = estimate_error(film).relative_error;
     CHECK(std::isfinite(error));
     if (bright == 0) bright = error;
     if (quantum > 1)

@@ -1,6 +1,6 @@
 // FLIP against numbers that do not come from this project's reading of the paper: what the authors' own program says,
 // and what can be worked out with pen and paper from published colours and from the integrals of the filters.
-#include "core/accuracy/flip.h"
+#include "core/accuracy/error.h"
 #include "tests/support/capture.h"
 
 #include <doctest/doctest.h>
@@ -58,6 +58,8 @@ double at(const std::vector<float>& map, int width, int x, int y) {
   return static_cast<double>(map[static_cast<std::size_t>(y * width + x)]);
 }
 
+float highest(const std::vector<float>& map) { return *std::max_element(map.begin(), map.end()); }
+
 /// FLIP in the middle of two pictures that have one colour each: nothing but the colours counts.
 double between(const Picture& a, const Picture& b) { return at(flip(a, b), 41, 20, 20); }
 
@@ -100,8 +102,7 @@ TEST_CASE("FLIP gives the numbers of its authors' program") {
   double sum = 0;
   for (const float v : map) sum += static_cast<double>(v);
   CHECK(sum / (width * height) == doctest::Approx(0.150730).epsilon(2e-4).scale(0));
-  CHECK(static_cast<double>(*std::max_element(map.begin(), map.end())) ==
-        doctest::Approx(0.913078).epsilon(2e-4).scale(0));
+  CHECK(highest(map) == doctest::Approx(0.913078).epsilon(2e-4).scale(0));
 }
 
 // By hand. L*, a*, b* of the sRGB primaries (D65) as tables give them: red 53.24, 80.09, 67.20; green 87.73, -86.18,
@@ -181,6 +182,35 @@ TEST_CASE("FLIP of mirrored and of transposed pictures is the map mirrored and t
     }
   CHECK(mirror_gap < 1e-6);
   CHECK(transpose_gap < 1e-6);
+}
+
+TEST_CASE("FLIP: 0 for equal images, symmetric, never above 1") {
+  const Picture a = picture(32, 24, changed_pattern), b = picture(32, 24, pattern);
+  CHECK(highest(flip(a, a)) == 0);
+  CHECK(flip(a, b) == flip(b, a));
+  CHECK(highest(flip(one_colour(1, 1, 1), one_colour(0, 0, 0))) <= 1);
+}
+
+TEST_CASE("FLIP: a difference that fills the picture is seen more than one that changes every pixel") {
+  const Picture grey = one_colour(0.5f, 0.5f, 0.5f);
+  Picture fine = grey;
+  for (std::size_t i = 0; i < fine.rgb.size(); ++i) fine.rgb[i] += i / 3 % 2 ? 0.1f : -0.1f;  // rows are odd: a checker
+  CHECK(between(fine, grey) < between(one_colour(0.6f, 0.6f, 0.6f), grey));
+}
+
+TEST_CASE("FLIP clips values to [0, 1], and takes what is not a number for black") {
+  CHECK(highest(flip(one_colour(1, 1, 1), one_colour(9, 2, 1e30f))) == 0);
+  Picture nan = one_colour(0, 0, 0);
+  nan.rgb[5] = std::nanf("");
+  nan.rgb[7] = -3;
+  CHECK(highest(flip(nan, one_colour(0, 0, 0))) == 0);
+}
+
+TEST_CASE("FLIP works on pictures that are smaller than its filters") {
+  const std::vector<float> map = flip(one_colour(1, 0, 0, 1), one_colour(0, 0, 1, 1));
+  REQUIRE(map.size() == 1);
+  CHECK(map[0] > 0.5f);
+  CHECK(map[0] <= 1);
 }
 
 }  // namespace tyndall::test::flip_values_test

@@ -31,7 +31,7 @@ Reference reference_image(const NamedScene& named, int spp, const std::filesyste
   const RenderScene compiled = compile(scene);
   const Film film = render(compiled, {.spp = static_cast<std::uint32_t>(spp)}).film;
   const LinearImage image{compiled.width, compiled.height, resolve(film)};
-  rel_mse = std::pow(estimated_relative_error(film), 2);
+  rel_mse = std::pow(estimate_error(film).relative_error, 2);
   write_pfm(file, image);
   std::ofstream(noise) << rel_mse << "\n";
   return {image.rgb, rel_mse};

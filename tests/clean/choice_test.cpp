@@ -1,5 +1,6 @@
-#include "core/clean/clean.h"
+#include "core/accuracy/error.h"
 #include "core/film/groups.h"
+#include "tests/support/first_seen.h"
 
 #include <doctest/doctest.h>
 
@@ -18,7 +19,7 @@ constexpr int width = 64, height = 48;
 
 struct Picture {
   CleanInput input;
-  std::vector<Vec3f> truth;
+  std::vector<float> truth;  ///< 3 floats a pixel
 
   float& half(int half, int channel, int x, int y) {
     return input.halves.plane(3 * half + channel)[y * input.halves.stride() + x];
@@ -31,14 +32,13 @@ Picture picture(const Truth& truth, const Seen& seen, const Noise& noise) {
   Picture p;
   p.input.width = width, p.input.height = height;
   p.input.halves.resize(width, height, 6);
-  resize_first_seen(width, height, p.input);
+  see_first(seen, width, height, p.input);
   std::mt19937 engine(1);
   std::normal_distribution<float> normal;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const Vec3f value = truth(x, y);
-      p.truth.push_back(value);
-      put_first_seen(seen(x, y), x, y, p.input);
+      p.truth.insert(p.truth.end(), {value.x, value.y, value.z});
       for (int half = 0; half < 2; ++half) {
         const float factor = 1 + noise(x, y) * normal(engine);
         p.half(half, 0, x, y) = factor * value.x, p.half(half, 1, x, y) = factor * value.y;
@@ -57,22 +57,11 @@ CleanPicture clean(const Picture& p) {
 
 /// The squared relative error of a pixel of the clean view.
 double error_at(const CleanPicture& picture, const Picture& p, int x, int y) {
-  const auto i = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
-  const float truth[3] = {p.truth[i].x, p.truth[i].y, p.truth[i].z};
-  double sum = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const double level = static_cast<double>(truth[c]), off = static_cast<double>(picture.rgb[3 * i + c]) - level;
-    sum += off * off / (level * level + 0.01) / 3;
-  }
-  return sum;
-}
-
-/// The same for the whole picture.
-double mean_error(const CleanPicture& picture, const Picture& p) {
-  double sum = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) sum += error_at(picture, p, x, y);
-  return sum / (width * height);
+  const std::ptrdiff_t i = 3 * (y * width + x);
+  const auto pixel = [i](const std::vector<float>& rgb) {
+    return std::vector<float>(rgb.begin() + i, rgb.begin() + i + 3);
+  };
+  return relative_mse(pixel(picture.rgb), pixel(p.truth));
 }
 
 FirstSeen grey_floor(int, int) { return {{0.5f, 0.5f, 0.5f}, {0, 1, 0}, 0.5f}; }
@@ -141,7 +130,8 @@ TEST_CASE("choice: a dark line in glass counts for its own darkness where there 
   const double few = clean(p).relative_error;
   p.input.spp = 16;
   const CleanPicture many = clean(p);
-  CHECK(many.relative_error * many.relative_error == doctest::Approx(mean_error(many, p)).epsilon(0.5).scale(0));
+  CHECK(many.relative_error * many.relative_error ==
+        doctest::Approx(relative_mse(many.rgb, p.truth)).epsilon(0.5).scale(0));
   CHECK(few < 0.9 * many.relative_error);
 }
 
@@ -184,7 +174,7 @@ TEST_CASE("choice: pixels of a floor that are dark by chance do not make the err
   p.input.spp = 16;
   const CleanPicture picture = clean(p);
   CHECK(picture.relative_error * picture.relative_error ==
-        doctest::Approx(mean_error(picture, p)).epsilon(0.5).scale(0));
+        doctest::Approx(relative_mse(picture.rgb, p.truth)).epsilon(0.5).scale(0));
 }
 
 TEST_CASE("choice: the error is known where groups of pixels share their noise") {
@@ -212,8 +202,7 @@ TEST_CASE("choice: the error is known where groups of pixels share their noise")
           }
     const CleanPicture picture = clean(p);
     estimated += picture.relative_error * picture.relative_error;
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) real += error_at(picture, p, x, y) / (width * height);
+    real += relative_mse(picture.rgb, p.truth);
   }
   const double ratio = estimated / real;
   CHECK(ratio > 0.9);

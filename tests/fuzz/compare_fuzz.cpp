@@ -1,6 +1,5 @@
 // The measures of compare, on images of any finite or other values: the input is a width and floats.
 #include "core/accuracy/error.h"
-#include "core/accuracy/flip.h"
 #include "tests/fuzz/fuzz_input.h"
 
 #include <cstring>

@@ -165,13 +165,13 @@ TEST_CASE("guide: copies of light paths share the light of those that landed") {
   paths.trace_pairs(20000);
   const auto power = [&] {
     double sum = 0;
-    for (const Landing& landing : paths.landings()) sum += landing.weight;
+    for (const Landing& landing : paths.landings) sum += landing.weight;
     return sum;
   };
   const double before = power();
-  const std::size_t landed = paths.landings().size();
+  const std::size_t landed = paths.landings.size();
   paths.trace_copies(2000);
-  CHECK(paths.landings().size() > landed);
+  CHECK(paths.landings.size() > landed);
   CHECK(power() == doctest::Approx(before).scale(0));
 }
 

@@ -72,7 +72,7 @@ CORE = [
 
     ("black pixels dominate", "core/accuracy/error.cpp", "(square(ref) + «floor_of_square → 1e-6»)", "accuracy/error"),
     ("the noise of halves counted twice", "core/accuracy/error.cpp",
-     "(grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1))) / «2 → 1»", "accuracy/bias"),
+     "(grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1))) / «2 → 1»", "accuracy/error"),
     ("a wrong power in FLIP", "core/accuracy/flip.cpp", ", «0.7 → 0.75»);", "accuracy/flip_values"),
     ("the estimate takes half of the noise", "core/accuracy/estimate.cpp", "(a - b) * (a - b) / «4 → 8»", "accuracy/estimate"),
 
@@ -84,7 +84,7 @@ CORE = [
     ("noise counts in the estimate in place of the error", "core/clean/clean.cpp",
      "const double error = std::max(«errors.sum() → 0.0», std::accumulate", "render/clean_film clean/clean"),
     ("memory for another height is kept", "core/clean/clean.cpp",
-     "if (cells_x == cells_in(width) && «cells_y == cells_in(height) → true») return;", "clean/clean"),
+     "if (cells_x_ == cells_in(width) && «cells_y_ == cells_in(height) → true») return;", "clean/clean"),
 
     ("keys with a slash are not escaped", "core/scene/place.cpp", "out += «\"~1\" → \"~0\"»;", "scene/place scene/override"),
     ("the third component is not checked", "core/scene/check.cpp",
@@ -117,11 +117,11 @@ CORE = [
 
     ("the power heuristic of one strategy beside the balance heuristic of the other", "core/guide/guide_trail.h",
      "F(1.0f) / «mul_add(inverse, inverse, F(1.0f)) → (inverse + F(1.0f))», F(1.0f))", "guide/guide"),
-    ("the sixth event back is forgotten", "core/guide/ordered_events.h", "const I carry = «as_int(shift_right<24>(as_uint(before.low))) → I(0)»;", "guide/guide"),
+    ("the sixth event back is forgotten", "core/guide/light_image.h", "const I carry = «as_int(shift_right<24>(as_uint(before.low))) → I(0)»;", "guide/guide"),
     ("the tail of a lobe counts as its middle", "core/guide/lobes.h", "const F shape = F(«1 - tail_fraction → 1.0f») / (near * near)", "guide/guide"),
     ("a probability without the sequence's weight", "core/guide/lobes.h",
      "drawn.probability = «drawn.probability * weight → drawn.probability»;", "guide/guide"),
-    ("copies of light paths add to their light", "core/guide/light_paths.cpp", "«for (const std::size_t i : landed) landings_[i].weight *= kept; → »", "guide/guide"),
+    ("copies of light paths add to their light", "core/guide/light_paths.cpp", "«for (const std::size_t i : landed) landings[i].weight *= kept; → »", "guide/guide"),
 
     ("the inside of a closed pane is open", "core/specular/specular_slab.h", "return equal(«met → I(0)» & slab.closed, I(0));", "specular/slab_faces"),
     ("a pane's faces in a wrong order", "core/specular/specular_slab.h",
@@ -135,20 +135,20 @@ CORE = [
 
     ("survivors of the roulette carry too little", "core/transport/scatter.h",
      "select(at_risk, «scale * p.throughput → p.throughput», p.throughput)", "render/depth"),
-    ("lamps that are found by chance count in full", "core/transport/direct_light.h",
+    ("lamps that are found by chance count in full", "core/transport/event.h",
      "«select(could, F(1.0f) - others / mul_add(ratio, ratio, others), F(1.0f)) → F(1.0f)»", "render/light_sampling"),
     ("both parts of a split path carry all", "core/transport/splitting.h",
      "carried = select(splits, «(one - part) * carried → carried», carried);", "render/splitting"),
     ("a path is cut one event too late", "core/transport/path.h",
      "const auto deep = «less_equal(IntOf<F>(s.max_depth), p.depth) → less(IntOf<F>(s.max_depth), p.depth)»;", "render/depth targets/render_tile"),
-    ("the sky is weighed against the wrong density", "core/transport/direct_light.h",
+    ("the sky is weighed against the wrong density", "core/transport/event.h",
      "const F chosen = sky.pdf * «sky_probability<F>(s, p.ray.origin) → F(1.0f)»;", "render/sky render/light_sampling"),
 
     ("links do not weaken with the distance", "core/reuse/reuse_tile.h", "F pdf = leaves * arrives / «square → distance»;", "render/sharing"),
     ("a group's samples of the second half go to the first", "core/reuse/reuse_tile.h",
      "const std::uint32_t half = «reused.index[slot % ReusedPaths::max_groups] & 1u → 0u»;", "render/sharing targets/kernel_sets"),
-    ("shared light takes the colour of the path that found it", "core/reuse/reuse.h",
-     "p.throughput = select(lanes, «Vec3<F>{grey, grey, grey} → p.throughput», p.throughput);", "render/sharing"),
+    ("shared light takes the colour of the path that found it", "core/reuse/reuse_tile.h",
+     "p.throughput = select(second, «Vec3<F>{grey, grey, grey} → p.throughput», p.throughput);", "render/sharing"),
     ("rays between vertices cost nothing in the probe", "core/reuse/probe.cpp", "1 + «between → 0.0» / rays_alone / 2", "render/sharing"),
     ("links pass through walls", "core/reuse/reuse_tile.h", "lanes = «mask_and_not(lanes, blocked_towards(s, ray, distance, "
      "load_int<F>(p.second.surface + to), -1, lanes)) → lanes»;", "render/sharing"),

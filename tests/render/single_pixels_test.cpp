@@ -93,7 +93,8 @@ TEST_CASE("levels: the error of a picture with a light that is smaller than a pi
   const RenderScene compiled = small("stress-light-and-fuzz", 111, 83);
   const Film film = film_of(compiled, {0, 0, 111, 83}, 4);
   const Kernels kernels = *choose_kernels("");
-  const double alone = estimated_relative_error(film), known = estimate_error(compiled, kernels, film).relative_error;
+  const double alone = estimate_error(film).relative_error,
+               known = estimate_error(compiled, kernels, film).relative_error;
   CHECK(alone > 5 * known);
   CHECK(estimate_error(compiled, kernels, film, 1).relative_error == known);
 }

@@ -6,7 +6,6 @@
 #include "app/window/picture/display.h"
 #include "core/accuracy/error.h"
 #include "core/accuracy/estimate.h"
-#include "core/accuracy/flip.h"
 #include "core/image/image_io_file.h"
 #include "core/render/render.h"
 #include "core/scene/load.h"
@@ -117,7 +116,7 @@ Reference read_reference(const fs::path& name, const Document& document) {
   if (scene) reference.scene = *scene, reference.known_method = true;
   if (picture.kind != ImageKind::exr || layer) return reference;
   if (const auto film = read_film(file)) {
-    const double error = estimated_relative_error(*film);
+    const double error = estimate_error(*film).relative_error;
     if (std::isfinite(error)) reference.rel_mse = error * error;
   }
   return reference;

@@ -1,7 +1,6 @@
 #include "app/window/accuracy/comparison.h"
 
 #include "core/accuracy/error.h"
-#include "core/accuracy/flip.h"
 
 #include <doctest/doctest.h>
 
