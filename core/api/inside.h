@@ -16,7 +16,6 @@
 #include "core/scene/json_read.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/load.h"
-#include "core/scene/pointer_values.h"
 #include "core/system/processors.h"
 
 /// The core's own types, under names that the library's header does not use: both have a Scene, a Film and a render().

@@ -4,8 +4,7 @@
 #include "core/base/text.h"
 #include "core/scene/check.h"
 #include "core/scene/json_read.h"
-#include "core/scene/json_tree.h"
-#include "core/scene/pointer_values.h"
+#include "core/scene/slots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +14,6 @@
 
 namespace tyndall {
 namespace {
-
-constexpr const char* look_from = "/camera/look_from";
 
 Vec3d vector_of(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
 
@@ -44,15 +41,22 @@ struct AxisFrame {
   }
 };
 
+Vec3d look_at(const Scene& scene, double time) {
+  const KeyedValue* target = find_keys(*scene.animation, "/camera/look_at");
+  return target ? vector_of(value_at(*target, scene.animation->curve, time)) : scene.camera.look_at;
+}
+
+bool is_at_key(const KeyedValue& keyed, double time) {
+  return std::any_of(keyed.keys.begin(), keyed.keys.end(), [&](const KeyFrame& key) { return key.frame == time; });
+}
+
 /// The keys of look_from as spherical coordinates around look_at, which may have keys of its own. From key to key the
 /// camera goes around the shorter way.
 KeyedValue spherical_keys(const KeyedValue& keyed, const Scene& scene, const AxisFrame& frame) {
-  const KeyedValue* target = find_keys(*scene.animation, "/camera/look_at");
   KeyedValue out = keyed;
   double before = 0;
   for (KeyFrame& key : out.keys) {
-    const Vec3d at = target ? vector_of(value_at(*target, scene.animation->curve, key.frame)) : scene.camera.look_at;
-    Spherical s = frame.spherical(vector_of(key.value) - at);
+    Spherical s = frame.spherical(vector_of(key.value) - look_at(scene, key.frame));
     if (&key != out.keys.data()) s.around = before + std::remainder(s.around - before, 2 * std::numbers::pi);
     before = s.around;
     key.value = {s.length, s.around, s.from_axis};
@@ -62,15 +66,12 @@ KeyedValue spherical_keys(const KeyedValue& keyed, const Scene& scene, const Axi
 
 std::vector<double> keyed_value(const KeyedValue& keyed, const Scene& scene, double time) {
   const Animation& animation = *scene.animation;
-  const bool on_key =
-      std::any_of(keyed.keys.begin(), keyed.keys.end(), [&](const KeyFrame& k) { return k.frame == time; });
-  if (!animation.orbit || keyed.pointer != look_from || keyed.keys[0].value.size() != 3 || on_key)
+  if (!animation.orbit || keyed.pointer != "/camera/look_from" || keyed.keys[0].value.size() != 3 ||
+      is_at_key(keyed, time))
     return value_at(keyed, animation.curve, time);
   const AxisFrame frame(scene.camera.vup);
   const std::vector<double> s = value_at(spherical_keys(keyed, scene, frame), animation.curve, time);
-  const KeyedValue* target = find_keys(animation, "/camera/look_at");
-  const Vec3d at = target ? vector_of(value_at(*target, animation.curve, time)) : scene.camera.look_at;
-  const Vec3d place = at + frame.vector({s[0], s[1], s[2]});
+  const Vec3d place = look_at(scene, time) + frame.vector({s[0], s[1], s[2]});
   return {place.x, place.y, place.z};
 }
 
@@ -79,27 +80,21 @@ JsonValue json_of(const std::vector<double>& value, bool whole) {
   return {whole ? std::round(value[0]) : value[0]};  // all numbers of /render are whole
 }
 
-/// The object that holds the value, if that is the center of a sphere at rest; null: it is none.
-JsonObject* sphere_of_center(JsonValue& root, const std::vector<std::string>& steps) {
-  if (steps.size() < 3 || steps.back() != "center" || steps[steps.size() - 2] == "boundary") return nullptr;
-  JsonValue* holder = find_value(root, {steps.begin(), steps.end() - 1});
-  auto* object = holder ? std::get_if<JsonObject>(&holder->value) : nullptr;
-  const bool rests = object && text_of(find(*object, "type")) == "sphere" && !find(*object, "center_end");
-  return rests ? object : nullptr;
-}
-
 void apply_key(JsonValue& root, const KeyedValue& keyed, const Scene& scene, double time) {
   const auto steps = pointer_steps(keyed.pointer);
   const std::vector<double> value = keyed_value(keyed, scene, time);
   put_value(root, *steps, json_of(value, steps->front() == "render"), keyed.pointer);
 }
 
-/// Lets spheres whose center has keys move within the frame.
-void blur_motion(JsonValue& root, const Scene& scene, double time) {
+/// Lets spheres at rest whose center has keys move within the frame.
+void blur_motion(Scene& still, const Scene& scene, double time) {
   for (const KeyedValue& keyed : scene.animation->keyed) {
-    JsonObject* sphere = sphere_of_center(root, *pointer_steps(keyed.pointer));
+    std::vector<std::string> steps = *pointer_steps(keyed.pointer);
+    Object* object = object_at(still, steps);
+    auto* solid = object && steps == std::vector<std::string>{"center"} ? std::get_if<Solid3d>(&object->kind) : nullptr;
+    auto* sphere = solid ? std::get_if<Sphere<>>(&solid->shape) : nullptr;
     const std::vector<double> next = keyed_value(keyed, scene, time + 1);
-    if (sphere && next != keyed_value(keyed, scene, time)) put(*sphere, "center_end", next);
+    if (sphere && !sphere->center_end && next != keyed_value(keyed, scene, time)) sphere->center_end = vector_of(next);
   }
 }
 
@@ -113,9 +108,8 @@ Scene scene_at(const Scene& scene, double time) {
   add_sections(root);
   for (const KeyedValue& keyed : scene.animation->keyed) apply_key(root, keyed, scene, time);
   still = scene_with_pictures(root, scene);
-  if (still.camera.shutter_close == 0 && still.camera.shutter_open == 0) return checked(std::move(still));
-  blur_motion(root, scene, time);
-  return checked(scene_with_pictures(root, scene));
+  if (still.camera.shutter_close != 0 || still.camera.shutter_open != 0) blur_motion(still, scene, time);
+  return checked(std::move(still));
 }
 
 Scene frame_scene(const Scene& scene, const FramePlan& plan, int frame) {
@@ -155,9 +149,7 @@ void check_keys(const Scene& scene) {
       scene_at(scene, frame);
     } catch (const ParseError& error) {
       for (const KeyedValue& keyed : scene.animation->keyed) {
-        const bool has_key =
-            std::any_of(keyed.keys.begin(), keyed.keys.end(), [&](const KeyFrame& k) { return k.frame == frame; });
-        if (has_key && error.where.starts_with(keyed.pointer))
+        if (is_at_key(keyed, frame) && error.where.starts_with(keyed.pointer))
           throw ParseError{"/animation/keys/" + pointer_step(keyed.pointer) + "/" + std::to_string(frame), error.found,
                            error.expected};
       }

@@ -1,10 +1,24 @@
 #include "core/scene/json_read.h"
 
 #include <algorithm>
-#include <set>
+#include <cmath>
+#include <limits>
 
 namespace tyndall {
 namespace {
+
+template <class T>
+T whole_number(const JsonValue& json, const Place& at, const Meaning& meaning) {
+  const auto* number = std::get_if<double>(&json.value);
+  const bool fits = number && *number == std::floor(*number) &&
+                    *number >= static_cast<double>(std::numeric_limits<T>::min()) &&
+                    *number <= static_cast<double>(std::numeric_limits<T>::max());
+  if (fits) return static_cast<T>(*number);
+  Meaning bounded = meaning;
+  const bool too_large = number && *number > 0 && *number == std::floor(*number);
+  if (too_large) bounded.valid.high = std::min(meaning.valid.high, static_cast<double>(std::numeric_limits<T>::max()));
+  fail(at, describe(json), expected_text(bounded, Form::whole));
+}
 
 std::vector<std::string_view> names_in(const NameTable& table) {
   std::vector<std::string_view> names;
@@ -21,10 +35,10 @@ Transform read_transform(const JsonObject& object, const Place& at) {
   const Place here{at, "transform"};
   const char* expected = "{ \"rotate_y\": degrees } or { \"translate\": [x, y, z] }";
   const JsonArray& steps =
-      array_at(*json, here, "a list of { \"rotate_y\": degrees } and { \"translate\": [x, y, z] }");
+      read_as<JsonArray>(*json, here, "a list of { \"rotate_y\": degrees } and { \"translate\": [x, y, z] }");
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const Place step{here, i};
-    const JsonObject& members = object_at(steps[i], step, expected);
+    const JsonObject& members = read_as<JsonObject>(steps[i], step, expected);
     if (members.size() != 1) fail(step, "an object with " + std::to_string(members.size()) + " keys", expected);
     const auto read = [&](auto&& move) {
       const auto list = fields_of<std::decay_t<decltype(move)>>();
@@ -56,7 +70,7 @@ bool read_solid(const JsonObject& json, const Place& at, std::string_view type, 
 void read_boundary(const JsonObject& medium, const Place& at, Volume& volume) {
   const char* expected = "an object that describes a sphere or a box";
   const Place here{at, "boundary"};
-  const JsonObject& object = object_at(member_at(medium, at, "boundary", expected), here, expected);
+  const JsonObject& object = read_as<JsonObject>(member_at(medium, at, "boundary", expected), here, expected);
   if (find(object, "material"))
     fail({here, "material"}, "a material", "none: a boundary has no surface (add an object of the same shape for one)");
   read_kind(object, here, volume.boundary, [&]<class T>(T& shape) {
@@ -81,7 +95,7 @@ std::vector<std::string_view> object_types() {
 }
 
 void read_object(const JsonValue& json, const Place& at, const NameTables& references, Object& object) {
-  const JsonObject& members = object_at(json, at, "an object of the scene: { \"type\": …, … }");
+  const JsonObject& members = read_as<JsonObject>(json, at, "an object of the scene: { \"type\": …, … }");
   const std::string_view type = type_at(members, at, object_types);
   if (type == Medium<>::type) {
     object.kind = read_volume(members, at, references);
@@ -93,24 +107,21 @@ void read_object(const JsonValue& json, const Place& at, const NameTables& refer
     fail_type(at, type, object_types());
   }
   if (const JsonValue* name = find(members, "name"))
-    object.name = string_at(*name, {at, "name"}, "a text (the object's name)");
+    object.name = read_as<std::string>(*name, {at, "name"}, "a text (the object's name)");
   object.transform = read_transform(members, at);
 }
 
-/// The keys of a material of that kind but its type.
+/// Whether materials of a kind have that key, beside their type.
 template <class Kind>
-std::set<std::string_view> keys_of(const Kind*) {
-  std::set<std::string_view> keys;
-  for_each_field(fields_of<Kind>(), [&](const auto& field) { keys.insert(field.name); });
-  if constexpr (Kind::colour_name != nullptr) keys.insert(Kind::colour_name);
-  return keys;
+bool has_key(const Kind*, std::string_view key) {
+  bool has = false;
+  if constexpr (Kind::colour_name != nullptr) has = key == Kind::colour_name;
+  for_each_field(fields_of<Kind>(), [&](const auto& field) { has = has || key == field.name; });
+  return has;
 }
-
 template <class... Kinds>
-std::set<std::string_view> keys_of_all(const std::variant<Kinds...>*) {
-  std::set<std::string_view> keys;
-  (keys.merge(keys_of(static_cast<const Kinds*>(nullptr))), ...);
-  return keys;
+bool has_key(const std::variant<Kinds...>*, std::string_view key) {
+  return (has_key(static_cast<const Kinds*>(nullptr), key) || ...);
 }
 
 /// The colour that a material has under any name; grey if it has none.
@@ -121,6 +132,51 @@ JsonValue colour_of(const JsonObject& material) {
 }
 
 }  // namespace
+
+const JsonValue& member_at(const JsonObject& object, const Place& at, const char* key, std::string_view expected) {
+  if (const JsonValue* json = find(object, key)) return *json;
+  fail(at, "no " + in_quotes(key), std::string(expected));
+}
+
+void fail_key(const Place& at, std::string_view key, const std::vector<std::string_view>& known) {
+  fail({at, key}, "an unknown key", one_of(known) + did_you_mean(key, known));
+}
+
+void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, double& out) {
+  const auto* number = std::get_if<double>(&json.value);
+  if (!number) fail(at, describe(json), expected_text(meaning, Form::number));
+  out = *number;
+}
+
+void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, int& out) {
+  out = whole_number<int>(json, at, meaning);
+}
+
+void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, std::uint32_t& out) {
+  out = whole_number<std::uint32_t>(json, at, meaning);
+}
+
+void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, Vec3d& out) {
+  const auto* array = std::get_if<JsonArray>(&json.value);
+  if (!array || array->size() != 3) fail(at, describe(json), expected_text(meaning, Form::vector));
+  double* const components[3] = {&out.x, &out.y, &out.z};
+  for (std::size_t i = 0; i < 3; ++i) read_value((*array)[i], {at, i}, meaning, *components[i]);
+}
+
+void read_value(const JsonValue& json, const Place& at, const Meaning&, bool& out) {
+  out = read_as<bool>(json, at, "true or false");
+}
+
+std::string_view type_at(const JsonObject& object, const Place& at, std::vector<std::string_view> (*types)()) {
+  const JsonValue* json = find(object, "type");
+  if (!json) fail(at, "no \"type\"", one_of(types()));
+  if (const auto* type = std::get_if<std::string>(&json->value)) return *type;
+  fail({at, "type"}, describe(*json), one_of(types()));
+}
+
+void fail_type(const Place& at, std::string_view found, const std::vector<std::string_view>& types) {
+  fail({at, "type"}, in_quotes(shortened(found, 80)), one_of(types) + did_you_mean(found, types));
+}
 
 int read_reference(const JsonValue& json, const Place& at, const NameTable& table, const std::string& kind) {
   const auto* name = std::get_if<std::string>(&json.value);
@@ -151,7 +207,7 @@ ColourOrTexture read_colour(const JsonObject& object, const Place& at, const cha
 }
 
 std::vector<Object> read_objects(const JsonValue& json, const Place& at, const NameTables& references) {
-  const JsonArray& array = array_at(json, at, "a list of objects");
+  const JsonArray& array = read_as<JsonArray>(json, at, "a list of objects");
   std::vector<Object> objects(array.size());
   for (std::size_t i = 0; i < array.size(); ++i) read_object(array[i], {at, i}, references, objects[i]);
   return objects;
@@ -164,15 +220,13 @@ void fit_to_type(JsonValue& root, const Override& override_) {
   auto* material = value ? std::get_if<JsonObject>(&value->value) : nullptr;
   if (!material) return;
   MaterialKinds<double> kind;
-  read_kind(text_of(find(*material, "type")), kind, [&]<class T>(T&) {
+  read_kind(text_of(find(*material, "type")), kind, [&]<class T>(T& own) {
     const JsonValue colour = colour_of(*material);
-    const std::set<std::string_view> own = keys_of(static_cast<const T*>(nullptr));
-    const std::set<std::string_view> all = keys_of_all(static_cast<const MaterialKinds<double>*>(nullptr));
-    std::erase_if(*material, [&](const JsonMember& m) { return all.contains(m.key) && !own.contains(m.key); });
+    std::erase_if(*material, [&](const JsonMember& m) { return has_key(&kind, m.key) && !has_key(&own, m.key); });
     if constexpr (T::colour_name != nullptr)
       if (!find(*material, T::colour_name)) put(*material, T::colour_name, colour);
     for_each_field(fields_of<T>(), [&](const auto& field) {
-      if (field.required && !find(*material, field.name)) put(*material, field.name, T().*field.value);
+      if (field.required && !find(*material, field.name)) put(*material, field.name, own.*field.value);
     });
   });
 }

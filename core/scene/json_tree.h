@@ -129,6 +129,10 @@ void apply_override(JsonValue& root, const Override& override_);
 
 /// The document that write_scene() writes.
 JsonValue scene_json(const Scene& scene);
+/// Adds the sections that a scene does not write because they are at their defaults, so that pointers can go into them.
+void add_sections(JsonValue& root);
+/// The value at a pointer, also where it is not written; nothing: the scene has no such value.
+std::optional<JsonValue> value_at_pointer(const Scene& scene, const std::string& pointer);
 
 /// The document as text: two spaces a level, what is short on one line.
 std::string print_json(const JsonValue& root);

@@ -63,14 +63,7 @@ void for_each_field(const Fields& list, const Visit& visit) {
 Meaning colour_meaning(std::string_view colour_name);
 
 enum class Form { number, whole, vector };
-inline constexpr Form form_of(const double*) { return Form::number; }
-inline constexpr Form form_of(const int*) { return Form::whole; }
-inline constexpr Form form_of(const std::uint32_t*) { return Form::whole; }
-inline constexpr Form form_of(const Vec3<double>*) { return Form::vector; }
-template <class T>
-constexpr Form form_of(const std::optional<T>*) {
-  return form_of(static_cast<const T*>(nullptr));
-}
+
 /// A setting's value in a message.
 inline std::string setting_text(double value) { return number_text(value); }
 inline std::string setting_text(bool value) { return value ? "on" : "off"; }

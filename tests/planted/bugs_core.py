@@ -90,8 +90,8 @@ CORE = [
     ("the third component is not checked", "core/scene/check.cpp",
      "for (std::size_t i = 0; i < «3 → 2»; ++i) check_value({at, i}, meaning, components[i]);", "scene/check"),
     ("two materials may have one name", "core/scene/check.cpp", "if («!names.insert(thing.name).second → false»)", "scene/check scene/bad_scenes"),
-    ("the weights of two slopes swapped", "core/scene/animation.cpp", "const double w0 = «h0 + 2 * h1 → 2 * h0 + h1»,", "scene/animation"),
-    ("a second key of a frame in place of a new value", "core/scene/animation.cpp", "&& «place->frame == key.frame → false»)", "scene/animation"),
+    ("the weights of two slopes swapped", "core/scene/scene.cpp", "const double w0 = «h0 + 2 * h1 → 2 * h0 + h1»,", "scene/animation"),
+    ("a second key of a frame in place of a new value", "core/scene/scene.cpp", "&& «place->frame == key.frame → false»)", "scene/animation"),
     ("absolute names of pictures are moved, too", "core/scene/load.cpp",
      "«if (fs::path(picture.file).is_absolute()) return; → »\n    const fs::path file", "scene/load"),
 
