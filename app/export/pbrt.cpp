@@ -2,7 +2,6 @@
 #include "core/base/kinds.h"
 #include "core/base/text.h"
 #include "core/compile/columns.h"
-#include "core/compile/sky.h"
 #include "core/trace/sky.h"
 
 #include <fmt/core.h>

@@ -3,7 +3,6 @@
 #include "core/compile/columns.h"
 #include "core/compile/flatten.h"
 #include "core/compile/lights.h"
-#include "core/compile/sky.h"
 #include "core/compile/specular_pairs.h"
 #include "core/compile/surroundings.h"
 #include "core/film/film.h"
@@ -136,10 +135,8 @@ const Checker<>* checker_of(const Scene& scene, std::int32_t material) {
 
 void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene* before, RenderScene& out) {
   const std::vector<std::int32_t> first_element = first_elements(flat);
-  const MoreColumns more{out.features.image_textures, out.features.moving_spheres, out.features.textures,
-                         out.features.image_textures && out.features.disks};
   for (const PlacedShape& shape : flat.shapes)
-    append_elements(shape, out.origin, more, checker_of(scene, shape.material), out.elements);
+    append_elements(shape, out.origin, out.features, checker_of(scene, shape.material), out.elements);
   out.camera.surface = camera_surface(flat, first_element, scene.camera, out.origin);
   out.lights = collect_lights(scene, flat, first_element, out.origin, out.elements);
   for (const std::int32_t i : choose_tree(flat, scene.camera, before, out)) {

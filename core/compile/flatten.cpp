@@ -3,6 +3,7 @@
 #include "core/base/elementary.h"
 #include "core/base/kinds.h"
 #include "core/base/math.h"
+#include "core/scene/place.h"
 #include "core/shapes/outline.h"
 
 #include <algorithm>
@@ -50,33 +51,17 @@ void flatten_list(const std::vector<Object>& objects, const Placement& outer, st
 /// A hash of a shape and its placement: equal shapes have equal hashes.
 std::uint64_t hash_of(const PlacedShape& placed) {
   std::uint64_t hash = placed.shape.index();
-  const auto add = [&hash](double number) {  // -0 as +0; the multiplier is that of D. Knuth's MMIX generator
+  const auto add_number = [&hash](double number) {  // -0 as +0; the multiplier is that of D. Knuth's MMIX generator
     hash = (hash ^ std::bit_cast<std::uint64_t>(number + 0.0)) * 6364136223846793005u;
     hash ^= hash >> 32;
   };
-  const auto add_all = [&add](std::initializer_list<Vec3d> list) {
-    for (const Vec3d& v : list) add(v.x), add(v.y), add(v.z);
-  };
-  std::visit(Overloaded{[&](const Sphere<>& s) {
-                          add_all({s.center, s.center_end.value_or(s.center)});
-                          add(s.radius);
-                        },
-                        [&](const Quad<>& q) {
-                          add_all({q.corner, q.u, q.v});
-                        },
-                        [&](const Box<>& b) {
-                          add_all({b.min, b.max});
-                        },
-                        [&](const Triangle<>& t) {
-                          add_all({t.corner, t.u, t.v});
-                        },
-                        [&](const Disk<>& d) {
-                          add_all({d.center, d.u, d.v});
-                          add(d.inner);
-                        }},
-             placed.shape);
+  const auto add_vector = [&](const Vec3d& v) { add_number(v.x), add_number(v.y), add_number(v.z); };
+  const Overloaded add{add_number, add_vector, [&](const std::optional<Vec3d>& v) { add_vector(v.value_or(Vec3d{})); }};
+  std::visit(
+      [&](const auto& shape) { for_each_field(fields(&shape), [&](const auto& field) { add(shape.*field.value); }); },
+      placed.shape);
   add(placed.placement.degrees);
-  add_all({placed.placement.offset});
+  add(placed.placement.offset);
   return hash;
 }
 

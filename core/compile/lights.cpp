@@ -59,42 +59,31 @@ void give_outline(Lights& out, const Emitter& e, const auto& shape) {
   out.area[k] = static_cast<float>(area), out.power[k] = static_cast<float>(area * e.brightness);
 }
 
-struct Collector {
-  Lights& out;
-  const Placement& placement;
-  Vec3d origin;
-  Emitter emitter;
+void add_sphere(Lights& out, const Emitter& e, const Sphere<>& s, const Placement& placement, Vec3d origin) {
+  const double r = std::abs(s.radius);
+  const Vec3d center = place(placement, s.center) - origin;
+  const Vec3d motion = s.center_end ? rotate(placement, *s.center_end - s.center) : Vec3d{};
+  out.kind.push_back(Lights::sphere);
+  push(out.corner, center);
+  push(out.edge_u, motion);
+  push(out.edge_v, {});
+  push(out.normal, {});
+  out.length_u.push_back(static_cast<float>(r));
+  out.length_v.push_back(0);
+  push_common(out, e, 4 * pi * r * r, center + 0.5 * motion, r + 0.5 * length(motion));
+}
 
-  void operator()(const Sphere<>& s) const {
-    const double r = std::abs(s.radius);
-    const Vec3d center = place(placement, s.center) - origin;
-    const Vec3d motion = s.center_end ? rotate(placement, *s.center_end - s.center) : Vec3d{};
-    out.kind.push_back(Lights::sphere);
-    push(out.corner, center);
-    push(out.edge_u, motion);
-    push(out.edge_v, {});
-    push(out.normal, {});
-    out.length_u.push_back(static_cast<float>(r));
-    out.length_v.push_back(0);
-    push_common(out, emitter, 4 * pi * r * r, center + 0.5 * motion, r + 0.5 * length(motion));
-  }
-  void operator()(const Quad<>& q) const {
-    add_flat(out, emitter, place(placement, q.corner) - origin, rotate(placement, q.u), rotate(placement, q.v));
-  }
-  void operator()(const Triangle<>& t) const { add_outlined(t); }
-  void operator()(const Disk<>& d) const { add_outlined(d); }
-  void add_outlined(const auto& shape) const {
-    (*this)(frame_of(shape));
-    give_outline(out, emitter, shape);
-  }
-  void operator()(const Box<>& b) const {
-    for (std::int32_t i = 0; i < 6; ++i) {
-      const BoxFace face = box_face_edges(b, i);
-      add_flat(out, {emitter.brightness, emitter.element + i}, place(placement, face.corner) - origin,
-               rotate(placement, face.u), rotate(placement, face.v));
-    }
-  }
-};
+void add_lights(Lights& out, const Emitter& e, const PlacedShape& placed, Vec3d origin) {
+  each_face(placed, [&](const BoxFace& face, std::int32_t i) {
+    add_flat(out, {e.brightness, e.element + i}, face.corner - origin, face.u, face.v);
+  });
+  std::visit(
+      [&]<class Shape>(const Shape& shape) {
+        if constexpr (has_outline<Shape>) give_outline(out, e, shape);
+        if constexpr (std::is_same_v<Shape, Sphere<>>) add_sphere(out, e, shape, placed.placement, origin);
+      },
+      placed.shape);
+}
 
 double brightness_of(const Material& m) {
   if (!traits_of(m.kind).emits) return 0;
@@ -263,8 +252,7 @@ Lights collect_lights(const Scene& scene, const Flattened& flat, const std::vect
   for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
     const PlacedShape& shape = flat.shapes[i];
     const double brightness = brightness_of(scene.materials[static_cast<std::size_t>(shape.material)]);
-    if (!(brightness > 0)) continue;
-    std::visit(Collector{out, shape.placement, origin, {brightness, first_element[i]}}, shape.shape);
+    if (brightness > 0) add_lights(out, {brightness, first_element[i]}, shape, origin);
   }
   elements.light.assign(elements.material.size(), -1);
   for (int k = 0; k < out.count(); ++k)

@@ -1,7 +1,7 @@
 #include "tests/support/probe.h"
 #include "tests/support/skies.h"
 
-#include "core/compile/sky.h"
+#include "core/compile/columns.h"
 #include "core/trace/sky.h"
 
 #include <doctest/doctest.h>

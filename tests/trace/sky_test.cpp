@@ -1,6 +1,6 @@
 #include "core/trace/sky.h"
 
-#include "core/compile/sky.h"
+#include "core/compile/columns.h"
 #include "tests/support/skies.h"
 #include "tests/support/statistics.h"
 #include "tests/support/thorough.h"
