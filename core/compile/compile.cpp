@@ -256,21 +256,13 @@ int RenderScene::primitives() const {
 }
 
 const char* name_of(KernelSet set) {
-  switch (set) {
-    case KernelSet::everything:
-      return "everything";
-    case KernelSet::common_models:
-      return "no triangles, disks, sky picture or guide";
-    case KernelSet::specular_paths_only:
-      return "chains, no fog, no textures";
-    case KernelSet::no_specular_paths:
-      return "no chains";
-    case KernelSet::no_media_no_textures:
-      return "no fog, no textures";
-    case KernelSet::guided_paths_only:
-      return "a guide, no fog, no textures";
-  }
-  return "";
+  constexpr const char* names[kernel_sets] = {"everything",
+                                              "no triangles, disks, sky picture or guide",
+                                              "chains, no fog, no textures",
+                                              "no chains",
+                                              "no fog, no textures",
+                                              "a guide, no fog, no textures"};
+  return names[static_cast<int>(set)];
 }
 
 std::size_t bytes_of(const RenderScene& s) {

@@ -58,7 +58,10 @@ std::uint64_t hash_of(const PlacedShape& placed) {
   const auto add_vector = [&](const Vec3d& v) { add_number(v.x), add_number(v.y), add_number(v.z); };
   const Overloaded add{add_number, add_vector, [&](const std::optional<Vec3d>& v) { add_vector(v.value_or(Vec3d{})); }};
   std::visit(
-      [&](const auto& shape) { for_each_field(fields(&shape), [&](const auto& field) { add(shape.*field.value); }); },
+      [&]<class Shape>(const Shape& shape) {
+        constexpr auto list = fields_of<Shape>();
+        for_each_field(list, [&](const auto& field) { add(shape.*field.value); });
+      },
       placed.shape);
   add(placed.placement.degrees);
   add(placed.placement.offset);

@@ -5,13 +5,15 @@
 #include "core/scene/scene.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 /// This room keeps pictures and films in files, with what is said beside them: scene, figures, layers.
 ///
 /// Films in files: what --resume goes on from and merge adds. Whether films belong together is said here, for all:
-/// see differing_samples().
+/// see differing_samples(). Pictures become files of any kind by write_picture().
 namespace tyndall {
 
 /// A film, and the scene that it is of; texture files relative to the current folder.
@@ -67,5 +69,36 @@ struct CleanOfFilm {
 /// Filters the film of the scene. Throws UsageError, which names `file`, if some pixels have fewer than 2 samples.
 CleanOfFilm clean_view(const Film& film, const Scene& scene, const std::string& file, int threads = 0,
                        const std::string& isa = "");
+
+/// How image files are written, where their names do not say it.
+struct ImageForm {
+  std::string
+      format;  ///< of what goes to standard output, the file "-": png, exr, pfm, hdr or ppm; empty: nothing goes there
+  bool exr_film = true;           ///< whether EXR files hold the film itself, which merge, denoise and --resume need
+  PpmCurve ppm = PpmCurve::srgb;  ///< how PPM files are written
+};
+
+/// What says the format of an image file: the ending of its name, or of standard output the form's. In small letters,
+/// with its dot, for example ".png".
+std::string image_ending(const std::filesystem::path& file, const ImageForm& form);
+
+/// True for names that end in .exr (any case).
+bool is_exr(const std::filesystem::path& file);
+
+/// What becomes image files.
+struct Picture {
+  const Film& film;
+  const LinearImage& image;                                             ///< the film's means
+  Display display;                                                      ///< for PNG and PPM
+  std::function<Embedded(const std::filesystem::path& file)> embedded;  ///< for PNG and EXR
+  std::function<std::vector<Layer>()> layers;  ///< for EXR, made only when needed; may be empty
+  const CleanPicture* clean = nullptr;         ///< shown in place of the means, in EXR beside them; null: none
+  ImageForm form{};
+};
+
+/// Writes the picture as a whole file, or throws ImageFileError and writes nothing. kind: see image_ending(); the
+/// file's own where it is left out. Throws UsageError for an ending that is no image's.
+void write_picture(const Picture& picture, const std::string& kind, const std::filesystem::path& file);
+void write_picture(const Picture& picture, const std::filesystem::path& file);
 
 }  // namespace tyndall

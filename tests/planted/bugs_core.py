@@ -49,7 +49,7 @@ CORE = [
      "«select(uv.wraps, across, min(max(across, zero), last_column)) → across»", "textures/image"),
     ("a wrong weight of octaves", "core/textures/noise.h", "weight *= «0.5f → 0.6f», frequency", "textures/noise"),
 
-    ("a wrong limb: the low one is not added", "core/film/exact_sum.h", "«low += other.low; → »", "film/film"),
+    ("a wrong limb: the low one is not added", "core/film/film.h", "«low += other.low; → »", "film/film"),
     ("a half written twice", "core/film/film.cpp",
      "to.sum[half][channel].add(from.sum[«half → 0»][channel]);\n    to.rejected", "film/film film/merge"),
     ("cut paths are not added up", "core/film/film.cpp", "«to.truncated += from.truncated; → »", "film/film film/merge"),
