@@ -1,7 +1,6 @@
 #include "core/compile/columns.h"
 
 #include "core/base/elementary.h"
-#include "core/base/kinds.h"
 #include "core/base/math.h"
 #include "core/base/random.h"
 #include "core/shapes/outline.h"
@@ -48,6 +47,15 @@ void fill(TextureColumns& out, const Image& image, Vec3d) {
   out.height = image.pixels->height;
   out.pixels = image.pixels;
 }
+
+BackgroundColumns columns_of(const Vec3d& colour) { return {BackgroundKind::constant, to_float(colour), {}}; }
+BackgroundColumns columns_of(const Gradient& g) {
+  return {BackgroundKind::gradient, to_float(g.bottom), to_float(g.top)};
+}
+BackgroundColumns columns_of(const Hemispheres& h) {
+  return {BackgroundKind::hemispheres, to_float(h.up), to_float(h.down)};
+}
+BackgroundColumns columns_of(const SkyPicture&) { return {BackgroundKind::picture, {}, {}}; }
 
 void set_row(Affine& map, int i, Vec3d row, Vec3d zero_at) {
   map.row[i] = to_float(row);
@@ -139,20 +147,7 @@ CameraColumns camera_columns(const Camera& camera, int width, int height, Vec3d 
 }
 
 BackgroundColumns background_columns(const Background& background) {
-  using Columns = BackgroundColumns;
-  return std::visit(Overloaded{[](const Vec3d& colour) {
-                                 return Columns{BackgroundKind::constant, to_float(colour), {}};
-                               },
-                               [](const Gradient& g) {
-                                 return Columns{BackgroundKind::gradient, to_float(g.bottom), to_float(g.top)};
-                               },
-                               [](const Hemispheres& h) {
-                                 return Columns{BackgroundKind::hemispheres, to_float(h.up), to_float(h.down)};
-                               },
-                               [](const SkyPicture&) {
-                                 return Columns{BackgroundKind::picture, {}, {}};
-                               }},
-                    background);
+  return std::visit([](const auto& kind) { return columns_of(kind); }, background);
 }
 
 Materials material_columns(const std::vector<Material>& materials) {

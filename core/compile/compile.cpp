@@ -54,16 +54,11 @@ Bounds bounds_of(const Extent& extent, Vec3d origin) {
   return widen(low, high);
 }
 
-PrimitiveKind kind_of(const PlacedShape& shape) {
-  return std::visit(
-      Overloaded{[](const Sphere<>& sphere) {
-                   return sphere.center_end ? PrimitiveKind::moving_sphere : PrimitiveKind::sphere;
-                 },
-                 [](const Quad<>&) { return PrimitiveKind::quad; }, [](const Box<>&) { return PrimitiveKind::box; },
-                 [](const Triangle<>&) { return PrimitiveKind::outlined; },
-                 [](const Disk<>&) { return PrimitiveKind::outlined; }},
-      shape.shape);
-}
+PrimitiveKind kind_of(const Sphere<>& s) { return s.center_end ? PrimitiveKind::moving_sphere : PrimitiveKind::sphere; }
+PrimitiveKind kind_of(const Quad<>&) { return PrimitiveKind::quad; }
+PrimitiveKind kind_of(const Box<>&) { return PrimitiveKind::box; }
+PrimitiveKind kind_of(const Triangle<>&) { return PrimitiveKind::outlined; }
+PrimitiveKind kind_of(const Disk<>&) { return PrimitiveKind::outlined; }
 
 struct SlotFiller {
   RenderScene& out;
@@ -120,7 +115,9 @@ std::vector<std::int32_t> choose_tree(const Flattened& flat, const Camera& camer
   }
   std::vector<BvhInput> input;
   input.reserve(flat.shapes.size());
-  for (const PlacedShape& s : flat.shapes) input.push_back({bounds_of(extent_of(s, camera), out.origin), kind_of(s)});
+  for (const PlacedShape& placed : flat.shapes)
+    input.push_back({bounds_of(extent_of(placed, camera), out.origin),
+                     std::visit([](const auto& shape) { return kind_of(shape); }, placed.shape)});
   const bool kept = before && before->bvh && before->bvh->input == input;
   out.bvh = kept ? before->bvh : std::make_shared<const Bvh>(build_bvh(std::move(input)));
   return out.bvh->order;

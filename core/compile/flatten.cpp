@@ -29,6 +29,9 @@ CosSin cos_sin(double degrees) {
   return {cosine(remainder * (pi / 180)), sine(remainder * (pi / 180))};
 }
 
+Placement placement_of(const RotateY& r) { return {r.degrees, {}}; }
+Placement placement_of(const Translate& t) { return {0, t.offset}; }
+
 void flatten_list(const std::vector<Object>& objects, const Placement& outer, std::int32_t group, Flattened& out) {
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Object& object = objects[i];
@@ -161,14 +164,7 @@ Placement compose(const Placement& outer, const Placement& inner) {
 Placement placement_of(const Transform& list) {
   Placement result;
   for (const auto& step : list)
-    result = compose(std::visit(Overloaded{[](const RotateY& r) {
-                                             return Placement{r.degrees, {}};
-                                           },
-                                           [](const Translate& t) {
-                                             return Placement{0, t.offset};
-                                           }},
-                                step),
-                     result);
+    result = compose(std::visit([](const auto& move) { return placement_of(move); }, step), result);
   return result;
 }
 

@@ -101,18 +101,7 @@ class TreeBuilder {
 
   LightTree build() {
     add_pair(-1);
-    std::vector<Range> ranges{{0, 0, order_.size(), 0}};
-    while (!ranges.empty()) {
-      const Range range = ranges.back();
-      ranges.pop_back();
-      fill(range);
-      if (range.end - range.begin == 1) continue;
-      const std::size_t middle = split(range);
-      const std::size_t first = add_pair(static_cast<std::int32_t>(range.node));
-      tree_.child[range.node] = static_cast<std::int32_t>(first);
-      ranges.push_back({first + 1, middle, range.end, range.depth + 1});
-      ranges.push_back({first, range.begin, middle, range.depth + 1});
-    }
+    build({0, 0, order_.size(), 0});
     return std::move(tree_);
   }
 
@@ -149,6 +138,15 @@ class TreeBuilder {
   void add(std::int32_t light, Sum& sum) const {
     const auto k = static_cast<std::size_t>(light);
     sum.add(center(light), std::sqrt(static_cast<double>(lights_.reach2[k])), static_cast<double>(lights_.power[k]));
+  }
+
+  void build(const Range& range) {
+    fill(range);
+    if (range.end - range.begin == 1) return;
+    const std::size_t middle = split(range), first = add_pair(static_cast<std::int32_t>(range.node));
+    tree_.child[range.node] = static_cast<std::int32_t>(first);
+    build({first, range.begin, middle, range.depth + 1});
+    build({first + 1, middle, range.end, range.depth + 1});
   }
 
   std::size_t add_pair(std::int32_t parent) {

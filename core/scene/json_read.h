@@ -149,9 +149,8 @@ void fit_to_type(JsonValue& root, const Override& override_);
 /// The scene of a document whose image files were read before: they are taken from a scene that has the same ones.
 Scene scene_with_pictures(const JsonValue& root, const Scene& pictures);
 
-/// The picture of a sky. file: as the scene names it, from the folder.
-std::shared_ptr<const Image::Pixels> read_sky_pixels(const std::string& file, const std::filesystem::path& folder,
-                                                     const Place& at);
+/// Absolute, and without symbolic links as far as the file is there.
+std::filesystem::path whole_path(const std::filesystem::path& path);
 
 std::vector<Object> read_objects(const JsonValue& json, const Place& at, const NameTables& references);
 

@@ -5,7 +5,6 @@
 #include "core/base/text.h"
 #include "core/image/image_io.h"
 #include "core/image/image_io_file.h"
-#include "core/scene/frames.h"
 #include "core/scene/json_read.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/place.h"
@@ -110,11 +109,6 @@ std::string name_of(const std::string& text) {
 /// Reads the scene from the text, which is there.
 void read_text_of(LoadedScene& loaded, const std::vector<Override>& overrides) {
   loaded.scene = read_scene(loaded.text, loaded.name, loaded.folder, overrides);
-  try {
-    check_keys(loaded.scene);
-  } catch (const ParseError& error) {
-    throw SceneError(loaded.name, error.where, error.found, error.expected);
-  }
   each_picture(loaded.scene,
                [&](const auto& picture) { loaded.files.push_back(picture_name(loaded.folder / picture.file).file); });
 }
@@ -185,22 +179,6 @@ LoadedScene load_scene_text(const std::string& text, const std::string& name, co
   return loaded;
 }
 
-SkyPicture sky_of_file(const fs::path& file, const fs::path& folder) {
-  std::error_code error;
-  const fs::path whole = fs::weakly_canonical(fs::absolute(file, error), error);
-  const fs::path below = whole.lexically_relative(fs::weakly_canonical(fs::absolute(folder, error), error));
-  const bool inside = !below.empty() && *below.begin() != "..";
-  const Place top, background{top, "background"};
-  SkyPicture sky;
-  sky.file = (inside ? below : whole).generic_string();
-  try {
-    sky.pixels = read_sky_pixels(sky.file, folder, {background, "file"});
-  } catch (const ParseError& wrong) {
-    throw SceneError(file.string(), wrong.where, wrong.found, wrong.expected);
-  }
-  return sky;
-}
-
 std::vector<fs::path> files_of_scene(const fs::path& file) {
   std::vector<fs::path> files{file};
   try {
@@ -253,12 +231,11 @@ std::string contents_remark(const LoadedScene& loaded) {
 }
 
 Scene move_textures(Scene scene, const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  const fs::path target = fs::weakly_canonical(fs::absolute(to, error), error);
-  if (target == fs::weakly_canonical(fs::absolute(from, error), error)) return scene;
+  const fs::path target = whole_path(to);
+  if (target == whole_path(from)) return scene;
   each_picture(scene, [&](auto& picture) {
     if (fs::path(picture.file).is_absolute()) return;
-    const fs::path file = fs::weakly_canonical(fs::absolute(from / picture.file, error), error);
+    const fs::path file = whole_path(from / picture.file);
     const fs::path relative = file.lexically_relative(target);
     const std::string text = (relative.empty() ? file : relative).generic_string();
     picture.file = is_utf8(text) ? text : all_printable(text);

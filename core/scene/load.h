@@ -32,10 +32,6 @@ LoadedScene load_scene(const std::string& what, const std::vector<Override>& ove
 LoadedScene load_scene_text(const std::string& text, const std::string& name, const std::filesystem::path& folder,
                             const std::vector<Override>& overrides = {});
 
-/// The sky of a picture file. folder: that of the scene, from which the file is named if it lies in it. Throws
-/// SceneError.
-SkyPicture sky_of_file(const std::filesystem::path& file, const std::filesystem::path& folder);
-
 /// What reading a scene file depends on: the file itself and the pictures that it names for textures and sky, whether
 /// or not they are there and can be read. For those who wait until a broken one is mended.
 std::vector<std::filesystem::path> files_of_scene(const std::filesystem::path& file);
