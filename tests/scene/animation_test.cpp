@@ -1,4 +1,4 @@
-#include "core/scene/animation.h"
+#include "core/scene/settings.h"
 
 #include "core/scene/frames.h"
 #include "core/scene/json.h"
