@@ -1,6 +1,6 @@
 #include "core/base/text.h"
-#include "core/scene/json.h"
 #include "core/scene/json_tree.h"
+#include "core/scene/load.h"
 #include "core/scene/place.h"
 
 #include <nlohmann/json.hpp>

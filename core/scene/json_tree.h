@@ -1,6 +1,6 @@
 #pragma once
 #include "core/base/choice.h"
-#include "core/scene/json.h"
+#include "core/scene/load.h"
 
 #include <cmath>
 #include <concepts>
@@ -23,22 +23,19 @@ namespace tyndall {
 /// and given back all together; long ones are on their own.
 class JsonMemory {
  public:
-  static constexpr std::size_t alignment = 8;
+  static constexpr std::size_t longest_short = 4096;  ///< bytes
 
-  void* allocate(std::size_t bytes) {
-    if (bytes > longest_short) return ::operator new(bytes);
+  /// bytes: of a short list, a multiple of 8.
+  void* take(std::size_t bytes) {
     if (bytes > free_) {
       blocks_.push_back(std::unique_ptr<std::byte[]>(new std::byte[block]));
       free_ = block;
     }
     return blocks_.back().get() + block - std::exchange(free_, free_ - bytes);
   }
-  void deallocate(void* memory, std::size_t bytes) {
-    if (bytes > longest_short) ::operator delete(memory);
-  }
 
  private:
-  static constexpr std::size_t longest_short = 4096, block = std::size_t(1) << 16;  // bytes
+  static constexpr std::size_t block = std::size_t(1) << 16;  // bytes
   std::vector<std::unique_ptr<std::byte[]>> blocks_;
   std::size_t free_ = 0;  ///< bytes at the end of the last block
 };
@@ -53,11 +50,12 @@ struct JsonAllocator {
   template <class Other>
   JsonAllocator(const JsonAllocator<Other>& other) : memory(other.memory) {}
   T* allocate(std::size_t count) {
-    static_assert(alignof(T) <= JsonMemory::alignment && sizeof(T) % JsonMemory::alignment == 0);
-    return static_cast<T*>(memory ? memory->allocate(count * sizeof(T)) : ::operator new(count * sizeof(T)));
+    static_assert(alignof(T) <= 8 && sizeof(T) % 8 == 0);
+    const std::size_t bytes = count * sizeof(T);
+    return static_cast<T*>(memory && bytes <= JsonMemory::longest_short ? memory->take(bytes) : ::operator new(bytes));
   }
   void deallocate(T* list, std::size_t count) {
-    memory ? memory->deallocate(list, count * sizeof(T)) : ::operator delete(list);
+    if (!memory || count * sizeof(T) > JsonMemory::longest_short) ::operator delete(list);
   }
   JsonAllocator select_on_container_copy_construction() const { return {}; }
   bool operator==(const JsonAllocator& other) const = default;
