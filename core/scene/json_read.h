@@ -5,9 +5,10 @@
 #include "core/scene/place.h"
 
 #include <algorithm>
-#include <cstdint>
+#include <concepts>
 #include <filesystem>
 #include <initializer_list>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -50,10 +51,15 @@ inline void allow_keys(const JsonObject& object, const Place& at, std::initializ
 }
 
 void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, double& out);
-void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, int& out);
-void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, std::uint32_t& out);
 void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, Vec3d& out);
 void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, bool& out);
+/// Refuses numbers that are not whole, or beyond these limits.
+double whole_number(const JsonValue& json, const Place& at, Meaning meaning, double lowest, double highest);
+template <std::integral T>
+void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, T& out) {
+  using Limits = std::numeric_limits<T>;
+  out = static_cast<T>(whole_number(json, at, meaning, Limits::min(), Limits::max()));
+}
 template <NamedEnum E>
 void read_value(const JsonValue& json, const Place& at, const Meaning&, E& out) {
   const std::vector<std::string_view> names = names_of<E>();

@@ -2,31 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace tyndall {
 namespace {
-
-template <class T>
-T whole_number(const JsonValue& json, const Place& at, const Meaning& meaning) {
-  const auto* number = std::get_if<double>(&json.value);
-  const bool fits = number && *number == std::floor(*number) &&
-                    *number >= static_cast<double>(std::numeric_limits<T>::min()) &&
-                    *number <= static_cast<double>(std::numeric_limits<T>::max());
-  if (fits) return static_cast<T>(*number);
-  Meaning bounded = meaning;
-  const bool too_large = number && *number > 0 && *number == std::floor(*number);
-  if (too_large) bounded.valid.high = std::min(meaning.valid.high, static_cast<double>(std::numeric_limits<T>::max()));
-  fail(at, describe(json), expected_text(bounded, Form::whole));
-}
-
-std::vector<std::string_view> names_in(const NameTable& table) {
-  std::vector<std::string_view> names;
-  names.reserve(table.size());
-  for (const auto& entry : table) names.push_back(entry.first);
-  std::sort(names.begin(), names.end());
-  return names;
-}
 
 Transform read_transform(const JsonObject& object, const Place& at) {
   Transform transform;
@@ -54,35 +32,18 @@ Transform read_transform(const JsonObject& object, const Place& at) {
   return transform;
 }
 
-bool read_solid(const JsonObject& json, const Place& at, std::string_view type, const NameTables& references,
-                Object& object) {
-  Solid3d solid;
-  const bool known = read_kind(type, solid.shape, [&]<class T>(T& shape) {
-    read_fields(json, at, fields_of<T>(), {"name", "type", "material", "transform"}, shape);
-  });
-  if (!known) return false;
-  const JsonValue& material = member_at(json, at, "material", "the name of a material");
-  solid.material = read_reference(material, {at, "material"}, references.materials, "material");
-  object.kind = solid;
-  return true;
-}
-
-void read_boundary(const JsonObject& medium, const Place& at, Volume& volume) {
-  const char* expected = "an object that describes a sphere or a box";
-  const Place here{at, "boundary"};
-  const JsonObject& object = read_as<JsonObject>(member_at(medium, at, "boundary", expected), here, expected);
-  if (find(object, "material"))
-    fail({here, "material"}, "a material", "none: a boundary has no surface (add an object of the same shape for one)");
-  read_kind(object, here, volume.boundary, [&]<class T>(T& shape) {
-    read_fields(object, here, fields_of<T>(), {"type", "transform"}, shape);
-  });
-  volume.boundary_transform = read_transform(object, here);
-}
-
 Volume read_volume(const JsonObject& json, const Place& at, const NameTables& references) {
   allow_keys(json, at, fields_of<Medium<>>(), {"name", "type", "boundary", "albedo", "transform"});
   Volume volume;
-  read_boundary(json, at, volume);
+  const char* expected = "an object that describes a sphere or a box";
+  const Place here{at, "boundary"};
+  const JsonObject& boundary = read_as<JsonObject>(member_at(json, at, "boundary", expected), here, expected);
+  if (find(boundary, "material"))
+    fail({here, "material"}, "a material", "none: a boundary has no surface (add an object of the same shape for one)");
+  read_kind(boundary, here, volume.boundary, [&]<class T>(T& shape) {
+    read_fields(boundary, here, fields_of<T>(), {"type", "transform"}, shape);
+  });
+  volume.boundary_transform = read_transform(boundary, here);
   read_fields(json, at, fields_of<Medium<>>(), volume.medium);
   volume.albedo = read_colour(json, at, "albedo", references.textures);
   return volume;
@@ -103,8 +64,15 @@ void read_object(const JsonValue& json, const Place& at, const NameTables& refer
     allow_keys(members, at, {"name", "type", "transform", "objects"});
     const JsonValue& objects = member_at(members, at, "objects", "a list of objects");
     object.kind = Group{read_objects(objects, {at, "objects"}, references)};
-  } else if (!read_solid(members, at, type, references, object)) {
-    fail_type(at, type, object_types());
+  } else {
+    Solid3d solid;
+    const bool known = read_kind(type, solid.shape, [&]<class T>(T& shape) {
+      read_fields(members, at, fields_of<T>(), {"name", "type", "material", "transform"}, shape);
+    });
+    if (!known) fail_type(at, type, object_types());
+    const JsonValue& material = member_at(members, at, "material", "the name of a material");
+    solid.material = read_reference(material, {at, "material"}, references.materials, "material");
+    object.kind = solid;
   }
   if (const JsonValue* name = find(members, "name"))
     object.name = read_as<std::string>(*name, {at, "name"}, "a text (the object's name)");
@@ -148,12 +116,12 @@ void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, 
   out = *number;
 }
 
-void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, int& out) {
-  out = whole_number<int>(json, at, meaning);
-}
-
-void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, std::uint32_t& out) {
-  out = whole_number<std::uint32_t>(json, at, meaning);
+double whole_number(const JsonValue& json, const Place& at, Meaning meaning, double lowest, double highest) {
+  const auto* number = std::get_if<double>(&json.value);
+  const bool whole = number && *number == std::floor(*number);
+  if (whole && *number >= lowest && *number <= highest) return *number;
+  if (whole && *number > 0) meaning.valid.high = std::min(meaning.valid.high, highest);
+  fail(at, describe(json), expected_text(meaning, Form::whole));
 }
 
 void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, Vec3d& out) {
@@ -184,7 +152,9 @@ int read_reference(const JsonValue& json, const Place& at, const NameTable& tabl
   if (entry != table.end()) return entry->second;
   const std::string expected = "the name of a " + kind;
   if (!name) fail(at, describe(json), expected);
-  const auto names = names_in(table);
+  std::vector<std::string_view> names;
+  for (const auto& one : table) names.push_back(one.first);
+  std::sort(names.begin(), names.end());
   std::string hint = did_you_mean(*name, names);
   if (names.empty()) hint = " (the scene has none)";
   if (hint.empty() && names.size() <= 12) hint = ": " + one_of(names);

@@ -15,6 +15,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <span>
 #include <system_error>
@@ -68,30 +69,20 @@ std::string scene_in_image(const std::string& name) {
   return *scene;
 }
 
-fs::path scenes_folder() {
+std::map<std::string, fs::path> built_in_files() {
+  std::map<std::string, fs::path> files;
   const fs::path assets = assets_folder();
-  return assets.empty() ? fs::path() : assets / "scenes";
-}
-
-std::vector<std::string> built_in_names() {
-  constexpr std::string_view ending = ".json";
-  std::vector<std::string> names;
-  for (const std::string& name : names_in_folder(scenes_folder()))
-    if (name.size() > ending.size() && name.ends_with(ending))
-      names.push_back(name.substr(0, name.size() - ending.size()));
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-/// Its file, if `what` is the name of a built-in scene; else an empty path.
-fs::path built_in_file(const std::string& what) {
-  const auto names = built_in_names();
-  return std::binary_search(names.begin(), names.end(), what) ? scenes_folder() / (what + ".json") : fs::path();
+  if (assets.empty()) return files;
+  for (const std::string& name : names_in_folder(assets / "scenes"))
+    if (const fs::path file = assets / "scenes" / name; file.extension() == ".json") files[file.stem().string()] = file;
+  return files;
 }
 
 [[noreturn]] void fail_missing(const std::string& what) {
-  const auto names = built_in_names();
-  std::string hint = did_you_mean(what, {names.begin(), names.end()});
+  std::vector<std::string_view> names;
+  const auto files = built_in_files();
+  for (const auto& built_in : files) names.push_back(built_in.first);
+  std::string hint = did_you_mean(what, names);
   if (names.empty()) hint = "; no built-in scenes were found (TYNDALL_ASSETS names their folder)";
   throw SceneError(what, "no such file", expected_scene + hint);
 }
@@ -128,8 +119,7 @@ fs::path assets_folder() {
 
 std::vector<BuiltIn> built_in_scenes() {
   std::vector<BuiltIn> scenes;
-  for (const std::string& name : built_in_names()) {
-    const fs::path path = scenes_folder() / (name + ".json");
+  for (const auto& [name, path] : built_in_files()) {
     const std::string text = read_file(path.string());
     const std::vector<std::string> comments = leading_comments(text);
     BuiltIn& scene = scenes.emplace_back(BuiltIn{name, name_of(text), "", path});
@@ -147,10 +137,10 @@ LoadedScene load_scene(const std::string& what, const std::vector<Override>& ove
     loaded.folder = ".";
     loaded.text = read_all(stdin, loaded.name);
     if (is_image(loaded.text)) throw SceneError(loaded.name, "a picture", "a scene; 'tyndall view -' shows a P3 or P6");
-  } else if (const fs::path built_in = built_in_file(what); !built_in.empty()) {
-    loaded.folder = built_in.parent_path();
-    loaded.files = {built_in};
-    loaded.text = read_file(built_in.string());
+  } else if (const auto files = built_in_files(); files.contains(what)) {
+    loaded.files = {files.at(what)};
+    loaded.folder = files.at(what).parent_path();
+    loaded.text = read_file(files.at(what).string());
   } else {
     std::error_code error;
     const fs::file_status status = fs::status(what, error);
