@@ -6,7 +6,7 @@
 #include "core/base/text.h"
 #include "core/files/film_files.h"
 #include "core/files/stats.h"
-#include "core/film/merge.h"
+#include "core/film/film.h"
 #include "core/image/whole_file.h"
 #include "core/render/clean_film.h"
 #include "core/render/plan.h"

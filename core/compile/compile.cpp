@@ -194,20 +194,14 @@ bool samples_lights(Integrator integrator) {
   return false;
 }
 
-double largest(const Vec3d& v) { return std::max({v.x, v.y, v.z}); }
-
 double brightest(const Scene& scene) {
-  double maximum =
-      std::visit(Overloaded{[](const Vec3d& colour) { return largest(colour); },
-                            [](const Gradient& sky) { return std::max(largest(sky.bottom), largest(sky.top)); },
-                            [](const Hemispheres& sky) { return std::max(largest(sky.up), largest(sky.down)); },
-                            [](const SkyPicture& sky) { return sky.scale * static_cast<double>(sky.pixels->largest); }},
-                 scene.background);
-  for (const Material& m : scene.materials)
-    if (traits_of(m.kind).emits) {
-      const auto* colour = std::get_if<Vec3d>(&m.colour);
-      maximum = std::max(maximum, colour ? largest(*colour) : 1.0);
-    }
+  double maximum = std::visit(
+      Overloaded{[](const Vec3d& colour) { return max_component(colour); },
+                 [](const Gradient& sky) { return std::max(max_component(sky.bottom), max_component(sky.top)); },
+                 [](const Hemispheres& sky) { return std::max(max_component(sky.up), max_component(sky.down)); },
+                 [](const SkyPicture& sky) { return sky.scale * static_cast<double>(sky.pixels->largest); }},
+      scene.background);
+  for (const Material& material : scene.materials) maximum = std::max(maximum, brightness_of(material));
   return maximum;
 }
 

@@ -85,12 +85,6 @@ void add_lights(Lights& out, const Emitter& e, const PlacedShape& placed, Vec3d 
       placed.shape);
 }
 
-double brightness_of(const Material& m) {
-  if (!traits_of(m.kind).emits) return 0;
-  const auto* colour = std::get_if<Vec3d>(&m.colour);
-  return colour ? std::max({colour->x, colour->y, colour->z}) : 1.0;
-}
-
 /// Builds a LightTree from the top.
 class TreeBuilder {
  public:
@@ -239,6 +233,12 @@ bool pays(const MediumColumns& m, Vec3f light, float reach, Vec3f camera) {
 }
 
 }  // namespace
+
+double brightness_of(const Material& m) {
+  if (!traits_of(m.kind).emits) return 0;
+  const auto* colour = std::get_if<Vec3d>(&m.colour);
+  return colour ? max_component(*colour) : 1.0;
+}
 
 void build_light_tree(Lights& lights) {
   if (lights.count() > max_lights_by_contribution) lights.tree = TreeBuilder(lights).build();

@@ -10,6 +10,9 @@ namespace tyndall {
 Lights collect_lights(const Scene& scene, const Flattened& flat, const std::vector<std::int32_t>& first_element,
                       Vec3d origin, Elements& elements);
 
+/// The largest component of a light's radiance, 1 if that is a texture; 0: the material does not shine.
+double brightness_of(const Material& material);
+
 /// Fills `tree` from center, power and reach2 if there are more than max_lights_by_contribution lights. Each range is
 /// split where the sum over both sides of power times squared extent is smallest. After A. Conty Estevez, C. Kulla,
 /// Importance Sampling of Many Lights with Adaptive Tree Splitting, PACMCGIT 1(2), 2018; lights here emit to all sides.

@@ -1,6 +1,6 @@
 #pragma once
 #include "core/clean/clean.h"
-#include "core/film/merge.h"
+#include "core/film/film.h"
 #include "core/image/image_io.h"
 #include "core/scene/scene.h"
 

@@ -54,7 +54,7 @@ CORE = [
      "to.sum[half][channel].add(from.sum[«half → 0»][channel]);\n    to.rejected", "film/film film/merge"),
     ("cut paths are not added up", "core/film/film.cpp", "«to.truncated += from.truncated; → »", "film/film film/merge"),
     ("odd counts lose a sample", "core/film/film.h", "(«starts_here ? pixel.taken % 2 : 0 → 0u»)", "film/film"),
-    ("overlapping parts are merged", "core/film/merge.cpp",
+    ("overlapping parts are merged", "core/film/film.cpp",
      "if (taken > 0 && «part.film.first_sample != end → part.film.first_sample > end»)", "film/merge"),
     ("the checksum leaves out what lamps sent", "core/film/film.cpp",
      "«sum.add(film.emission.data(), film.emission.size() * sizeof(EmissionSums)); → »", "film/checksum"),
