@@ -122,18 +122,16 @@ class Builder {
     return around;
   }
 
-  static bool one_kind(std::span<const Item> list) {
-    return std::all_of(list.begin(), list.end(),
-                       [&](const Item& item) { return item.input.kind == list.front().input.kind; });
-  }
-
   /// Reorders the list for the best split and returns how many items are in its first part; 0: make a leaf.
   int choose(std::span<Item> list, const Around& around, int depth) {
     if (list.size() == 1) return 0;
     const Plane plane = best_plane(list, around.centers);
-    const bool fits = list.size() <= max_in_leaf && one_kind(list);
+    const PrimitiveKind kind = list.front().input.kind;
+    const bool fits = list.size() <= max_in_leaf && std::all_of(list.begin(), list.end(), [kind](const Item& item) {
+                        return item.input.kind == kind;
+                      });
     const float leaf_cost = static_cast<float>(list.size()) * half_area(around.bounds);
-    const float node_cost = traversal_cost(list.front().input.kind) * half_area(around.bounds);
+    const float node_cost = traversal_cost(kind) * half_area(around.bounds);
     if (fits && !(plane.cost + node_cost < leaf_cost)) return 0;
     if (plane.axis < 0 || depth > deepest_heuristic) return split_equals(list);
     return part(list, [&](const BvhInput& one) {

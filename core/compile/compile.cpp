@@ -179,10 +179,6 @@ bool has_reflecting_glass(const Scene& scene) {
   });
 }
 
-/// Whether second vertices can be reused in the scene. Moving spheres prevent it: a vertex on a moving sphere exists at
-/// one time only.
-bool can_reuse_paths(const RenderScene& s) { return s.integrator == Integrator::mis && !s.features.moving_spheres; }
-
 bool samples_lights(Integrator integrator) {
   switch (integrator) {
     case Integrator::path:
@@ -236,7 +232,8 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
   }
   out.objects = std::move(flat.objects);
   out.kernel = min_kernel(out);
-  out.may_reuse_paths = scene.render.sharing && can_reuse_paths(out);
+  // Moving spheres prevent reuse: a vertex on one exists at one time only.
+  out.may_reuse_paths = scene.render.sharing && out.integrator == Integrator::mis && !out.features.moving_spheres;
   out.film_quantum = film_quantum(brightest(scene));
   return out;
 }

@@ -12,31 +12,36 @@
 namespace tyndall {
 namespace {
 
-struct Emitter {
-  double brightness;  // the largest component of its radiance
-  std::int32_t element;
+/// The columns of a light but its outline; see Lights.
+struct Light {
+  Lights::Kind kind;
+  Vec3d corner, edge_u, edge_v, normal;
+  double length_u, length_v, area;
+  Vec3d center;
+  double reach2;
 };
 
-void push_common(Lights& out, const Emitter& e, double area, Vec3d center, double reach) {
-  out.element.push_back(e.element);
-  out.area.push_back(static_cast<float>(area));
-  push(out.center, center);
-  out.power.push_back(static_cast<float>(area * e.brightness));
-  out.reach2.push_back(static_cast<float>(reach * reach));
-}
-
-void add_flat(Lights& out, const Emitter& e, Vec3d corner, Vec3d u, Vec3d v) {
-  const double a = length(u), b = length(v);
+Light flat_light(Vec3d corner, Vec3d u, Vec3d v) {
+  const double a = length(u), b = length(v), reach = 0.5 * std::max(length(u + v), length(u - v));
   const Vec3d n = cross(u, v);
   const bool square = std::abs(dot(u, v)) <= 1e-6 * a * b;
-  out.kind.push_back(square ? Lights::rectangle : Lights::parallelogram);
-  push(out.corner, corner);
-  push(out.edge_u, (1 / a) * u);
-  push(out.edge_v, (1 / b) * v);
-  push(out.normal, (1 / length(n)) * n);
-  out.length_u.push_back(static_cast<float>(a));
-  out.length_v.push_back(static_cast<float>(b));
-  push_common(out, e, length(n), corner + 0.5 * (u + v), 0.5 * std::max(length(u + v), length(u - v)));
+  return {square ? Lights::rectangle : Lights::parallelogram,
+          corner,
+          (1 / a) * u,
+          (1 / b) * v,
+          (1 / length(n)) * n,
+          a,
+          b,
+          length(n),
+          corner + 0.5 * (u + v),
+          reach * reach};
+}
+
+Light sphere_light(const Sphere<>& s, const Placement& placement, Vec3d origin) {
+  const Vec3d center = place(placement, s.center) - origin;
+  const Vec3d motion = s.center_end ? rotate(placement, *s.center_end - s.center) : Vec3d{};
+  const double r = std::abs(s.radius), reach = r + 0.5 * length(motion);
+  return {Lights::sphere, center, motion, {}, {}, r, 0, 4 * pi * r * r, center + 0.5 * motion, reach * reach};
 }
 
 /// Squared radius of a sphere around the middle of the frame that holds the shape.
@@ -46,41 +51,39 @@ double reach2_of(const Disk<>& d) {  // the square of the longer half axis of th
   return 0.5 * (a + b) + length(Vec3d{0.5 * (a - b), dot(d.u, d.v), 0});
 }
 
-/// Turns the light that was added last, of the frame of a shape, into that of the shape.
-void give_outline(Lights& out, const Emitter& e, const auto& shape) {
-  const Outline outline = outline_of(shape);
-  const bool triangle = outline.kind == Outline::triangle;
-  const std::size_t k = out.kind.size() - 1;
-  out.reach2[k] = static_cast<float>(reach2_of(shape));
-  out.kind[k] = triangle ? Lights::triangle : Lights::ring;
-  out.inner.resize(k + 1);
-  out.inner[k] = outline.size;
-  const double area = area_fraction(outline) * static_cast<double>(out.area[k]);
-  out.area[k] = static_cast<float>(area), out.power[k] = static_cast<float>(area * e.brightness);
+void append(Lights& out, const Light& light, double brightness, std::int32_t element) {
+  out.kind.push_back(light.kind);
+  out.element.push_back(element);
+  push(out.corner, light.corner);
+  push(out.edge_u, light.edge_u);
+  push(out.edge_v, light.edge_v);
+  push(out.normal, light.normal);
+  out.length_u.push_back(static_cast<float>(light.length_u));
+  out.length_v.push_back(static_cast<float>(light.length_v));
+  out.area.push_back(static_cast<float>(light.area));
+  push(out.center, light.center);
+  out.power.push_back(static_cast<float>(light.area * brightness));
+  out.reach2.push_back(static_cast<float>(light.reach2));
 }
 
-void add_sphere(Lights& out, const Emitter& e, const Sphere<>& s, const Placement& placement, Vec3d origin) {
-  const double r = std::abs(s.radius);
-  const Vec3d center = place(placement, s.center) - origin;
-  const Vec3d motion = s.center_end ? rotate(placement, *s.center_end - s.center) : Vec3d{};
-  out.kind.push_back(Lights::sphere);
-  push(out.corner, center);
-  push(out.edge_u, motion);
-  push(out.edge_v, {});
-  push(out.normal, {});
-  out.length_u.push_back(static_cast<float>(r));
-  out.length_v.push_back(0);
-  push_common(out, e, 4 * pi * r * r, center + 0.5 * motion, r + 0.5 * length(motion));
-}
-
-void add_lights(Lights& out, const Emitter& e, const PlacedShape& placed, Vec3d origin) {
-  each_face(placed, [&](const BoxFace& face, std::int32_t i) {
-    add_flat(out, {e.brightness, e.element + i}, face.corner - origin, face.u, face.v);
-  });
+/// Appends the lights of a shape whose first element is given.
+void append_lights(Lights& out, const PlacedShape& placed, double brightness, std::int32_t first, Vec3d origin) {
   std::visit(
       [&]<class Shape>(const Shape& shape) {
-        if constexpr (has_outline<Shape>) give_outline(out, e, shape);
-        if constexpr (std::is_same_v<Shape, Sphere<>>) add_sphere(out, e, shape, placed.placement, origin);
+        if constexpr (std::is_same_v<Shape, Sphere<>>)
+          return append(out, sphere_light(shape, placed.placement, origin), brightness, first);
+        each_face(placed, [&](const BoxFace& face, std::int32_t i) {
+          Light light = flat_light(face.corner - origin, face.u, face.v);
+          if constexpr (has_outline<Shape>) {
+            const Outline outline = outline_of(shape);
+            light.kind = outline.kind == Outline::triangle ? Lights::triangle : Lights::ring;
+            light.area = area_fraction(outline) * static_cast<double>(static_cast<float>(light.area));
+            light.reach2 = reach2_of(shape);
+            out.inner.resize(out.kind.size());
+            out.inner.push_back(outline.size);
+          }
+          append(out, light, brightness, first + i);
+        });
       },
       placed.shape);
 }
@@ -250,7 +253,7 @@ Lights collect_lights(const Scene& scene, const Flattened& flat, const std::vect
   for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
     const PlacedShape& shape = flat.shapes[i];
     const double brightness = brightness_of(scene.materials[static_cast<std::size_t>(shape.material)]);
-    if (brightness > 0) add_lights(out, {brightness, first_element[i]}, shape, origin);
+    if (brightness > 0) append_lights(out, shape, brightness, first_element[i], origin);
   }
   elements.light.assign(elements.material.size(), -1);
   for (int k = 0; k < out.count(); ++k)

@@ -31,13 +31,6 @@ Scene stripped(Scene scene) {
   return scene;
 }
 
-/// Whether the text that a film carries has a render setting. Films from before there was a choice do not: they left
-/// caustics to chance, and shared nothing.
-bool says(const std::string& text, const char* setting) {
-  const JsonDocument json = parse_json(text);
-  return find(find(&json.root, "render"), setting) != nullptr;
-}
-
 /// Whether there is light that RenderSettings::caustics says how to find.
 bool caustics_matter(Scene scene) {
   scene.render.caustics = Caustics::chains;
@@ -96,8 +89,11 @@ FilmLabel label_of(const std::filesystem::path& file) {
 StoredFilm with_scene(const std::filesystem::path& file, Film film) {
   LoadedScene loaded = load_scene(file.string());
   Scene scene = move_textures(loaded.scene, loaded.folder, ".");
-  if (!says(loaded.text, "caustics")) scene.render.caustics = Caustics::scatter;
-  if (!says(loaded.text, "sharing")) scene.render.sharing = false;
+  // Films from before there was a choice do not say these settings: they left caustics to chance, and shared nothing.
+  const JsonDocument json = parse_json(loaded.text);
+  const JsonValue* render = find(&json.root, "render");
+  if (!find(render, "caustics")) scene.render.caustics = Caustics::scatter;
+  if (!find(render, "sharing")) scene.render.sharing = false;
   return {{file.string(), std::move(film)}, scene, label_of(file), contents_remark(loaded)};
 }
 

@@ -145,12 +145,6 @@ void read_material(const JsonValue& json, const Place& at, const NameTable& text
   });
 }
 
-/// All frames of a film have one size.
-bool may_have_keys(const std::vector<std::string>& steps) {
-  constexpr std::string_view refused[] = {"tyndall", "name", "image", "animation"};
-  return std::find(std::begin(refused), std::end(refused), steps[0]) == std::end(refused);
-}
-
 int read_frame(const std::string& text, const Place& at) {
   int frame = -1;
   std::from_chars(text.data(), text.data() + text.size(), frame);
@@ -172,7 +166,9 @@ std::vector<double> read_numbers(const JsonValue& json, const Place& at) {
 KeyedValue read_keyed_value(const JsonMember& member, const Place& at) {
   const auto steps = pointer_steps(member.key);
   if (!steps) fail(at, in_quotes(member.key), "a JSON pointer to a value of the scene, such as /camera/vfov");
-  if (!may_have_keys(*steps)) fail(at, in_quotes(member.key), "a value of the camera, a material, an object, …");
+  const std::string& part = steps->front();  // all frames of a film have one size
+  if (part == "tyndall" || part == "name" || part == "image" || part == "animation")
+    fail(at, in_quotes(member.key), "a value of the camera, a material, an object, …");
   KeyedValue keyed{member.key, {}};
   const JsonObject& keys =
       read_as<JsonObject>(member.value, at, "an object of values by frame, such as { \"0\": 1, \"47\": 2 }");

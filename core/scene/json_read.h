@@ -141,9 +141,6 @@ struct NameTables {
   NameTable textures, materials;
 };
 
-/// The thing that a value names. kind: "material", "texture".
-int read_reference(const JsonValue& json, const Place& at, const NameTable& table, const std::string& kind);
-
 /// The colour under colour_name ("albedo" or "radiance"), which must be there: three numbers or a texture's name.
 ColourOrTexture read_colour(const JsonObject& object, const Place& at, const char* colour_name,
                             const NameTable& textures);

@@ -6,6 +6,22 @@
 namespace tyndall {
 namespace {
 
+/// The thing that a value names. kind: "material", "texture".
+int read_reference(const JsonValue& json, const Place& at, const NameTable& table, const std::string& kind) {
+  const auto* name = std::get_if<std::string>(&json.value);
+  const auto entry = name ? table.find(*name) : table.end();
+  if (entry != table.end()) return entry->second;
+  const std::string expected = "the name of a " + kind;
+  if (!name) fail(at, describe(json), expected);
+  std::vector<std::string_view> names;
+  for (const auto& one : table) names.push_back(one.first);
+  std::sort(names.begin(), names.end());
+  std::string hint = did_you_mean(*name, names);
+  if (names.empty()) hint = " (the scene has none)";
+  if (hint.empty() && names.size() <= 12) hint = ": " + one_of(names);
+  fail(at, in_quotes(shortened(*name, 80)), expected + hint);
+}
+
 Transform read_transform(const JsonObject& object, const Place& at) {
   Transform transform;
   const JsonValue* json = find(object, "transform");
@@ -144,21 +160,6 @@ std::string_view type_at(const JsonObject& object, const Place& at, std::vector<
 
 void fail_type(const Place& at, std::string_view found, const std::vector<std::string_view>& types) {
   fail({at, "type"}, in_quotes(shortened(found, 80)), one_of(types) + did_you_mean(found, types));
-}
-
-int read_reference(const JsonValue& json, const Place& at, const NameTable& table, const std::string& kind) {
-  const auto* name = std::get_if<std::string>(&json.value);
-  const auto entry = name ? table.find(*name) : table.end();
-  if (entry != table.end()) return entry->second;
-  const std::string expected = "the name of a " + kind;
-  if (!name) fail(at, describe(json), expected);
-  std::vector<std::string_view> names;
-  for (const auto& one : table) names.push_back(one.first);
-  std::sort(names.begin(), names.end());
-  std::string hint = did_you_mean(*name, names);
-  if (names.empty()) hint = " (the scene has none)";
-  if (hint.empty() && names.size() <= 12) hint = ": " + one_of(names);
-  fail(at, in_quotes(shortened(*name, 80)), expected + hint);
 }
 
 ColourOrTexture read_colour(const JsonObject& object, const Place& at, const char* colour_name,

@@ -77,6 +77,7 @@ struct JsonMember {
 
 /// A value of the program as JSON. Numbers that are not finite, and values that are absent, become null.
 inline JsonValue to_json(JsonValue value) { return value; }
+inline JsonValue to_json(JsonObject object) { return {std::move(object)}; }
 inline JsonValue to_json(double number) { return std::isfinite(number) ? JsonValue{number} : JsonValue{}; }
 inline JsonValue to_json(bool value) { return {value}; }
 inline JsonValue to_json(std::string text) { return {std::move(text)}; }

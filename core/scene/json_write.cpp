@@ -9,7 +9,7 @@ namespace {
 
 /// A part of the scene that is left out where it says nothing.
 void put_part(JsonObject& out, const char* key, JsonObject part) {
-  if (!part.empty()) put(out, key, JsonValue{std::move(part)});
+  if (!part.empty()) put(out, key, std::move(part));
 }
 
 struct Writer {
@@ -67,7 +67,7 @@ struct Writer {
       JsonObject keys;
       for (const KeyFrame& key : value.keys)
         put(keys, std::to_string(key.frame), key.value.size() == 1 ? to_json(key.value[0]) : to_json(key.value));
-      put(keyed, value.pointer, JsonValue{std::move(keys)});
+      put(keyed, value.pointer, std::move(keys));
     }
     put_part(out, "keys", std::move(keyed));
     return out;
@@ -92,7 +92,7 @@ struct Writer {
     JsonObject boundary;
     std::visit([&](const auto& shape) { put_kind(boundary, shape); }, volume.boundary);
     put_transform(boundary, volume.boundary_transform);
-    put(out, "boundary", JsonValue{std::move(boundary)});
+    put(out, "boundary", std::move(boundary));
     const auto behind_density = static_cast<std::ptrdiff_t>(out.size()) + 1;
     put_fields(out, fields_of<Medium<>>(), volume.medium);
     out.insert(out.begin() + behind_density, {"albedo", colour_json(volume.albedo)});
@@ -128,17 +128,17 @@ struct Writer {
     if (!(scene.background == Scene().background)) put(root, "background", background_json());
     put_part(root, "render", fields_json(scene.render));
     put_part(root, "display", fields_json(scene.display));
-    if (scene.animation) put(root, "animation", JsonValue{animation_json(*scene.animation)});
+    if (scene.animation) put(root, "animation", animation_json(*scene.animation));
     for (const Texture& texture : scene.textures) {
       JsonObject out;
       std::visit([&](const auto& kind) { put_kind(out, kind); }, texture.kind);
-      put(textures, texture.name, JsonValue{std::move(out)});
+      put(textures, texture.name, std::move(out));
     }
     put_part(root, "textures", std::move(textures));
     for (const Material& material : scene.materials) {
       JsonObject out;
       std::visit([&](const auto& kind) { put_kind(out, kind, material.colour); }, material.kind);
-      put(materials, material.name, JsonValue{std::move(out)});
+      put(materials, material.name, std::move(out));
     }
     put_part(root, "materials", std::move(materials));
     put(root, "objects", objects_json(scene.objects));

@@ -96,9 +96,9 @@ CORE = [
      "«if (fs::path(picture.file).is_absolute()) return; → »\n    const fs::path file", "scene/load"),
 
     ("faces of a closed pane are open", "core/compile/flat_objects.cpp", "slab.closed |= «1 << i → 0»;", "render/specular_slabs"),
-    ("a flat lamp is as long one way as the other", "core/compile/lights.cpp", "const double a = length(u), b = length(«v → u»);", "trace/light_pdf trace/lights"),
+    ("a flat lamp is as long one way as the other", "core/compile/lights.cpp", "const double a = length(u), b = length(«v → u»),", "trace/light_pdf trace/lights"),
     ("a spherical lamp of twice its radius", "core/compile/lights.cpp",
-     "out.length_u.push_back(static_cast<float>(«r → 2 * r»));", "trace/light_pdf trace/lights"),
+     "{Lights::sphere, center, motion, {}, {}, «r → 2 * r», 0,", "trace/light_pdf trace/lights"),
     ("a box in the tree ends where another side of it does", "core/compile/bvh.cpp", "node.high[1][c] = «b.high.y → b.high.x»,", "compile/bvh"),
     ("the last column of a sky goes on to itself", "core/compile/sky.cpp", "x + 1 < texels_.width ? at(x + 1) : «first → left»;", "trace/sky render/sky"),
     ("a ball inside another counts as overlapping", "core/compile/overlap.cpp",
