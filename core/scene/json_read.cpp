@@ -2,7 +2,6 @@
 
 #include "core/image/image_io.h"
 #include "core/scene/check.h"
-#include "core/scene/frames.h"
 
 #include <algorithm>
 #include <charconv>
@@ -250,41 +249,17 @@ Scene scene_from(const JsonValue& json, PictureShelf shelf) {
 
 }  // namespace
 
-std::filesystem::path whole_path(const std::filesystem::path& path) {
-  std::error_code error;
-  return std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
+std::shared_ptr<const Image::Pixels> read_sky_pixels(const std::string& file, const std::filesystem::path& folder,
+                                                     const Place& at) {
+  return PictureShelf(folder).get(file, at, true);
 }
 
-SkyPicture sky_of_file(const std::filesystem::path& file, const std::filesystem::path& folder) {
-  const std::filesystem::path whole = whole_path(file), below = whole.lexically_relative(whole_path(folder));
-  const bool inside = !below.empty() && *below.begin() != "..";
-  const Place top, background{top, "background"};
-  SkyPicture sky;
-  sky.file = (inside ? below : whole).generic_string();
-  try {
-    sky.pixels = PictureShelf(folder).get(sky.file, {background, "file"}, true);
-  } catch (const ParseError& wrong) {
-    throw SceneError(file.string(), wrong.where, wrong.found, wrong.expected);
-  }
-  return sky;
+Scene scene_with_files(const JsonValue& root, const std::filesystem::path& folder) {
+  return checked(scene_from(root, PictureShelf(folder)));
 }
 
 Scene scene_with_pictures(const JsonValue& root, const Scene& pictures) {
   return scene_from(root, PictureShelf(pictures));
-}
-
-Scene read_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
-                 const std::vector<Override>& overrides) {
-  try {
-    JsonDocument document = parse_json(text);
-    JsonValue& root = document.root;
-    for (const Override& one : overrides) apply_override(root, one), fit_to_type(root, one);
-    Scene scene = checked(scene_from(root, PictureShelf(folder)));
-    check_keys(scene);
-    return scene;
-  } catch (const ParseError& error) {
-    throw SceneError(name, error.where, error.found, error.expected);
-  }
 }
 
 }  // namespace tyndall

@@ -57,8 +57,8 @@ void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, 
 double whole_number(const JsonValue& json, const Place& at, Meaning meaning, double lowest, double highest);
 template <std::integral T>
 void read_value(const JsonValue& json, const Place& at, const Meaning& meaning, T& out) {
-  using Limits = std::numeric_limits<T>;
-  out = static_cast<T>(whole_number(json, at, meaning, Limits::min(), Limits::max()));
+  using Of = std::numeric_limits<T>;
+  out = static_cast<T>(whole_number(json, at, meaning, Of::min(), Of::max()));
 }
 template <NamedEnum E>
 void read_value(const JsonValue& json, const Place& at, const Meaning&, E& out) {
@@ -152,8 +152,12 @@ void fit_to_type(JsonValue& root, const Override& override_);
 /// The scene of a document whose image files were read before: they are taken from a scene that has the same ones.
 Scene scene_with_pictures(const JsonValue& root, const Scene& pictures);
 
-/// Absolute, and without symbolic links as far as the file is there.
-std::filesystem::path whole_path(const std::filesystem::path& path);
+/// The checked scene of a document. folder: where its relative image files are.
+Scene scene_with_files(const JsonValue& root, const std::filesystem::path& folder);
+
+/// The picture of a sky. file: as the scene names it, from the folder.
+std::shared_ptr<const Image::Pixels> read_sky_pixels(const std::string& file, const std::filesystem::path& folder,
+                                                     const Place& at);
 
 std::vector<Object> read_objects(const JsonValue& json, const Place& at, const NameTables& references);
 

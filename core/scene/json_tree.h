@@ -1,6 +1,7 @@
 #pragma once
 #include "core/base/choice.h"
-#include "core/scene/load.h"
+#include "core/scene/place.h"
+#include "core/scene/scene.h"
 
 #include <cmath>
 #include <concepts>

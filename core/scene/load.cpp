@@ -5,6 +5,7 @@
 #include "core/base/text.h"
 #include "core/image/image_io.h"
 #include "core/image/image_io_file.h"
+#include "core/scene/frames.h"
 #include "core/scene/json_read.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/place.h"
@@ -97,6 +98,12 @@ std::string name_of(const std::string& text) {
   }
 }
 
+/// Absolute, and without symbolic links as far as the file is there.
+fs::path whole_path(const fs::path& path) {
+  std::error_code error;
+  return fs::weakly_canonical(fs::absolute(path, error), error);
+}
+
 /// Reads the scene from the text, which is there.
 void read_text_of(LoadedScene& loaded, const std::vector<Override>& overrides) {
   loaded.scene = read_scene(loaded.text, loaded.name, loaded.folder, overrides);
@@ -127,6 +134,33 @@ std::vector<BuiltIn> built_in_scenes() {
     if (scene.title.empty() && !comments.empty()) scene.title = comments[0];
   }
   return scenes;
+}
+
+Scene read_scene(std::string_view text, const std::string& name, const fs::path& folder,
+                 const std::vector<Override>& overrides) {
+  try {
+    JsonDocument document = parse_json(text);
+    for (const Override& one : overrides) apply_override(document.root, one), fit_to_type(document.root, one);
+    Scene scene = scene_with_files(document.root, folder);
+    check_keys(scene);
+    return scene;
+  } catch (const ParseError& error) {
+    throw SceneError(name, error.where, error.found, error.expected);
+  }
+}
+
+SkyPicture sky_of_file(const fs::path& file, const fs::path& folder) {
+  const fs::path whole = whole_path(file), below = whole.lexically_relative(whole_path(folder));
+  const bool inside = !below.empty() && *below.begin() != "..";
+  const Place top, background{top, "background"};
+  SkyPicture sky;
+  sky.file = (inside ? below : whole).generic_string();
+  try {
+    sky.pixels = read_sky_pixels(sky.file, folder, {background, "file"});
+  } catch (const ParseError& wrong) {
+    throw SceneError(file.string(), wrong.where, wrong.found, wrong.expected);
+  }
+  return sky;
 }
 
 LoadedScene load_scene(const std::string& what, const std::vector<Override>& overrides) {

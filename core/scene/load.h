@@ -1,5 +1,6 @@
 #pragma once
 #include "core/base/error.h"
+#include "core/scene/place.h"
 #include "core/scene/scene.h"
 
 #include <filesystem>
@@ -11,12 +12,6 @@
 /// The scene file: JSON with comments. app/cli/README.md shows the format, assets/scene.schema.json describes it. And
 /// the scene that a user names: a built-in one, a file, or an image with a scene in it.
 namespace tyndall {
-
-/// One override of a value in the file's JSON, applied before validation: pointer "/materials/gold/fuzz", value JSON
-/// or, if it is not JSON, a string.
-struct Override {
-  std::string pointer, value;
-};
 
 /// Reads and checks a scene. name: what errors call it (usually the file's name). folder: where relative texture files
 /// are. Throws SceneError for everything that is wrong with it, also for textures that cannot be read, and for keys

@@ -21,6 +21,12 @@ struct ParseError {
   std::string where, found, expected;
 };
 
+/// One override of a value in the file's JSON, applied before validation: pointer "/materials/gold/fuzz", value JSON
+/// or, if it is not JSON, a string.
+struct Override {
+  std::string pointer, value;
+};
+
 /// A place in a scene: one step (a key or an index) from the place that holds it. Nothing is copied; the JSON pointer
 /// is put together only when a message needs it.
 struct Place {

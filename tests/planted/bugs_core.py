@@ -90,8 +90,8 @@ CORE = [
     ("the third component is not checked", "core/scene/check.cpp",
      "for (std::size_t i = 0; i < «3 → 2»; ++i) check_value({at, i}, meaning, components[i]);", "scene/check"),
     ("two materials may have one name", "core/scene/check.cpp", "if («!names.insert(thing.name).second → false»)", "scene/check scene/bad_scenes"),
-    ("the weights of two slopes swapped", "core/scene/scene.cpp", "const double w0 = «h0 + 2 * h1 → 2 * h0 + h1»,", "scene/animation"),
-    ("a second key of a frame in place of a new value", "core/scene/scene.cpp", "&& «place->frame == key.frame → false»)", "scene/animation"),
+    ("the weights of two slopes swapped", "core/scene/frames.cpp", "const double w0 = «h0 + 2 * h1 → 2 * h0 + h1»,", "scene/animation"),
+    ("a second key of a frame in place of a new value", "core/scene/frames.cpp", "&& «place->frame == key.frame → false»)", "scene/animation"),
     ("absolute names of pictures are moved, too", "core/scene/load.cpp",
      "«if (fs::path(picture.file).is_absolute()) return; → »\n    const fs::path file", "scene/load"),
 
@@ -178,7 +178,7 @@ CORE = [
     ("the sky is at distance 0", "core/files/stats.cpp",
      "depth.push_back(«hit.element < 0 ? std::numeric_limits<float>::infinity() : hit.depth → hit.depth»);", "files/layers"),
     ("rates count the samples of earlier runs", "core/files/stats.cpp", "per_second(sum.samples - «run.samples_before → 0», run.result.seconds)", "files/stats"),
-    ("an older film's caustics as of today", "core/files/film_files.cpp", "if («!says(loaded.text, \"caustics\") → false») scene", "files/film_files"),
+    ("an older film's caustics as of today", "core/files/film_files.cpp", "if («!find(render, \"caustics\") → false») scene", "files/film_files"),
 
     ("first_sample is lost", "core/api/picture.cpp", "«core.first_sample = options.first_sample; → »", "library/library python"),
     ("what a progress function throws is lost", "core/api/picture.cpp", "«if (thrown) std::rethrow_exception(thrown); → »", "library/library"),

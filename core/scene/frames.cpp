@@ -1,9 +1,8 @@
-#include "core/scene/scene.h"
+#include "core/scene/frames.h"
 
 #include "core/base/elementary.h"
 #include "core/base/text.h"
 #include "core/scene/check.h"
-#include "core/scene/frames.h"
 #include "core/scene/json_read.h"
 #include "core/scene/slots.h"
 
