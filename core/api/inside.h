@@ -5,7 +5,6 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/files/film_files.h"
-#include "core/files/stats.h"
 #include "core/film/film.h"
 #include "core/image/whole_file.h"
 #include "core/render/clean_film.h"

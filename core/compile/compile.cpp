@@ -2,7 +2,6 @@
 
 #include "core/compile/columns.h"
 #include "core/compile/flatten.h"
-#include "core/compile/lights.h"
 #include "core/compile/specular_pairs.h"
 #include "core/compile/surroundings.h"
 #include "core/film/film.h"

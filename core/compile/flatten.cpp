@@ -86,20 +86,12 @@ void drop_copies(std::vector<PlacedShape>& shapes) {
       copy[keys[k].second] = true;
       break;
     }
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < shapes.size(); ++i)
-    if (!copy[i]) std::swap(shapes[kept++], shapes[i]);
-  shapes.resize(kept);
+  std::erase_if(shapes, [&](const PlacedShape& one) { return copy[static_cast<std::size_t>(&one - shapes.data())]; });
 }
 
 bool same_shape(const PlacedShape& shape, const PlacedVolume& volume) {
-  if (!(shape.placement == volume.placement)) return false;
-  return std::visit(
-      [&](const auto& boundary) {
-        const auto* s = std::get_if<std::decay_t<decltype(boundary)>>(&shape.shape);
-        return s && *s == boundary;
-      },
-      volume.boundary);
+  const auto is_same = [&](const auto& boundary) { return shape.shape == decltype(shape.shape)(boundary); };
+  return shape.placement == volume.placement && std::visit(is_same, volume.boundary);
 }
 
 Vec3d own_center(const Sphere<>& s) { return s.center; }

@@ -1,7 +1,6 @@
-#include "core/compile/lights.h"
+#include "core/compile/columns.h"
 
 #include "core/base/math.h"
-#include "core/compile/columns.h"
 #include "core/shapes/outline.h"
 
 #include <algorithm>
@@ -13,7 +12,7 @@ namespace tyndall {
 namespace {
 
 /// The columns of a light but its outline; see Lights.
-struct Light {
+struct LightEntry {
   Lights::Kind kind;
   Vec3d corner, edge_u, edge_v, normal;
   double length_u, length_v, area;
@@ -21,7 +20,7 @@ struct Light {
   double reach2;
 };
 
-Light flat_light(Vec3d corner, Vec3d u, Vec3d v) {
+LightEntry flat_light(Vec3d corner, Vec3d u, Vec3d v) {
   const double a = length(u), b = length(v), reach = 0.5 * std::max(length(u + v), length(u - v));
   const Vec3d n = cross(u, v);
   const bool square = std::abs(dot(u, v)) <= 1e-6 * a * b;
@@ -37,7 +36,7 @@ Light flat_light(Vec3d corner, Vec3d u, Vec3d v) {
           reach * reach};
 }
 
-Light sphere_light(const Sphere<>& s, const Placement& placement, Vec3d origin) {
+LightEntry sphere_light(const Sphere<>& s, const Placement& placement, Vec3d origin) {
   const Vec3d center = place(placement, s.center) - origin;
   const Vec3d motion = s.center_end ? rotate(placement, *s.center_end - s.center) : Vec3d{};
   const double r = std::abs(s.radius), reach = r + 0.5 * length(motion);
@@ -51,7 +50,7 @@ double reach2_of(const Disk<>& d) {  // the square of the longer half axis of th
   return 0.5 * (a + b) + length(Vec3d{0.5 * (a - b), dot(d.u, d.v), 0});
 }
 
-void append(Lights& out, const Light& light, double brightness, std::int32_t element) {
+void append(Lights& out, const LightEntry& light, double brightness, std::int32_t element) {
   out.kind.push_back(light.kind);
   out.element.push_back(element);
   push(out.corner, light.corner);
@@ -73,7 +72,7 @@ void append_lights(Lights& out, const PlacedShape& placed, double brightness, st
         if constexpr (std::is_same_v<Shape, Sphere<>>)
           return append(out, sphere_light(shape, placed.placement, origin), brightness, first);
         each_face(placed, [&](const BoxFace& face, std::int32_t i) {
-          Light light = flat_light(face.corner - origin, face.u, face.v);
+          LightEntry light = flat_light(face.corner - origin, face.u, face.v);
           if constexpr (has_outline<Shape>) {
             const Outline outline = outline_of(shape);
             light.kind = outline.kind == Outline::triangle ? Lights::triangle : Lights::ring;
@@ -208,7 +207,7 @@ class TreeBuilder {
   LightTree tree_;
 };
 
-// The conditions in lights.h, as numbers.
+// The conditions in columns.h, as numbers.
 constexpr float nearness = 1.5f;     // largest distance of a light from the medium's centre, in half widths of it
 constexpr float small_light = 0.1f;  // largest radius of the light over the half width and over its camera distance
 constexpr float max_free_paths = 4;  // largest half width of the medium, in mean free paths

@@ -5,7 +5,6 @@
 #include "core/base/target.h"
 #include "core/base/text.h"
 #include "core/compile/compile.h"
-#include "core/files/stats.h"
 #include "core/render/clean_film.h"
 #include "core/render/plan.h"
 #include "core/scene/json_tree.h"
