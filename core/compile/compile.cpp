@@ -33,15 +33,8 @@ Vec3d median_center(const Flattened& flat, const Camera& camera) {
   return {median(std::move(x)), median(std::move(y)), median(std::move(z))};
 }
 
-/// Widens bounds on all axes by a fraction of their largest coordinate: a hit on a tilted surface that is far away on
-/// one axis has that axis's rounding errors in its other coordinates, too.
-Bounds widen(Vec3d low, Vec3d high) {
-  const double reach = std::max({-low.x, -low.y, -low.z, high.x, high.y, high.z});  // >= every |coordinate|
-  const double slack = bounds_slack * reach;
-  const Vec3d room{slack, slack, slack};
-  return {to_float(low - room), to_float(high + room)};
-}
-
+/// The bounds of an extent, widened on all axes by a fraction of their largest coordinate: a hit on a tilted surface
+/// that is far away on one axis has that axis's rounding errors in its other coordinates, too.
 Bounds bounds_of(const Extent& extent, Vec3d origin) {
   const Vec3d reach{extent.radius, extent.radius, extent.radius};
   Vec3d low = extent.points[0] - origin - reach, high = extent.points[0] - origin + reach;
@@ -50,7 +43,10 @@ Bounds bounds_of(const Extent& extent, Vec3d origin) {
     low = {std::min(low.x, from.x), std::min(low.y, from.y), std::min(low.z, from.z)};
     high = {std::max(high.x, to.x), std::max(high.y, to.y), std::max(high.z, to.z)};
   }
-  return widen(low, high);
+  // The largest of these is >= every |coordinate|.
+  const double slack = bounds_slack * std::max({-low.x, -low.y, -low.z, high.x, high.y, high.z});
+  const Vec3d room{slack, slack, slack};
+  return {to_float(low - room), to_float(high + room)};
 }
 
 PrimitiveKind kind_of(const Sphere<>& s) { return s.center_end ? PrimitiveKind::moving_sphere : PrimitiveKind::sphere; }

@@ -155,12 +155,6 @@ void check_transform(const Place& at, const Transform& transform) {
     std::visit([&](const auto& move) { check_fields({here, i}, move); }, transform[i]);
 }
 
-void check_solid(const Place& at, const Solid3d& solid, const Scene& scene) {
-  std::visit([&](const auto& shape) { check_shape(at, shape); }, solid.shape);
-  if (solid.material < 0 || static_cast<std::size_t>(solid.material) >= scene.materials.size())
-    fail({at, "material"}, "material number " + std::to_string(solid.material), "a material of the scene");
-}
-
 void check_volume(const Place& at, const Volume& volume, const Scene& scene) {
   const Place boundary{at, "boundary"};
   std::visit([&](const auto& shape) { check_shape(boundary, shape); }, volume.boundary);
@@ -182,12 +176,18 @@ void check_objects(const Place& at, const std::vector<Object>& objects, const Sc
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Place here{at, i};
     const Object& object = objects[i];
-    std::visit(Overloaded{[&](const Solid3d& solid) { check_solid(here, solid, scene); },
-                          [&](const Volume& volume) { check_volume(here, volume, scene); },
-                          [&](const Group& group) {
-                            check_objects({here, "objects"}, group.objects, scene);
-                          }},
-               object.kind);
+    std::visit(
+        Overloaded{[&](const Solid3d& solid) {
+                     std::visit([&](const auto& shape) { check_shape(here, shape); }, solid.shape);
+                     if (solid.material < 0 || static_cast<std::size_t>(solid.material) >= scene.materials.size())
+                       fail({here, "material"}, "material number " + std::to_string(solid.material),
+                            "a material of the scene");
+                   },
+                   [&](const Volume& volume) { check_volume(here, volume, scene); },
+                   [&](const Group& group) {
+                     check_objects({here, "objects"}, group.objects, scene);
+                   }},
+        object.kind);
     check_transform(here, object.transform);
   }
 }

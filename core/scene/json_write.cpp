@@ -44,13 +44,6 @@ struct Writer {
     if constexpr (requires { fields(&kind); }) put_fields(out, fields_of<Kind>(), kind);
   }
 
-  JsonObject camera_json() const {
-    JsonObject out = fields_json(scene.camera);
-    if (scene.camera.shutter_open != 0 || scene.camera.shutter_close != 0)
-      put(out, "shutter", std::vector{scene.camera.shutter_open, scene.camera.shutter_close});
-    return out;
-  }
-
   JsonValue background_json() const {
     return std::visit(Overloaded{[](const Vec3d& radiance) { return to_json(radiance); },
                                  [&](const auto& sky) {
@@ -119,12 +112,14 @@ struct Writer {
   }
 
   JsonValue scene_json() const {
-    JsonObject root, image, textures, materials;
+    JsonObject root, image, camera = fields_json(scene.camera), textures, materials;
     put(root, "tyndall", 1);
     if (!scene.name.empty()) put(root, "name", scene.name);
     put_fields(image, image_fields(), scene);
     put_part(root, "image", std::move(image));
-    put_part(root, "camera", camera_json());
+    if (scene.camera.shutter_open != 0 || scene.camera.shutter_close != 0)
+      put(camera, "shutter", std::vector{scene.camera.shutter_open, scene.camera.shutter_close});
+    put_part(root, "camera", std::move(camera));
     if (!(scene.background == Scene().background)) put(root, "background", background_json());
     put_part(root, "render", fields_json(scene.render));
     put_part(root, "display", fields_json(scene.display));

@@ -2,10 +2,8 @@
 #include "core/base/choice.h"
 #include "core/base/fields.h"
 #include "core/base/text.h"
-#include "core/base/vec.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
