@@ -101,10 +101,8 @@ bool print_line(const JsonValue& json, std::string& line, std::size_t limit) {
     line += object->empty() ? "}" : " }";
   } else if (const auto* text = std::get_if<std::string>(&json.value)) {
     line += in_quotes(*text);
-  } else if (const auto* number = std::get_if<double>(&json.value)) {
-    line += number_text(*number);
   } else {
-    line += std::get_if<bool>(&json.value) ? (std::get<bool>(json.value) ? "true" : "false") : "null";
+    line += describe(json);
   }
   return line.size() <= limit;
 }
