@@ -3,7 +3,6 @@
 
 #include <array>
 #include <initializer_list>
-#include <optional>
 #include <vector>
 
 /// Tests for overlap: whether a shape or medium reaches into a sphere at any time from 0 to 1, and whether boxes and
