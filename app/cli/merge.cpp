@@ -5,7 +5,6 @@
 #include "app/text/standard_streams.h"
 #include "core/accuracy/estimate.h"
 #include "core/files/film_files.h"
-#include "core/files/stats.h"
 #include "core/render/clean_film.h"
 
 namespace tyndall {

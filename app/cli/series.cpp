@@ -11,7 +11,6 @@
 #include "core/base/seconds.h"
 #include "core/base/text.h"
 #include "core/files/film_files.h"
-#include "core/files/stats.h"
 #include "core/render/plan.h"
 
 #include <fmt/core.h>

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/base/choice.h"
 #include "core/render/measure.h"
-#include "core/scene/json.h"
+#include "core/scene/load.h"
 
 #include <filesystem>
 #include <string>

@@ -1,7 +1,7 @@
 #include "app/cli/verify.h"
 #include "app/text/progress.h"
 #include "app/text/values.h"
-#include "core/scene/json_values.h"
+#include "core/scene/json_read.h"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -16,11 +16,11 @@ namespace tyndall {
 namespace {
 
 const std::string& text_at(const JsonObject& object, const Place& at, const char* key, const char* what) {
-  return string_at(member_at(object, at, key, what), {at, key}, what);
+  return read_as<std::string>(member_at(object, at, key, what), {at, key}, what);
 }
 
 const JsonArray& list_at(const JsonObject& object, const Place& at, const char* key, const char* what) {
-  return array_at(member_at(object, at, key, what), {at, key}, what);
+  return read_as<JsonArray>(member_at(object, at, key, what), {at, key}, what);
 }
 
 /// A switch that is off where it is not given.
@@ -36,7 +36,7 @@ void read_overrides(const JsonObject& object, const Place& at, std::vector<Overr
   if (!json) return;
   const Place here{at, "set"};
   const char* expected = "overrides of the scene, such as { \"/camera/vfov\": 20 }";
-  for (const JsonMember& member : object_at(*json, here, expected)) {
+  for (const JsonMember& member : read_as<JsonObject>(*json, here, expected)) {
     if (!member.key.starts_with('/')) fail({here, member.key}, "no JSON pointer", expected);
     out.push_back({member.key, print_json(member.value)});
   }
@@ -44,7 +44,7 @@ void read_overrides(const JsonObject& object, const Place& at, std::vector<Overr
 
 /// One case of a group, which is given as a case without its own values.
 VerifyCase read_case(const JsonValue& json, const Place& at, const VerifyCase& group) {
-  const JsonObject& object = object_at(json, at, "a case: { \"name\", \"set\", \"expected\" }");
+  const JsonObject& object = read_as<JsonObject>(json, at, "a case: { \"name\", \"set\", \"expected\" }");
   allow_keys(object, at, {"name", "set", "expected", "source"});
   VerifyCase out = group;
   out.name += "/" + text_at(object, at, "name", "the case's name");
@@ -57,7 +57,7 @@ VerifyCase read_case(const JsonValue& json, const Place& at, const VerifyCase& g
 
 void read_group(const JsonValue& json, const Place& at, const std::filesystem::path& folder,
                 std::vector<VerifyCase>& out) {
-  const JsonObject& object = object_at(json, at, "a group of cases");
+  const JsonObject& object = read_as<JsonObject>(json, at, "a group of cases");
   allow_keys(object, at, {"name", "scene", "source", "set", "light_sampling", "chains", "cases"});
   VerifyCase group;
   group.name = text_at(object, at, "name", "the group's name");
@@ -81,7 +81,7 @@ void read_group(const JsonValue& json, const Place& at, const std::filesystem::p
 std::vector<VerifyCase> read_table(std::string_view text, const std::filesystem::path& folder) {
   const JsonDocument json = parse_json(text);
   const Place top;
-  const JsonObject& object = object_at(json.root, top, "{ \"groups\": [ … ] }");
+  const JsonObject& object = read_as<JsonObject>(json.root, top, "{ \"groups\": [ … ] }");
   allow_keys(object, top, {"groups"});
   const JsonArray& groups = list_at(object, top, "groups", "the groups of cases");
   std::vector<VerifyCase> cases;

@@ -4,7 +4,7 @@
 #include "app/text/standard_streams.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/film/merge.h"
+#include "core/film/film.h"
 #include "core/image/whole_file.h"
 #include "core/system/process.h"
 

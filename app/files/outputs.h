@@ -1,6 +1,5 @@
 #pragma once
 #include "core/files/film_files.h"
-#include "core/files/picture_files.h"
 #include "core/image/image_io.h"
 #include "core/image/whole_file.h"
 

@@ -2,7 +2,7 @@
 #include "core/base/error.h"
 #include "core/base/fields.h"
 #include "core/film/film.h"
-#include "core/scene/json.h"
+#include "core/scene/load.h"
 #include "core/scene/settings.h"
 
 #include <cstdint>

@@ -4,9 +4,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/files/film_files.h"
-#include "core/files/picture_files.h"
-#include "core/files/stats.h"
-#include "core/film/merge.h"
+#include "core/film/film.h"
 #include "core/image/whole_file.h"
 #include "core/render/clean_film.h"
 #include "core/render/plan.h"
@@ -15,7 +13,6 @@
 #include "core/scene/json_read.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/load.h"
-#include "core/scene/pointer_values.h"
 #include "core/system/processors.h"
 
 /// The core's own types, under names that the library's header does not use: both have a Scene, a Film and a render().

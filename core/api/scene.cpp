@@ -128,11 +128,9 @@ void Scene::remove(const std::string& pointer) {
 
 std::string Scene::get_json(const std::string& pointer) const {
   return guarded([&] {
-    JsonValue root = scene_json(data_->scene);
-    const auto steps = pointer_steps(pointer);
-    if (!steps) throw SceneError(data_->name, "pointer " + in_quotes(pointer), "a JSON pointer, which begins with /");
-    const JsonValue* written = find_value(root, *steps);
-    const std::optional<JsonValue> value = written ? *written : unwritten_value(data_->scene, root, *steps);
+    if (!pointer_steps(pointer))
+      throw SceneError(data_->name, "pointer " + in_quotes(pointer), "a JSON pointer, which begins with /");
+    const std::optional<JsonValue> value = value_at_pointer(data_->scene, pointer);
     if (!value) throw SceneError(data_->name, pointer, "nothing", "a value of the scene");
     std::string text = print_json(*value);
     while (text.ends_with('\n')) text.pop_back();

@@ -7,22 +7,6 @@
 namespace tyndall {
 namespace {
 
-/// Counts the kinds of primitives. The switch has no default, so that a kind without a case does not compile.
-constexpr int count_primitive_kinds() {
-  for (int count = 0;; ++count) {
-    switch (static_cast<PrimitiveKind>(count)) {
-      case PrimitiveKind::sphere:
-      case PrimitiveKind::moving_sphere:
-      case PrimitiveKind::quad:
-      case PrimitiveKind::box:
-      case PrimitiveKind::outlined:
-        continue;
-    }
-    return count;
-  }
-}
-static_assert(count_primitive_kinds() == primitive_kinds, "leaves have slots for every kind of primitive");
-
 /// Converts the binary tree to nodes of up to eight children, with the lowest cost by the surface area heuristic: all
 /// possibilities to fill nodes are weighed, from the leaves up. H. Ylitie, T. Karras, S. Laine, Efficient Incoherent
 /// Ray Traversal on GPUs Through Compressed Wide BVHs, HPG 2017; here each child of a node has a cost, too.
@@ -41,12 +25,18 @@ class Widener {
       const Task task = tasks.back();
       tasks.pop_back();
       out_.depth = std::max(out_.depth, task.depth);
-      const std::vector<int> children = open(task.binary);
+      std::vector<int> children;
+      if (is_leaf(task.binary))
+        children.push_back(task.binary);
+      else
+        collect_both(task.binary, bvh_width, children);
       BvhNode node{};
       node.count = static_cast<std::int32_t>(children.size());
       for (std::size_t c = 0; c < children.size(); ++c) {
-        set_bounds(node, c, binary(children[c]).bounds);
-        if (binary(children[c]).left < 0) {
+        const Bounds& b = binary(children[c]).bounds;
+        node.low[0][c] = b.low.x, node.low[1][c] = b.low.y, node.low[2][c] = b.low.z;
+        node.high[0][c] = b.high.x, node.high[1][c] = b.high.y, node.high[2][c] = b.high.z;
+        if (is_leaf(children[c])) {
           node.child[c] = ~make_leaf(binary(children[c]));
         } else {
           node.child[c] = static_cast<std::int32_t>(out_.nodes.size());
@@ -60,13 +50,6 @@ class Widener {
 
  private:
   const BinaryNode& binary(int i) const { return tree_.nodes[static_cast<std::size_t>(i)]; }
-
-  std::vector<int> open(int root) const {
-    std::vector<int> children;
-    if (is_leaf(root)) return {root};
-    collect_both(root, bvh_width, children);
-    return children;
-  }
 
   /// The lowest costs of a part of the binary tree that fills at most 1, 2 … 8 slots of a wide node. Until the part's
   /// parent is weighed, the first entry is the cost of a wide node or leaf made of the part, and the others are
@@ -141,15 +124,10 @@ class Widener {
     return static_cast<int>(out_.leaves.size()) - 1;
   }
 
-  static void set_bounds(BvhNode& node, std::size_t c, const Bounds& b) {
-    node.low[0][c] = b.low.x, node.low[1][c] = b.low.y, node.low[2][c] = b.low.z;
-    node.high[0][c] = b.high.x, node.high[1][c] = b.high.y, node.high[2][c] = b.high.z;
-  }
-
   const BinaryTree& tree_;
   Bvh& out_;
   std::vector<Costs> costs_;
-  std::array<std::int32_t, primitive_kinds> slots_{};
+  std::array<std::int32_t, 256> slots_{};  // by PrimitiveKind, which is a byte: the slots taken
 };
 
 }  // namespace

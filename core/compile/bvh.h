@@ -1,10 +1,25 @@
 #pragma once
-#include "core/compile/bvh_binary.h"
+#include "core/compile/column.h"
 
 #include <cstdint>
 
 /// The bounding volume hierarchy (BVH): a tree of boxes by which rays find the few primitives that they may hit.
 namespace tyndall {
+
+struct Bounds {
+  Vec3f low, high;
+  bool operator==(const Bounds&) const = default;
+};
+
+/// Kinds of primitives in leaves. outlined: triangles and disks, see Outline.
+enum class PrimitiveKind : std::uint8_t { sphere, moving_sphere, quad, box, outlined };
+
+/// A primitive as build_bvh() sees it.
+struct BvhInput {
+  Bounds bounds;  ///< finite; exact or wider
+  PrimitiveKind kind;
+  bool operator==(const BvhInput&) const = default;
+};
 
 inline constexpr int bvh_width = 8;  ///< most children of a node
 inline constexpr int bvh_max_primitives = 1 << 24;
@@ -42,5 +57,24 @@ struct Bvh {
 /// IEEE Symposium on Interactive Ray Tracing, 2007). A pure function of the input. Identical centroids are split in the
 /// middle of the list.
 Bvh build_bvh(const Column<BvhInput>& input);
+
+/// The binary tree from which build_bvh() makes one of up to eight children a node.
+struct BinaryNode {
+  Bounds bounds;
+  int left = -1, right = -1;  ///< children; -1 in a leaf
+  int first = 0, count = 0;   ///< of a leaf: its range in the tree's order
+};
+
+struct BinaryTree {
+  std::vector<BinaryNode> nodes;  ///< node 0 is the root; a node's left subtree follows it, then the right one
+  std::vector<int> order;         ///< inputs, in the order of the leaves
+};
+
+/// Half of the surface of a box; 0 for one that holds nothing.
+float half_area(const Bounds& b);
+
+/// Splits by the surface area heuristic over bins. Several threads build large subtrees; the result is a pure function
+/// of the input.
+BinaryTree build_binary_tree(const Column<BvhInput>& input);
 
 }  // namespace tyndall

@@ -1,4 +1,4 @@
-#include "core/compile/bvh_binary.h"
+#include "core/compile/bvh.h"
 
 #include <algorithm>
 #include <array>
@@ -63,7 +63,7 @@ class Builder {
     scratch_ = items_;
   }
   BinaryTree build() {
-    BinaryTree tree{build({0, static_cast<int>(items_.size()), 0}), {}};
+    BinaryTree tree{build_alone({0, static_cast<int>(items_.size()), 0}), {}};
     tree.order.reserve(items_.size());
     for (const Item& item : items_) tree.order.push_back(item.index);
     return tree;
@@ -72,83 +72,44 @@ class Builder {
  private:
   struct Range {
     int begin, end, depth;
+    std::size_t size() const { return static_cast<std::size_t>(end - begin); }
   };
 
-  std::span<Item> items(int begin, int end) {
-    return std::span(items_).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
-  }
-
-  /// Returns the subtree over a range: its root, then the left half, then the right half. Halves of large ranges are
-  /// built in parallel.
-  std::vector<BinaryNode> build(Range range) {
-    constexpr int min_for_thread = 1 << 13, deepest_thread = 4;
-    if (range.end - range.begin < min_for_thread || range.depth >= deepest_thread) return build_alone(range);
-    const Split at = split(range);
-    std::vector<BinaryNode> nodes = room_for(range);
-    nodes.push_back(at.node);
-    if (at.middle < 0) return nodes;
-    // No launch policy: if the system cannot start another thread, get() runs the job here.
-    auto right = std::async([this, range, at] { return build({at.middle, range.end, range.depth + 1}); });
-    nodes[0].left = 1;
-    append(nodes, build({range.begin, at.middle, range.depth + 1}));
-    nodes[0].right = static_cast<int>(nodes.size());
-    append(nodes, right.get());
-    return nodes;
-  }
-
-  /// An empty list with room for as many nodes as a range usually needs.
-  static std::vector<BinaryNode> room_for(Range range) {
+  std::vector<BinaryNode> build_alone(Range range) {
     std::vector<BinaryNode> nodes;
-    nodes.reserve(static_cast<std::size_t>(range.end - range.begin));
+    nodes.reserve(range.size());  // as many nodes as a range usually needs
+    build(range, nodes);
     return nodes;
   }
 
-  static void append(std::vector<BinaryNode>& nodes, const std::vector<BinaryNode>& more) {
-    const int first = static_cast<int>(nodes.size());
-    for (BinaryNode node : more) {
-      if (node.left >= 0) node.left += first, node.right += first;
-      nodes.push_back(node);
-    }
-  }
-
-  /// Without recursion, because a degenerate scene could be so deep that the stack overflows.
-  std::vector<BinaryNode> build_alone(Range whole) {
-    struct Task {
-      Range range;
-      int parent;
-      bool right;
-    };
-    std::vector<BinaryNode> nodes = room_for(whole);
-    std::vector<Task> tasks{{whole, -1, false}};
-    while (!tasks.empty()) {
-      const auto [range, parent, is_right] = tasks.back();
-      tasks.pop_back();
-      const int self = static_cast<int>(nodes.size());
-      if (parent >= 0)
-        (is_right ? nodes[static_cast<std::size_t>(parent)].right : nodes[static_cast<std::size_t>(parent)].left) =
-            self;
-      const Split at = split(range);
-      nodes.push_back(at.node);
-      if (at.middle < 0) continue;
-      tasks.push_back({{at.middle, range.end, range.depth + 1}, self, true});
-      tasks.push_back({{range.begin, at.middle, range.depth + 1}, self, false});
-    }
-    return nodes;
-  }
-
-  /// The node of a range, and the index at which the range is split; -1: the node becomes a leaf.
-  struct Split {
-    BinaryNode node;
-    int middle;
-  };
-  Split split(Range range) {
-    const std::span<Item> list = items(range.begin, range.end);
+  /// Appends the subtree over a range: its root, then the left half, then the right half. Halves of large ranges are
+  /// built in parallel. The recursion is at most as deep as the tree, which deepest_heuristic bounds.
+  void build(Range range, std::vector<BinaryNode>& nodes) {
+    constexpr std::size_t min_for_thread = 1 << 13;
+    constexpr int deepest_thread = 4;
+    const std::span<Item> list = std::span(items_).subspan(static_cast<std::size_t>(range.begin), range.size());
     const Around around = around_of(list);
-    BinaryNode node;
-    node.bounds = around.bounds;
-    const int left = choose(list, around, range.depth);
-    if (left == 0) node.first = range.begin, node.count = range.end - range.begin;
-    return {node, left == 0 ? -1 : range.begin + left};
+    const int in_left = choose(list, around, range.depth);
+    const std::size_t self = nodes.size();
+    BinaryNode& node = nodes.emplace_back(BinaryNode{around.bounds});
+    if (in_left == 0) {
+      node.first = range.begin, node.count = range.end - range.begin;
+      return;
+    }
+    node.left = static_cast<int>(self) + 1;
+    const Range left{range.begin, range.begin + in_left, range.depth + 1}, right{left.end, range.end, left.depth};
+    std::future<std::vector<BinaryNode>> others;
+    // No launch policy: if the system cannot start another thread, get() runs the job here.
+    if (range.size() >= min_for_thread && range.depth < deepest_thread)
+      others = std::async([this, right] { return build_alone(right); });
+    build(left, nodes);
+    const int first = static_cast<int>(nodes.size());
+    nodes[self].right = first;
+    if (!others.valid()) return build(right, nodes);
+    for (BinaryNode other : others.get()) {
+      if (other.left >= 0) other.left += first, other.right += first;
+      nodes.push_back(other);
+    }
   }
 
   static Around around_of(std::span<const Item> list) {
@@ -161,18 +122,16 @@ class Builder {
     return around;
   }
 
-  static bool one_kind(std::span<const Item> list) {
-    return std::all_of(list.begin(), list.end(),
-                       [&](const Item& item) { return item.input.kind == list.front().input.kind; });
-  }
-
   /// Reorders the list for the best split and returns how many items are in its first part; 0: make a leaf.
   int choose(std::span<Item> list, const Around& around, int depth) {
     if (list.size() == 1) return 0;
     const Plane plane = best_plane(list, around.centers);
-    const bool fits = list.size() <= max_in_leaf && one_kind(list);
+    const PrimitiveKind kind = list.front().input.kind;
+    const bool fits = list.size() <= max_in_leaf && std::all_of(list.begin(), list.end(), [kind](const Item& item) {
+                        return item.input.kind == kind;
+                      });
     const float leaf_cost = static_cast<float>(list.size()) * half_area(around.bounds);
-    const float node_cost = traversal_cost(list.front().input.kind) * half_area(around.bounds);
+    const float node_cost = traversal_cost(kind) * half_area(around.bounds);
     if (fits && !(plane.cost + node_cost < leaf_cost)) return 0;
     if (plane.axis < 0 || depth > deepest_heuristic) return split_equals(list);
     return part(list, [&](const BvhInput& one) {

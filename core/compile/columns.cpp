@@ -1,7 +1,6 @@
 #include "core/compile/columns.h"
 
 #include "core/base/elementary.h"
-#include "core/base/kinds.h"
 #include "core/base/math.h"
 #include "core/base/random.h"
 #include "core/shapes/outline.h"
@@ -50,6 +49,15 @@ void fill(TextureColumns& out, const Image& image, Vec3d) {
   out.texels = image.pixels->rgb.data();
 }
 
+BackgroundColumns columns_of(const Vec3d& colour) { return {BackgroundKind::constant, to_float(colour), {}}; }
+BackgroundColumns columns_of(const Gradient& g) {
+  return {BackgroundKind::gradient, to_float(g.bottom), to_float(g.top)};
+}
+BackgroundColumns columns_of(const Hemispheres& h) {
+  return {BackgroundKind::hemispheres, to_float(h.up), to_float(h.down)};
+}
+BackgroundColumns columns_of(const SkyPicture&) { return {BackgroundKind::picture, {}, {}}; }
+
 void set_row(Affine& map, int i, Vec3d row, Vec3d zero_at) {
   map.row[i] = to_float(row);
   map.offset[i] = static_cast<float>(-dot(row, zero_at));
@@ -59,15 +67,16 @@ void set_row(Affine& map, int i, Vec3d row, Vec3d zero_at) {
 struct Appender {
   const PlacedShape& shape;
   Vec3d origin;
-  const MoreColumns& more;
+  const SceneFeatures& features;
   const Checker<>* checker;
   Elements& to;
 
   void append(Vec3f center_or_normal, float inverse_radius, Vec3f move, double plane) const {
     to.center_or_normal.push_back(center_or_normal), to.inverse_radius.push_back(inverse_radius);
-    if (more.motion) to.move.push_back(move);
-    if (more.plane) to.plane.push_back(static_cast<float>(plane));
-    if (more.disk) to.disk.push_back(std::holds_alternative<Disk<>>(shape.shape) ? 1 : 0);
+    if (features.moving_spheres) to.move.push_back(move);
+    if (features.textures) to.plane.push_back(static_cast<float>(plane));
+    if (features.image_textures && features.disks)
+      to.disk.push_back(std::holds_alternative<Disk<>>(shape.shape) ? 1 : 0);
     to.material.push_back(shape.material);
     to.object.push_back(shape.object);
   }
@@ -86,34 +95,22 @@ struct Appender {
     return own;
   }
 
-  void append_flat(Vec3d normal, Vec3d corner, Vec3d u, Vec3d v) const {
-    append(to_float(normal), 0, {}, more.plane ? plane_of(normal, corner) : 0);
-    if (!more.uv) return;
-    const Reciprocal r = reciprocal_edges(u, v);
+  void append_flat(const BoxFace& face) const {
+    append(to_float(face.normal), 0, {}, features.textures ? plane_of(face.normal, face.corner) : 0);
+    if (!features.image_textures) return;
+    const Reciprocal r = reciprocal_edges(face.u, face.v);
     for (const Vec3d row : {r.a, r.b})
-      for (const double c : {row.x, row.y, row.z, -dot(row, corner - origin)}) to.uv.push_back(static_cast<float>(c));
+      for (const double c : {row.x, row.y, row.z, -dot(row, face.corner - origin)})
+        to.uv.push_back(static_cast<float>(c));
   }
-  Vec3d rotated(Vec3d direction) const { return rotate(shape.placement, direction); }
-  Vec3d placed(Vec3d point) const { return place(shape.placement, point); }
 
-  void operator()(const Sphere<>& s) const {
+  void append_sphere(const Sphere<>& s) const {
+    const Placement& at = shape.placement;
     const Vec3d motion = s.center_end ? *s.center_end - s.center : Vec3d{};
-    append(to_float(placed(s.center) - origin), static_cast<float>(1 / s.radius), to_float(rotated(motion)), 0);
-    if (!more.uv) return;
-    const Vec3d x_axis = rotated({1, 0, 0});  // (cos, 0, -sin)
+    append(to_float(place(at, s.center) - origin), static_cast<float>(1 / s.radius), to_float(rotate(at, motion)), 0);
+    if (!features.image_textures) return;
+    const Vec3d x_axis = rotate(at, {1, 0, 0});  // (cos, 0, -sin)
     for (const double c : {x_axis.x, -x_axis.z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}) to.uv.push_back(static_cast<float>(c));
-  }
-  void operator()(const Quad<>& q) const {
-    const Vec3d u = rotated(q.u), v = rotated(q.v);
-    append_flat(normalize(cross(u, v)), placed(q.corner), u, v);
-  }
-  void operator()(const Triangle<>& t) const { (*this)(frame_of(t)); }
-  void operator()(const Disk<>& d) const { (*this)(frame_of(d)); }
-  void operator()(const Box<>& b) const {
-    for (std::int32_t i = 0; i < 6; ++i) {
-      const BoxFace face = box_face_edges(b, i);
-      append_flat(rotated(face.normal), placed(face.corner), rotated(face.u), rotated(face.v));
-    }
   }
 };
 
@@ -144,20 +141,7 @@ CameraColumns camera_columns(const Camera& camera, int width, int height, Vec3d 
 }
 
 BackgroundColumns background_columns(const Background& background) {
-  using Columns = BackgroundColumns;
-  return std::visit(Overloaded{[](const Vec3d& colour) {
-                                 return Columns{BackgroundKind::constant, to_float(colour), {}};
-                               },
-                               [](const Gradient& g) {
-                                 return Columns{BackgroundKind::gradient, to_float(g.bottom), to_float(g.top)};
-                               },
-                               [](const Hemispheres& h) {
-                                 return Columns{BackgroundKind::hemispheres, to_float(h.up), to_float(h.down)};
-                               },
-                               [](const SkyPicture&) {
-                                 return Columns{BackgroundKind::picture, {}, {}};
-                               }},
-                    background);
+  return std::visit([](const auto& kind) { return columns_of(kind); }, background);
 }
 
 Materials material_columns(const std::vector<Material>& materials) {
@@ -206,6 +190,19 @@ Reciprocal reciprocal_edges(Vec3d u, Vec3d v) {
   const Vec3d n = cross(u, v);
   const double squared = dot(n, n);
   return {(1 / squared) * cross(v, n), (1 / squared) * cross(n, u)};
+}
+
+std::optional<Quad<>> frame_of_flat(const PlacedShape& placed) {
+  return std::visit(
+      []<class Shape>(const Shape& shape) -> std::optional<Quad<>> {
+        if constexpr (std::is_same_v<Shape, Quad<>>)
+          return shape;
+        else if constexpr (has_outline<Shape>)
+          return frame_of(shape);
+        else
+          return {};
+      },
+      placed.shape);
 }
 
 /// Corners and edges are those of the box in The Next Week, section 8.1.
@@ -258,9 +255,11 @@ Affine box_map(const Box<>& box, const Placement& placement, Vec3d origin) {
   return map;
 }
 
-void append_elements(const PlacedShape& shape, Vec3d origin, const MoreColumns& more, const Checker<>* checker,
+void append_elements(const PlacedShape& shape, Vec3d origin, const SceneFeatures& features, const Checker<>* checker,
                      Elements& elements) {
-  std::visit(Appender{shape, origin, more, checker, elements}, shape.shape);
+  const Appender appender{shape, origin, features, checker, elements};
+  if (const auto* sphere = std::get_if<Sphere<>>(&shape.shape)) appender.append_sphere(*sphere);
+  each_face(shape, [&](const BoxFace& face, std::int32_t) { appender.append_flat(face); });
 }
 
 }  // namespace tyndall

@@ -2,7 +2,6 @@
 
 #include "core/compile/columns.h"
 #include "core/compile/flatten.h"
-#include "core/compile/lights.h"
 #include "core/compile/specular_pairs.h"
 #include "core/compile/surroundings.h"
 #include "core/film/film.h"
@@ -35,15 +34,8 @@ Vec3d median_center(const Flattened& flat, const Camera& camera) {
   return {median(std::move(x)), median(std::move(y)), median(std::move(z))};
 }
 
-/// Widens bounds on all axes by a fraction of their largest coordinate: a hit on a tilted surface that is far away on
-/// one axis has that axis's rounding errors in its other coordinates, too.
-Bounds widen(Vec3d low, Vec3d high) {
-  const double reach = std::max({-low.x, -low.y, -low.z, high.x, high.y, high.z});  // >= every |coordinate|
-  const double slack = bounds_slack * reach;
-  const Vec3d room{slack, slack, slack};
-  return {to_float(low - room), to_float(high + room)};
-}
-
+/// The bounds of an extent, widened on all axes by a fraction of their largest coordinate: a hit on a tilted surface
+/// that is far away on one axis has that axis's rounding errors in its other coordinates, too.
 Bounds bounds_of(const Extent& extent, Vec3d origin) {
   const Vec3d reach{extent.radius, extent.radius, extent.radius};
   Vec3d low = extent.points[0] - origin - reach, high = extent.points[0] - origin + reach;
@@ -52,19 +44,17 @@ Bounds bounds_of(const Extent& extent, Vec3d origin) {
     low = {std::min(low.x, from.x), std::min(low.y, from.y), std::min(low.z, from.z)};
     high = {std::max(high.x, to.x), std::max(high.y, to.y), std::max(high.z, to.z)};
   }
-  return widen(low, high);
+  // The largest of these is >= every |coordinate|.
+  const double slack = bounds_slack * std::max({-low.x, -low.y, -low.z, high.x, high.y, high.z});
+  const Vec3d room{slack, slack, slack};
+  return {to_float(low - room), to_float(high + room)};
 }
 
-PrimitiveKind kind_of(const PlacedShape& shape) {
-  return std::visit(
-      Overloaded{[](const Sphere<>& sphere) {
-                   return sphere.center_end ? PrimitiveKind::moving_sphere : PrimitiveKind::sphere;
-                 },
-                 [](const Quad<>&) { return PrimitiveKind::quad; }, [](const Box<>&) { return PrimitiveKind::box; },
-                 [](const Triangle<>&) { return PrimitiveKind::outlined; },
-                 [](const Disk<>&) { return PrimitiveKind::outlined; }},
-      shape.shape);
-}
+PrimitiveKind kind_of(const Sphere<>& s) { return s.center_end ? PrimitiveKind::moving_sphere : PrimitiveKind::sphere; }
+PrimitiveKind kind_of(const Quad<>&) { return PrimitiveKind::quad; }
+PrimitiveKind kind_of(const Box<>&) { return PrimitiveKind::box; }
+PrimitiveKind kind_of(const Triangle<>&) { return PrimitiveKind::outlined; }
+PrimitiveKind kind_of(const Disk<>&) { return PrimitiveKind::outlined; }
 
 struct SlotFiller {
   RenderScene& out;
@@ -120,7 +110,9 @@ Column<std::int32_t> choose_tree(const Flattened& flat, const Camera& camera, co
   }
   Column<BvhInput> input;
   input.reserve(flat.shapes.size());
-  for (const PlacedShape& s : flat.shapes) input.push_back({bounds_of(extent_of(s, camera), out.origin), kind_of(s)});
+  for (const PlacedShape& placed : flat.shapes)
+    input.push_back({bounds_of(extent_of(placed, camera), out.origin),
+                     std::visit([](const auto& shape) { return kind_of(shape); }, placed.shape)});
   out.bvh = before && before->bvh.input == input ? before->bvh : build_bvh(input);
   return out.bvh.order;
 }
@@ -134,10 +126,8 @@ const Checker<>* checker_of(const Scene& scene, std::int32_t material) {
 
 void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene* before, RenderScene& out) {
   const std::vector<std::int32_t> first_element = first_elements(flat);
-  const MoreColumns more{out.features.image_textures, out.features.moving_spheres, out.features.textures,
-                         out.features.image_textures && out.features.disks};
   for (const PlacedShape& shape : flat.shapes)
-    append_elements(shape, out.origin, more, checker_of(scene, shape.material), out.elements);
+    append_elements(shape, out.origin, out.features, checker_of(scene, shape.material), out.elements);
   out.camera.surface = camera_surface(flat, first_element, scene.camera, out.origin);
   out.lights = collect_lights(scene, flat, first_element, out.origin, out.elements);
   for (const std::int32_t i : choose_tree(flat, scene.camera, before, out)) {
@@ -183,10 +173,6 @@ bool has_reflecting_glass(const Scene& scene) {
   });
 }
 
-/// Whether second vertices can be reused in the scene. Moving spheres prevent it: a vertex on a moving sphere exists at
-/// one time only.
-bool can_reuse_paths(const RenderScene& s) { return s.integrator == Integrator::mis && !s.features.moving_spheres; }
-
 bool samples_lights(Integrator integrator) {
   switch (integrator) {
     case Integrator::path:
@@ -198,20 +184,14 @@ bool samples_lights(Integrator integrator) {
   return false;
 }
 
-double largest(const Vec3d& v) { return std::max({v.x, v.y, v.z}); }
-
 double brightest(const Scene& scene) {
-  double maximum =
-      std::visit(Overloaded{[](const Vec3d& colour) { return largest(colour); },
-                            [](const Gradient& sky) { return std::max(largest(sky.bottom), largest(sky.top)); },
-                            [](const Hemispheres& sky) { return std::max(largest(sky.up), largest(sky.down)); },
-                            [](const SkyPicture& sky) { return sky.scale * static_cast<double>(sky.pixels->largest); }},
-                 scene.background);
-  for (const Material& m : scene.materials)
-    if (traits_of(m.kind).emits) {
-      const auto* colour = std::get_if<Vec3d>(&m.colour);
-      maximum = std::max(maximum, colour ? largest(*colour) : 1.0);
-    }
+  double maximum = std::visit(
+      Overloaded{[](const Vec3d& colour) { return max_component(colour); },
+                 [](const Gradient& sky) { return std::max(max_component(sky.bottom), max_component(sky.top)); },
+                 [](const Hemispheres& sky) { return std::max(max_component(sky.up), max_component(sky.down)); },
+                 [](const SkyPicture& sky) { return sky.scale * static_cast<double>(sky.pixels->largest); }},
+      scene.background);
+  for (const Material& material : scene.materials) maximum = std::max(maximum, brightness_of(material));
   return maximum;
 }
 
@@ -246,7 +226,8 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
   }
   out.objects = std::move(flat.objects);
   out.kernel = min_kernel(out);
-  out.may_reuse_paths = scene.render.sharing && can_reuse_paths(out);
+  // Moving spheres prevent reuse: a vertex on one exists at one time only.
+  out.may_reuse_paths = scene.render.sharing && out.integrator == Integrator::mis && !out.features.moving_spheres;
   out.film_quantum = film_quantum(brightest(scene));
   return out;
 }
@@ -256,21 +237,13 @@ int RenderScene::primitives() const {
 }
 
 const char* name_of(KernelSet set) {
-  switch (set) {
-    case KernelSet::everything:
-      return "everything";
-    case KernelSet::common_models:
-      return "no triangles, disks, sky picture or guide";
-    case KernelSet::specular_paths_only:
-      return "chains, no fog, no textures";
-    case KernelSet::no_specular_paths:
-      return "no chains";
-    case KernelSet::no_media_no_textures:
-      return "no fog, no textures";
-    case KernelSet::guided_paths_only:
-      return "a guide, no fog, no textures";
-  }
-  return "";
+  constexpr const char* names[kernel_sets] = {"everything",
+                                              "no triangles, disks, sky picture or guide",
+                                              "chains, no fog, no textures",
+                                              "no chains",
+                                              "no fog, no textures",
+                                              "a guide, no fog, no textures"};
+  return names[static_cast<int>(set)];
 }
 
 std::size_t bytes_of(const RenderScene& s) {

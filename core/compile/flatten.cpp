@@ -3,6 +3,7 @@
 #include "core/base/elementary.h"
 #include "core/base/kinds.h"
 #include "core/base/math.h"
+#include "core/scene/place.h"
 #include "core/shapes/outline.h"
 
 #include <algorithm>
@@ -28,6 +29,9 @@ CosSin cos_sin(double degrees) {
   return {cosine(remainder * (pi / 180)), sine(remainder * (pi / 180))};
 }
 
+Placement placement_of(const RotateY& r) { return {r.degrees, {}}; }
+Placement placement_of(const Translate& t) { return {0, t.offset}; }
+
 void flatten_list(const std::vector<Object>& objects, const Placement& outer, std::int32_t group, Flattened& out) {
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Object& object = objects[i];
@@ -50,33 +54,20 @@ void flatten_list(const std::vector<Object>& objects, const Placement& outer, st
 /// A hash of a shape and its placement: equal shapes have equal hashes.
 std::uint64_t hash_of(const PlacedShape& placed) {
   std::uint64_t hash = placed.shape.index();
-  const auto add = [&hash](double number) {  // -0 as +0; the multiplier is that of D. Knuth's MMIX generator
+  const auto add_number = [&hash](double number) {  // -0 as +0; the multiplier is that of D. Knuth's MMIX generator
     hash = (hash ^ std::bit_cast<std::uint64_t>(number + 0.0)) * 6364136223846793005u;
     hash ^= hash >> 32;
   };
-  const auto add_all = [&add](std::initializer_list<Vec3d> list) {
-    for (const Vec3d& v : list) add(v.x), add(v.y), add(v.z);
-  };
-  std::visit(Overloaded{[&](const Sphere<>& s) {
-                          add_all({s.center, s.center_end.value_or(s.center)});
-                          add(s.radius);
-                        },
-                        [&](const Quad<>& q) {
-                          add_all({q.corner, q.u, q.v});
-                        },
-                        [&](const Box<>& b) {
-                          add_all({b.min, b.max});
-                        },
-                        [&](const Triangle<>& t) {
-                          add_all({t.corner, t.u, t.v});
-                        },
-                        [&](const Disk<>& d) {
-                          add_all({d.center, d.u, d.v});
-                          add(d.inner);
-                        }},
-             placed.shape);
+  const auto add_vector = [&](const Vec3d& v) { add_number(v.x), add_number(v.y), add_number(v.z); };
+  const Overloaded add{add_number, add_vector, [&](const std::optional<Vec3d>& v) { add_vector(v.value_or(Vec3d{})); }};
+  std::visit(
+      [&]<class Shape>(const Shape& shape) {
+        constexpr auto list = fields_of<Shape>();
+        for_each_field(list, [&](const auto& field) { add(shape.*field.value); });
+      },
+      placed.shape);
   add(placed.placement.degrees);
-  add_all({placed.placement.offset});
+  add(placed.placement.offset);
   return hash;
 }
 
@@ -95,20 +86,12 @@ void drop_copies(std::vector<PlacedShape>& shapes) {
       copy[keys[k].second] = true;
       break;
     }
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < shapes.size(); ++i)
-    if (!copy[i]) std::swap(shapes[kept++], shapes[i]);
-  shapes.resize(kept);
+  std::erase_if(shapes, [&](const PlacedShape& one) { return copy[static_cast<std::size_t>(&one - shapes.data())]; });
 }
 
 bool same_shape(const PlacedShape& shape, const PlacedVolume& volume) {
-  if (!(shape.placement == volume.placement)) return false;
-  return std::visit(
-      [&](const auto& boundary) {
-        const auto* s = std::get_if<std::decay_t<decltype(boundary)>>(&shape.shape);
-        return s && *s == boundary;
-      },
-      volume.boundary);
+  const auto is_same = [&](const auto& boundary) { return shape.shape == decltype(shape.shape)(boundary); };
+  return shape.placement == volume.placement && std::visit(is_same, volume.boundary);
 }
 
 Vec3d own_center(const Sphere<>& s) { return s.center; }
@@ -173,14 +156,7 @@ Placement compose(const Placement& outer, const Placement& inner) {
 Placement placement_of(const Transform& list) {
   Placement result;
   for (const auto& step : list)
-    result = compose(std::visit(Overloaded{[](const RotateY& r) {
-                                             return Placement{r.degrees, {}};
-                                           },
-                                           [](const Translate& t) {
-                                             return Placement{0, t.offset};
-                                           }},
-                                step),
-                     result);
+    result = compose(std::visit([](const auto& move) { return placement_of(move); }, step), result);
   return result;
 }
 

@@ -1,7 +1,6 @@
-#include "core/compile/lights.h"
+#include "core/compile/columns.h"
 
 #include "core/base/math.h"
-#include "core/compile/columns.h"
 #include "core/shapes/outline.h"
 
 #include <algorithm>
@@ -12,31 +11,36 @@
 namespace tyndall {
 namespace {
 
-struct Emitter {
-  double brightness;  // the largest component of its radiance
-  std::int32_t element;
+/// The columns of a light but its outline; see Lights.
+struct LightEntry {
+  Lights::Kind kind;
+  Vec3d corner, edge_u, edge_v, normal;
+  double length_u, length_v, area;
+  Vec3d center;
+  double reach2;
 };
 
-void push_common(Lights& out, const Emitter& e, double area, Vec3d center, double reach) {
-  out.element.push_back(e.element);
-  out.area.push_back(static_cast<float>(area));
-  out.center.push_back(to_float(center));
-  out.power.push_back(static_cast<float>(area * e.brightness));
-  out.reach2.push_back(static_cast<float>(reach * reach));
-}
-
-void add_flat(Lights& out, const Emitter& e, Vec3d corner, Vec3d u, Vec3d v) {
-  const double a = length(u), b = length(v);
+LightEntry flat_light(Vec3d corner, Vec3d u, Vec3d v) {
+  const double a = length(u), b = length(v), reach = 0.5 * std::max(length(u + v), length(u - v));
   const Vec3d n = cross(u, v);
   const bool square = std::abs(dot(u, v)) <= 1e-6 * a * b;
-  out.kind.push_back(square ? Lights::rectangle : Lights::parallelogram);
-  out.corner.push_back(to_float(corner));
-  out.edge_u.push_back(to_float((1 / a) * u));
-  out.edge_v.push_back(to_float((1 / b) * v));
-  out.normal.push_back(to_float((1 / length(n)) * n));
-  out.length_u.push_back(static_cast<float>(a));
-  out.length_v.push_back(static_cast<float>(b));
-  push_common(out, e, length(n), corner + 0.5 * (u + v), 0.5 * std::max(length(u + v), length(u - v)));
+  return {square ? Lights::rectangle : Lights::parallelogram,
+          corner,
+          (1 / a) * u,
+          (1 / b) * v,
+          (1 / length(n)) * n,
+          a,
+          b,
+          length(n),
+          corner + 0.5 * (u + v),
+          reach * reach};
+}
+
+LightEntry sphere_light(const Sphere<>& s, const Placement& placement, Vec3d origin) {
+  const Vec3d center = place(placement, s.center) - origin;
+  const Vec3d motion = s.center_end ? rotate(placement, *s.center_end - s.center) : Vec3d{};
+  const double r = std::abs(s.radius), reach = r + 0.5 * length(motion);
+  return {Lights::sphere, center, motion, {}, {}, r, 0, 4 * pi * r * r, center + 0.5 * motion, reach * reach};
 }
 
 /// Squared radius of a sphere around the middle of the frame that holds the shape.
@@ -46,60 +50,41 @@ double reach2_of(const Disk<>& d) {  // the square of the longer half axis of th
   return 0.5 * (a + b) + length(Vec3d{0.5 * (a - b), dot(d.u, d.v), 0});
 }
 
-/// Turns the light that was added last, of the frame of a shape, into that of the shape.
-void give_outline(Lights& out, const Emitter& e, const auto& shape) {
-  const Outline outline = outline_of(shape);
-  const bool triangle = outline.kind == Outline::triangle;
-  const std::size_t k = out.kind.size() - 1;
-  out.reach2[k] = static_cast<float>(reach2_of(shape));
-  out.kind[k] = triangle ? Lights::triangle : Lights::ring;
-  out.inner.resize(k + 1);
-  out.inner[k] = outline.size;
-  const double area = area_fraction(outline) * static_cast<double>(out.area[k]);
-  out.area[k] = static_cast<float>(area), out.power[k] = static_cast<float>(area * e.brightness);
+void append(Lights& out, const LightEntry& light, double brightness, std::int32_t element) {
+  out.kind.push_back(light.kind);
+  out.element.push_back(element);
+  out.corner.push_back(to_float(light.corner));
+  out.edge_u.push_back(to_float(light.edge_u));
+  out.edge_v.push_back(to_float(light.edge_v));
+  out.normal.push_back(to_float(light.normal));
+  out.length_u.push_back(static_cast<float>(light.length_u));
+  out.length_v.push_back(static_cast<float>(light.length_v));
+  out.area.push_back(static_cast<float>(light.area));
+  out.center.push_back(to_float(light.center));
+  out.power.push_back(static_cast<float>(light.area * brightness));
+  out.reach2.push_back(static_cast<float>(light.reach2));
 }
 
-struct Collector {
-  Lights& out;
-  const Placement& placement;
-  Vec3d origin;
-  Emitter emitter;
-
-  void operator()(const Sphere<>& s) const {
-    const double r = std::abs(s.radius);
-    const Vec3d center = place(placement, s.center) - origin;
-    const Vec3d motion = s.center_end ? rotate(placement, *s.center_end - s.center) : Vec3d{};
-    out.kind.push_back(Lights::sphere);
-    out.corner.push_back(to_float(center));
-    out.edge_u.push_back(to_float(motion));
-    out.edge_v.push_back({});
-    out.normal.push_back({});
-    out.length_u.push_back(static_cast<float>(r));
-    out.length_v.push_back(0);
-    push_common(out, emitter, 4 * pi * r * r, center + 0.5 * motion, r + 0.5 * length(motion));
-  }
-  void operator()(const Quad<>& q) const {
-    add_flat(out, emitter, place(placement, q.corner) - origin, rotate(placement, q.u), rotate(placement, q.v));
-  }
-  void operator()(const Triangle<>& t) const { add_outlined(t); }
-  void operator()(const Disk<>& d) const { add_outlined(d); }
-  void add_outlined(const auto& shape) const {
-    (*this)(frame_of(shape));
-    give_outline(out, emitter, shape);
-  }
-  void operator()(const Box<>& b) const {
-    for (std::int32_t i = 0; i < 6; ++i) {
-      const BoxFace face = box_face_edges(b, i);
-      add_flat(out, {emitter.brightness, emitter.element + i}, place(placement, face.corner) - origin,
-               rotate(placement, face.u), rotate(placement, face.v));
-    }
-  }
-};
-
-double brightness_of(const Material& m) {
-  if (!traits_of(m.kind).emits) return 0;
-  const auto* colour = std::get_if<Vec3d>(&m.colour);
-  return colour ? std::max({colour->x, colour->y, colour->z}) : 1.0;
+/// Appends the lights of a shape whose first element is given.
+void append_lights(Lights& out, const PlacedShape& placed, double brightness, std::int32_t first, Vec3d origin) {
+  std::visit(
+      [&]<class Shape>(const Shape& shape) {
+        if constexpr (std::is_same_v<Shape, Sphere<>>)
+          return append(out, sphere_light(shape, placed.placement, origin), brightness, first);
+        each_face(placed, [&](const BoxFace& face, std::int32_t i) {
+          LightEntry light = flat_light(face.corner - origin, face.u, face.v);
+          if constexpr (has_outline<Shape>) {
+            const Outline outline = outline_of(shape);
+            light.kind = outline.kind == Outline::triangle ? Lights::triangle : Lights::ring;
+            light.area = area_fraction(outline) * static_cast<double>(static_cast<float>(light.area));
+            light.reach2 = reach2_of(shape);
+            out.inner.resize(out.kind.size());
+            out.inner.push_back(outline.size);
+          }
+          append(out, light, brightness, first + i);
+        });
+      },
+      placed.shape);
 }
 
 /// Builds a LightTree from the top.
@@ -112,18 +97,7 @@ class TreeBuilder {
 
   LightTree build() {
     add_pair(-1);
-    std::vector<Range> ranges{{0, 0, order_.size(), 0}};
-    while (!ranges.empty()) {
-      const Range range = ranges.back();
-      ranges.pop_back();
-      fill(range);
-      if (range.end - range.begin == 1) continue;
-      const std::size_t middle = split(range);
-      const std::size_t first = add_pair(static_cast<std::int32_t>(range.node));
-      tree_.child[range.node] = static_cast<std::int32_t>(first);
-      ranges.push_back({first + 1, middle, range.end, range.depth + 1});
-      ranges.push_back({first, range.begin, middle, range.depth + 1});
-    }
+    build({0, 0, order_.size(), 0});
     return std::move(tree_);
   }
 
@@ -157,6 +131,15 @@ class TreeBuilder {
   double power(std::int32_t light) const { return static_cast<double>(lights_.power[light]); }
   double reach2(std::int32_t light) const { return static_cast<double>(lights_.reach2[light]); }
   void add(std::int32_t light, Sum& sum) const { sum.add(center(light), std::sqrt(reach2(light)), power(light)); }
+
+  void build(const Range& range) {
+    fill(range);
+    if (range.end - range.begin == 1) return;
+    const std::size_t middle = split(range), first = add_pair(static_cast<std::int32_t>(range.node));
+    tree_.child[range.node] = static_cast<std::int32_t>(first);
+    build({first, range.begin, middle, range.depth + 1});
+    build({first + 1, middle, range.end, range.depth + 1});
+  }
 
   std::size_t add_pair(std::int32_t parent) {
     const std::size_t first = tree_.power.size();
@@ -216,7 +199,7 @@ class TreeBuilder {
   LightTree tree_;
 };
 
-// The conditions in lights.h, as numbers.
+// The conditions in columns.h, as numbers.
 constexpr float nearness = 1.5f;     // largest distance of a light from the medium's centre, in half widths of it
 constexpr float small_light = 0.1f;  // largest radius of the light over the half width and over its camera distance
 constexpr float max_free_paths = 4;  // largest half width of the medium, in mean free paths
@@ -245,6 +228,12 @@ bool pays(const MediumColumns& m, Vec3f light, float reach, Vec3f camera) {
 
 }  // namespace
 
+double brightness_of(const Material& m) {
+  if (!traits_of(m.kind).emits) return 0;
+  const auto* colour = std::get_if<Vec3d>(&m.colour);
+  return colour ? max_component(*colour) : 1.0;
+}
+
 void build_light_tree(Lights& lights) {
   if (lights.count() > max_lights_by_contribution) lights.tree = TreeBuilder(lights).build();
 }
@@ -255,8 +244,7 @@ Lights collect_lights(const Scene& scene, const Flattened& flat, const std::vect
   for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
     const PlacedShape& shape = flat.shapes[i];
     const double brightness = brightness_of(scene.materials[static_cast<std::size_t>(shape.material)]);
-    if (!(brightness > 0)) continue;
-    std::visit(Collector{out, shape.placement, origin, {brightness, first_element[i]}}, shape.shape);
+    if (brightness > 0) append_lights(out, shape, brightness, first_element[i], origin);
   }
   elements.light.assign(elements.material.size(), -1);
   for (int k = 0; k < out.count(); ++k) elements.light[out.element[k]] = k;

@@ -1,7 +1,6 @@
 #include "core/compile/overlap.h"
 
 #include "core/base/sampling.h"
-#include "core/compile/columns.h"
 #include "core/shapes/outline.h"
 
 #include <algorithm>
@@ -35,11 +34,10 @@ double distance_to_segment(Vec3d point, Vec3d start, Vec3d segment) {
 /// two of them counts as close.
 template <class Distance>
 bool comes_close(const RoundBody& body, const Distance& distance) {
-  const bool moves = length(body.motion) > 0;
-  const int count = moves ? moments : 0;
-  const double room = moves ? 0.5 * length(body.motion) / moments : 0;
+  const int count = length(body.motion) > 0 ? moments : 0;
+  const double room = 0.5 * length(body.motion) / moments;
   for (int i = 0; i <= count; ++i) {
-    const Vec3d center = body.center + (moves ? static_cast<double>(i) / moments : 0) * body.motion;
+    const Vec3d center = body.center + (static_cast<double>(i) / moments) * body.motion;
     if (distance(center) < body.radius * (1 - touching) + room) return true;
   }
   return false;
@@ -63,19 +61,12 @@ bool reaches_into(const PlacedShape& shape, const RoundBody& body) {
     const double own = body.radius * (1 - touching);
     return d.minimum < own + other.radius && d.greatest > other.radius - own;
   }
-  if (const std::optional<Quad<>> quad = frame_of_flat(shape)) {
-    const Vec3d corner = place(shape.placement, quad->corner);
-    const Vec3d u = rotate(shape.placement, quad->u), v = rotate(shape.placement, quad->v);
-    return comes_close(body, [&](Vec3d center) { return distance_to_flat(center, corner, u, v); });
-  }
-  const auto& box = std::get<Box<>>(shape.shape);
-  for (std::int32_t i = 0; i < 6; ++i) {
-    const BoxFace face = box_face_edges(box, i);
-    const Vec3d corner = place(shape.placement, face.corner);
-    const Vec3d u = rotate(shape.placement, face.u), v = rotate(shape.placement, face.v);
-    if (comes_close(body, [&](Vec3d center) { return distance_to_flat(center, corner, u, v); })) return true;
-  }
-  return false;
+  bool reaches = false;
+  each_face(shape, [&](const BoxFace& face, std::int32_t) {
+    reaches = reaches ||
+              comes_close(body, [&](Vec3d center) { return distance_to_flat(center, face.corner, face.u, face.v); });
+  });
+  return reaches;
 }
 
 bool reaches_into(const PlacedVolume& volume, const RoundBody& body) {
@@ -90,16 +81,8 @@ bool reaches_into(const PlacedVolume& volume, const RoundBody& body) {
 constexpr double flatness = 1e-6;  // of the longer half edge: so far apart two flats count as in one plane
 constexpr double parallel = 1e-5;  // sine of the angle between two planes that count as parallel
 
-Flat flat_at(std::size_t shape, const Placement& placement, Vec3d corner, Vec3d u, Vec3d v) {
-  const Vec3d half_u = 0.5 * rotate(placement, u), half_v = 0.5 * rotate(placement, v);
-  return {shape,
-          {place(placement, corner) + half_u + half_v, {half_u, half_v, {0, 0, 0}}},
-          length(half_u) + length(half_v)};
-}
-
 constexpr int rays = 64;
-constexpr double at_start =
-    1e-6;  // fraction of a way, from its start, in which flats do not block it: the light is there
+constexpr double at_start = 1e-6;  // fraction of a line in which flats do not block it: the light is there
 
 Vec3d middle_of(const RoundBody& body) { return body.center + 0.5 * body.motion; }
 
@@ -116,41 +99,21 @@ Vec3d light_point_at(const Lights& l, std::size_t k, Vec3d to_sphere, double u, 
   return to_double(l.corner[k]) + u * width * to_double(l.edge_u[k]) + v * height * to_double(l.edge_v[k]);
 }
 
-bool blocks(const RoundBody& body, Vec3d from, Vec3d segment) {
-  const Vec3d to = middle_of(body) - from, beyond = to - segment;
-  const double t = std::clamp(dot(to, segment) / dot(segment, segment), 0.0, 1.0), square = body.radius * body.radius;
-  const Vec3d apart = to - t * segment;
-  return dot(apart, apart) < square && dot(to, to) > square && dot(beyond, beyond) > square;
-}
+bool is_sphere(const Flat& obstacle) { return obstacle.block.edge[0] == Vec3d{}; }
 
-bool blocks(const Flat& flat, Vec3d from, Vec3d segment) {
-  const Vec3d u = flat.block.edge[0], v = flat.block.edge[1], normal = cross(u, v), to = flat.block.middle - from;
+bool blocks(const Flat& obstacle, Vec3d from, Vec3d segment) {
+  const Vec3d u = obstacle.block.edge[0], v = obstacle.block.edge[1], to = obstacle.block.middle - from;
+  if (is_sphere(obstacle)) {
+    const double t = std::clamp(dot(to, segment) / dot(segment, segment), 0.0, 1.0);
+    const double square = obstacle.radius * obstacle.radius;
+    const Vec3d apart = to - t * segment, beyond = to - segment;
+    return dot(apart, apart) < square && dot(to, to) > square && dot(beyond, beyond) > square;
+  }
+  const Vec3d normal = cross(u, v);
   const double t = dot(normal, to) / dot(normal, segment), square = dot(normal, normal);
   if (!(t > at_start && t < 1)) return false;
   const Vec3d at = t * segment - to;
   return std::abs(dot(cross(at, v), normal)) < square && std::abs(dot(cross(u, at), normal)) < square;
-}
-
-/// Returns the obstacles that are close enough to the lines of sight between two places to block one. reach: largest
-/// distance of such a line from the line between the places.
-Obstacles list_near(const Obstacles& all, Vec3d from, Vec3d to, double reach) {
-  const Vec3d segment = to - from;
-  const auto is_near = [&](Vec3d middle, double radius) {
-    const double t = std::clamp(dot(middle - from, segment) / dot(segment, segment), 0.0, 1.0);
-    return length(middle - from - t * segment) <= radius + reach;
-  };
-  Obstacles near;
-  std::copy_if(all.spheres.begin(), all.spheres.end(), std::back_inserter(near.spheres),
-               [&](const RoundBody& body) { return is_near(middle_of(body), body.radius); });
-  std::copy_if(all.flats.begin(), all.flats.end(), std::back_inserter(near.flats),
-               [&](const Flat& flat) { return is_near(flat.block.middle, flat.radius); });
-  return near;
-}
-
-bool is_blocked(const Obstacles& obstacles, Vec3d from, Vec3d segment) {
-  const auto blocks_segment = [&](const auto& obstacle) { return blocks(obstacle, from, segment); };
-  return std::any_of(obstacles.spheres.begin(), obstacles.spheres.end(), blocks_segment) ||
-         std::any_of(obstacles.flats.begin(), obstacles.flats.end(), blocks_segment);
 }
 
 }  // namespace
@@ -162,19 +125,6 @@ double distance_to_flat(Vec3d point, Vec3d corner, Vec3d u, Vec3d v) {
   if (a >= 0 && a <= 1 && b >= 0 && b <= 1) return std::abs(dot(from, n)) / std::sqrt(squared);
   return std::min({distance_to_segment(point, corner, u), distance_to_segment(point, corner, v),
                    distance_to_segment(point, corner + u, v), distance_to_segment(point, corner + v, u)});
-}
-
-std::optional<Quad<>> frame_of_flat(const PlacedShape& placed) {
-  return std::visit(
-      []<class Shape>(const Shape& shape) -> std::optional<Quad<>> {
-        if constexpr (std::is_same_v<Shape, Quad<>>)
-          return shape;
-        else if constexpr (has_outline<Shape>)
-          return frame_of(shape);
-        else
-          return {};
-      },
-      placed.shape);
 }
 
 RoundBody round_body(const Sphere<>& s, const Placement& placement) {
@@ -216,16 +166,11 @@ bool are_apart(const Block& a, const Block& b) {
 
 std::vector<Flat> list_flats(const Flattened& flat) {
   std::vector<Flat> flats;
-  for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
-    const PlacedShape& shape = flat.shapes[i];
-    if (const std::optional<Quad<>> quad = frame_of_flat(shape))
-      flats.push_back(flat_at(i, shape.placement, quad->corner, quad->u, quad->v));
-    const auto* box = std::get_if<Box<>>(&shape.shape);
-    for (std::int32_t k = 0; box && k < 6; ++k) {
-      const BoxFace face = box_face_edges(*box, k);
-      flats.push_back(flat_at(i, shape.placement, face.corner, face.u, face.v));
-    }
-  }
+  for (std::size_t i = 0; i < flat.shapes.size(); ++i)
+    each_face(flat.shapes[i], [&](const BoxFace& face, std::int32_t) {
+      const Vec3d u = 0.5 * face.u, v = 0.5 * face.v;
+      flats.push_back({i, {face.corner + u + v, {u, v, {0, 0, 0}}}, length(u) + length(v)});
+    });
   return flats;
 }
 
@@ -242,10 +187,12 @@ bool is_covered(const Block& own, std::size_t shape, const std::vector<Flat>& fl
 }
 
 Obstacles list_obstacles(const Flattened& flat) {
-  Obstacles list{{}, list_flats(flat)};
-  for (const PlacedShape& shape : flat.shapes)
-    if (const auto* sphere = std::get_if<Sphere<>>(&shape.shape))
-      list.spheres.push_back(round_body(*sphere, shape.placement));
+  Obstacles list = list_flats(flat);
+  for (std::size_t i = 0; i < flat.shapes.size(); ++i)
+    if (const auto* sphere = std::get_if<Sphere<>>(&flat.shapes[i].shape)) {
+      const RoundBody body = round_body(*sphere, flat.shapes[i].placement);
+      list.push_back({i, {middle_of(body), {}}, body.radius});
+    }
   return list;
 }
 
@@ -253,10 +200,14 @@ double visible_fraction(const Obstacles& obstacles, const Lights& lights, std::s
                         const RoundBody& sphere) {
   const Vec3d target = middle_of(sphere), light_center = to_double(lights.center[light]) + origin;
   if (length(target - light_center) < sphere.radius) return 1;
-  const double light_radius = std::sqrt(static_cast<double>(lights.reach2[light]));
-  Obstacles near = list_near(obstacles, light_center, target, std::max(sphere.radius, light_radius));
-  std::erase_if(near.spheres,
-                [&](const RoundBody& body) { return length(middle_of(body) - target) + body.radius <= sphere.radius; });
+  // The lines are at most so far from the line between the middles.
+  const double reach = std::max(sphere.radius, std::sqrt(static_cast<double>(lights.reach2[light])));
+  Obstacles near;
+  std::copy_if(obstacles.begin(), obstacles.end(), std::back_inserter(near), [&](const Flat& one) {
+    const Vec3d middle = one.block.middle;
+    if (is_sphere(one) && length(middle - target) + one.radius <= sphere.radius) return false;
+    return distance_to_segment(middle, light_center, target - light_center) <= one.radius + reach;
+  });
   const Vec3d to_sphere = normalize(target - light_center);
   int open = 0;
   for (int i = 0; i < rays; ++i) {
@@ -265,7 +216,7 @@ double visible_fraction(const Obstacles& obstacles, const Lights& lights, std::s
     const auto part = [i](double step) { return std::fmod((i + 0.5) * step, 1.0); };
     const Vec3d from = light_point_at(lights, light, to_sphere, part(0.8566749), part(0.7338919)) + origin;
     const Vec3d to = target + sphere.radius * on_disc(to_sphere, part(0.6287067), part(0.5385973));
-    if (!is_blocked(near, from, to - from)) ++open;
+    if (std::none_of(near.begin(), near.end(), [&](const Flat& one) { return blocks(one, from, to - from); })) ++open;
   }
   return std::max(open, 1) / static_cast<double>(rays);
 }

@@ -1,19 +1,14 @@
 #pragma once
-#include "core/compile/flatten.h"
-#include "core/compile/render_scene.h"
+#include "core/compile/columns.h"
 
 #include <array>
 #include <initializer_list>
-#include <optional>
 #include <vector>
 
 /// Tests for overlap: whether a shape or medium reaches into a sphere at any time from 0 to 1, and whether boxes and
-/// flats meet or coincide; and how much of a light a sphere sees past the rest of the scene.
+/// flats meet or coincide; and how much of a light a sphere sees past the rest of the scene. They take the whole
+/// parallelogram around triangles and disks, for which they may wrongly be true.
 namespace tyndall {
-
-/// A quad itself, or the parallelogram around a triangle or disk, in the shape's own frame; nothing for other shapes.
-/// Tests for overlap take the whole parallelogram, so that for triangles and disks they may wrongly be true.
-std::optional<Quad<>> frame_of_flat(const PlacedShape& shape);
 
 /// A sphere in world space that moves from `center` to `center + motion` while time runs from 0 to 1.
 struct RoundBody {
@@ -54,11 +49,8 @@ std::vector<Flat> list_flats(const Flattened& flat);
 /// the two a ray hits. shape: index of the shape to which the parallelogram belongs.
 bool is_covered(const Block& parallelogram, std::size_t shape, const std::vector<Flat>& flats);
 
-/// All surfaces of a scene, which may block a line of sight.
-struct Obstacles {
-  std::vector<RoundBody> spheres;
-  std::vector<Flat> flats;
-};
+/// All surfaces of a scene, which may block a line of sight. Spheres are blocks without edges.
+using Obstacles = std::vector<Flat>;
 Obstacles list_obstacles(const Flattened& flat);
 
 /// Returns the fraction, in (0, 1], of the lines of sight from a light to a sphere that nothing blocks, estimated from

@@ -1,7 +1,7 @@
-#include "core/base/math.h"
 #include "core/compile/columns.h"
-#include "core/compile/sky_texels.h"
-#include "core/compile/sun.h"
+
+#include "core/base/elementary.h"
+#include "core/base/math.h"
 
 #include <algorithm>
 #include <bit>
@@ -10,7 +10,115 @@
 namespace tyndall {
 namespace {
 
-constexpr int min_rows = 128;  // so that few rows of texels still follow the sine of the polar angle
+constexpr double max_tangent = 0.12;        // of half the angle that the sun fills; BSDF sampling finds wider suns well
+constexpr double min_brightness = 1 / 8.0;  // of the sun's texels, over that of its brightest one
+constexpr double min_sun = 0.05;            // fraction of the sky's light from which on specular paths look for the sun
+constexpr int min_rows = 128;               // so that few rows of texels still follow the sine of the polar angle
+
+/// By the kernels' polynomials, not by the C library, so that all processors compute the same.
+SinCos<double> sin_cos_of_revolutions(double revolutions) {
+  const SinCos<float> a = sin_cos_2pi(static_cast<float>(revolutions));
+  return {static_cast<double>(a.sin), static_cast<double>(a.cos)};
+}
+
+/// Sine of the polar angle in the middle of a row, of `rows` from the top.
+double sine_of_row(int row, int rows) { return sin_cos_of_revolutions(0.5 * (row + 0.5) / rows).sin; }
+
+/// The texels of a picture of the sky, and the directions of their middles before the sky's turn (core/trace/sky.h).
+class SkyTexels {
+ public:
+  explicit SkyTexels(const Image::Pixels& pixels) : width(pixels.width), height(pixels.height), rgb_(pixels.rgb) {}
+
+  const int width, height;
+
+  Vec3f rgb(int x, int y) const {
+    const float* c =
+        &rgb_[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x))];
+    return {c[0], c[1], c[2]};
+  }
+  double largest(int x, int y) const { return static_cast<double>(max_component(rgb(x, y))); }
+
+  /// Solid angle of each texel of a row, in steradians.
+  double solid_angle(int y) const { return 2 * pi * pi / width / height * sine_of_row(y, height); }
+
+  /// Unit.
+  Vec3d towards(int x, int y) const {
+    const SinCos<double> around = sin_cos_of_revolutions((x + 0.5) / width),
+                         polar = sin_cos_of_revolutions(0.5 * (y + 0.5) / height);
+    return {-polar.sin * around.sin, polar.cos, polar.sin * around.cos};
+  }
+
+ private:
+  const std::vector<float>& rgb_;
+};
+
+struct Texel {
+  int x = 0, y = 0;
+  double luminance = 0;
+};
+
+void each_texel(const SkyTexels& texels, const auto& visit) {
+  for (int y = 0; y < texels.height; ++y)
+    for (int x = 0; x < texels.width; ++x) {
+      const Vec3f c = texels.rgb(x, y);
+      const Vec3d rgb{static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.z)};
+      visit(Texel{x, y, sky_luminance(rgb, 1.0)});
+    }
+}
+
+/// The bright texels around the brightest one; none if the picture is black.
+std::vector<Texel> list_bright_texels(const SkyTexels& texels) {
+  Texel brightest;
+  each_texel(texels, [&](const Texel& t) {
+    if (t.luminance > brightest.luminance) brightest = t;
+  });
+  std::vector<Texel> list;
+  if (!(brightest.luminance > 0)) return list;
+  const Vec3d middle = texels.towards(brightest.x, brightest.y);
+  each_texel(texels, [&](const Texel& t) {
+    if (t.luminance < min_brightness * brightest.luminance) return;
+    if (length(texels.towards(t.x, t.y) - middle) < 2 * max_tangent) list.push_back(t);
+  });
+  return list;
+}
+
+/// The largest tangent, by either edge, at which a texel still adds to the sky's bilinear radiance.
+double reach_of(const SkySun& sun, const SkyTexels& texels, const Texel& t) {
+  double largest = 0;
+  for (int y = std::max(t.y - 1, 0); y <= std::min(t.y + 1, texels.height - 1); ++y)
+    for (int x = t.x - 1; x <= t.x + 1; ++x) {
+      const Vec3d d = texels.towards((x + texels.width) % texels.width, y);
+      const double ahead = dot(d, sun.axis);
+      if (!(ahead > 0.5)) return 1;
+      largest = std::max({largest, std::abs(dot(d, sun.edge_u)) / ahead, std::abs(dot(d, sun.edge_v)) / ahead});
+    }
+  return largest;
+}
+
+/// Finds the brightest spot of a picture of the sky if it is small; else returns a sun whose tangent is 0. Its
+/// irradiance is left at 0.
+SkySun find_sun(const SkyTexels& texels) {
+  const std::vector<Texel> bright = list_bright_texels(texels);
+  if (bright.empty()) return {};
+  Vec3d sum{0, 0, 0};
+  for (const Texel& t : bright) sum = sum + t.luminance * texels.solid_angle(t.y) * texels.towards(t.x, t.y);
+  SkySun sun;
+  sun.axis = normalize(sum);
+  const Vec3d level = cross(Vec3d{0, 1, 0}, sun.axis);
+  sun.edge_v = normalize(cross(sun.axis, length(level) > 1e-3 ? level : Vec3d{1, 0, 0}));
+  sun.edge_u = cross(sun.edge_v, sun.axis);
+  for (const Texel& t : bright) {
+    sun.tangent = std::max(sun.tangent, reach_of(sun, texels, t));
+    if (sun.tangent > max_tangent) return {};
+  }
+  return sun;
+}
+
+/// Whether a direction (unit, before the sky's turn) lies in the sun's square.
+bool is_in_sun(const SkySun& sun, Vec3d direction) {
+  const double reach = sun.tangent * dot(direction, sun.axis);
+  return std::abs(dot(direction, sun.edge_u)) < reach && std::abs(dot(direction, sun.edge_v)) < reach;
+}
 
 /// Shares SkyDistribution::draws among cells in proportion to their weights. Returns where each cell's draws begin, and
 /// behind the last cell where all end. A cell of positive weight gets at least one draw, so that it can be drawn; the
@@ -46,8 +154,6 @@ struct Light {
 };
 
 int largest_power_of_two(int up_to) { return static_cast<int>(std::bit_floor(static_cast<unsigned>(up_to))); }
-
-constexpr double min_sun = 0.05;  // fraction of the sky's light from which on specular paths look for the sun
 
 class DistributionBuilder {
  public:
@@ -103,7 +209,9 @@ class DistributionBuilder {
     Light sun, rest;
     for (int y = 0; y < texels_.height; ++y) {
       const double solid_angle = texels_.solid_angle(y);
-      const bool has_sun = row_has_sun(out_.sun, y, texels_.height);
+      // The sun's corners are at most atan(sqrt(2) tangent) from its middle.
+      const double apart = std::abs(arc_cosine(out_.sun.axis.y) - pi * (y + 0.5) / texels_.height);
+      const bool has_sun = out_.sun.tangent > 0 && apart < 1.5 * out_.sun.tangent;
       for (int x = 0; x < texels_.width; ++x)
         (has_sun && is_in_sun(out_.sun, texels_.towards(x, y)) ? sun : rest).add(texels_.largest(x, y), solid_angle);
     }

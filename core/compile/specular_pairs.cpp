@@ -2,7 +2,7 @@
 
 #include "core/compile/columns.h"
 #include "core/compile/flat_objects.h"
-#include "core/compile/lights.h"
+#include "core/compile/overlap.h"
 
 #include <algorithm>
 #include <cmath>

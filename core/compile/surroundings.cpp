@@ -37,47 +37,27 @@ class NearestSurface {
     const double size = std::max(largest_component(center - origin_), radius);
     keep((1 / distance) * arm, distance - radius, 1 / radius, size, element);
   }
-  void look_at(const Quad<>& quad, const Placement& placement, std::int32_t element) {
-    look_at_flat(place(placement, quad.corner), rotate(placement, quad.u), rotate(placement, quad.v), element);
-  }
-  template <class Shape>
-  requires has_outline<Shape>
-  void look_at(const Shape& shape, const Placement& placement, std::int32_t element) {
-    if (holds_lens(frame_of(shape), outline_of(shape), placement)) look_at(frame_of(shape), placement, element);
-  }
-  void look_at(const Box<>& box, const Placement& placement, std::int32_t element) {
-    for (std::int32_t i = 0; i < 6; ++i) {
-      const BoxFace face = box_face_edges(box, i);
-      look_at_flat(place(placement, face.corner), rotate(placement, face.u), rotate(placement, face.v), element + i);
-    }
+  /// outline: of the shape of which the face is the frame; nothing: there is none.
+  void look_at(const BoxFace& face, const std::optional<Outline>& outline, std::int32_t element) {
+    const Vec3d arm = eye_ - face.corner;
+    const Reciprocal r = reciprocal_edges(face.u, face.v);
+    const double room_a = lens_ * length(r.a), room_b = lens_ * length(r.b), a = dot(r.a, arm), b = dot(r.b, arm);
+    if (a < room_a || a > 1 - room_a || b < room_b || b > 1 - room_b) return;
+    // The middle and the corners of a rectangle around the lens have to lie within the outline.
+    const double x = 2 * a - 1, y = 2 * b - 1;
+    if (outline && !within(*outline, x, y)) return;
+    for (const double i : {-2 * room_a, 2 * room_a})
+      for (const double k : {-2 * room_b, 2 * room_b})
+        if (outline && !within(*outline, x + i, y + k)) return;
+    const Vec3d normal = normalize(cross(face.u, face.v)), from = face.corner - origin_;
+    const double size = std::max(largest_component(from), largest_component(from + face.u + face.v));
+    keep(normal, dot(normal, arm), 0, size, element);
   }
 
  private:
   const Camera& camera_;
   Vec3d eye_, origin_;
   double lens_;
-
-  void look_at_flat(Vec3d corner, Vec3d u, Vec3d v, std::int32_t element) {
-    const Vec3d arm = eye_ - corner;
-    const Reciprocal r = reciprocal_edges(u, v);
-    const double room_a = lens_ * length(r.a), room_b = lens_ * length(r.b), a = dot(r.a, arm), b = dot(r.b, arm);
-    if (a < room_a || a > 1 - room_a || b < room_b || b > 1 - room_b) return;
-    const Vec3d normal = normalize(cross(u, v)), from = corner - origin_;
-    const double size = std::max(largest_component(from), largest_component(from + u + v));
-    keep(normal, dot(normal, arm), 0, size, element);
-  }
-
-  /// Whether the middle and the corners of a rectangle around the lens lie within the outline.
-  bool holds_lens(const Quad<>& frame, const Outline& outline, const Placement& placement) const {
-    const Vec3d arm = eye_ - place(placement, frame.corner);
-    const Reciprocal r = reciprocal_edges(rotate(placement, frame.u), rotate(placement, frame.v));
-    const double x = 2 * dot(r.a, arm) - 1, y = 2 * dot(r.b, arm) - 1;
-    const double room_x = 2 * lens_ * length(r.a), room_y = 2 * lens_ * length(r.b);
-    bool holds = within(outline, x, y);
-    for (const double i : {-room_x, room_x})
-      for (const double k : {-room_y, room_y}) holds = holds && within(outline, x + i, y + k);
-    return holds;
-  }
 
   /// size: the largest number that is rounded in tests of rays against the surface. curvature: 0 for flats.
   void keep(Vec3d normal, double height, double curvature, double size, std::int32_t element) {
@@ -113,9 +93,19 @@ Reach reach_of(const Extent& extent, Vec3d normal, Vec3d on_plane) {
 CameraSurface camera_surface(const Flattened& flat, const std::vector<std::int32_t>& first_element,
                              const Camera& camera, Vec3d origin) {
   NearestSurface nearest(camera, origin);
-  for (std::size_t i = 0; i < flat.shapes.size(); ++i)
-    std::visit([&](const auto& shape) { nearest.look_at(shape, flat.shapes[i].placement, first_element[i]); },
-               flat.shapes[i].shape);
+  for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
+    const PlacedShape& placed = flat.shapes[i];
+    if (const auto* sphere = std::get_if<Sphere<>>(&placed.shape))
+      nearest.look_at(*sphere, placed.placement, first_element[i]);
+    std::optional<Outline> outline;
+    std::visit(
+        [&]<class Shape>(const Shape& shape) {
+          if constexpr (has_outline<Shape>) outline = outline_of(shape);
+        },
+        placed.shape);
+    each_face(placed,
+              [&](const BoxFace& face, std::int32_t k) { nearest.look_at(face, outline, first_element[i] + k); });
+  }
   return nearest.found;
 }
 

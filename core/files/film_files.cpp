@@ -5,7 +5,6 @@
 #include "core/base/target.h"
 #include "core/base/text.h"
 #include "core/compile/compile.h"
-#include "core/files/stats.h"
 #include "core/render/clean_film.h"
 #include "core/render/plan.h"
 #include "core/scene/json_tree.h"
@@ -29,13 +28,6 @@ Scene stripped(Scene scene) {
   scene.render.spp.reset();
   each_picture(scene, [](auto& picture) { picture.file.clear(), picture.pixels.reset(); });
   return scene;
-}
-
-/// Whether the text that a film carries has a render setting. Films from before there was a choice do not: they left
-/// caustics to chance, and shared nothing.
-bool says(const std::string& text, const char* setting) {
-  const JsonDocument json = parse_json(text);
-  return find(find(&json.root, "render"), setting) != nullptr;
 }
 
 /// Whether there is light that RenderSettings::caustics says how to find.
@@ -96,8 +88,11 @@ FilmLabel label_of(const std::filesystem::path& file) {
 StoredFilm with_scene(const std::filesystem::path& file, Film film) {
   LoadedScene loaded = load_scene(file.string());
   Scene scene = move_textures(loaded.scene, loaded.folder, ".");
-  if (!says(loaded.text, "caustics")) scene.render.caustics = Caustics::scatter;
-  if (!says(loaded.text, "sharing")) scene.render.sharing = false;
+  // Films from before there was a choice do not say these settings: they left caustics to chance, and shared nothing.
+  const JsonDocument json = parse_json(loaded.text);
+  const JsonValue* render = find(&json.root, "render");
+  if (!find(render, "caustics")) scene.render.caustics = Caustics::scatter;
+  if (!find(render, "sharing")) scene.render.sharing = false;
   return {{file.string(), std::move(film)}, scene, label_of(file), contents_remark(loaded)};
 }
 
@@ -121,6 +116,27 @@ std::string both_of(const std::string& a, const std::string& b) {
   names.merge(names_in(b));
   if (names.size() == 1) return *names.begin();
   return std::string(several) + joined({names.begin(), names.end()});
+}
+
+/// Layers of an EXR: those of the scene and, if there is one, the clean view with its error.
+std::vector<Layer> all_layers(const Picture& picture) {
+  std::vector<Layer> layers;
+  if (picture.layers) layers = picture.layers();
+  if (!picture.clean) return layers;
+  Layer clean{"denoised", {"R", "G", "B", "error"}, {}};
+  clean.values.reserve(4 * picture.clean->pixel_error.size());
+  for (std::size_t i = 0; i < picture.clean->pixel_error.size(); ++i) {
+    const float* rgb = picture.clean->rgb.data() + 3 * i;
+    clean.values.insert(clean.values.end(), {rgb[0], rgb[1], rgb[2], picture.clean->pixel_error[i]});
+  }
+  layers.push_back(std::move(clean));
+  return layers;
+}
+
+/// What files of one picture show.
+LinearImage shown(const Picture& picture) {
+  if (!picture.clean) return picture.image;
+  return {picture.clean->width, picture.clean->height, picture.clean->rgb};
 }
 
 }  // namespace
@@ -187,6 +203,38 @@ CleanOfFilm clean_view(const Film& film, const Scene& scene, const std::string& 
   CleanOfFilm clean{clean_film(film, *prepared, threads, isa)};
   clean.seconds = seconds_since(start);
   return clean;
+}
+
+bool is_exr(const std::filesystem::path& file) { return image_ending(file, {}) == ".exr"; }
+
+std::string image_ending(const std::filesystem::path& file, const ImageForm& form) {
+  return lower_case(file == "-" ? "." + form.format : file.extension().string());
+}
+
+void write_picture(const Picture& picture, const std::string& kind, const std::filesystem::path& file) {
+  const Display& display = picture.display;
+  const Region& region = picture.film.region;
+  const auto dither = display.dither ? std::optional(DitherOrigin{region.x0, region.y0}) : std::nullopt;
+  if (kind == ".exr") {
+    Embedded embedded = picture.embedded(file);
+    embedded.film = picture.form.exr_film;
+    write_exr(file, picture.film, all_layers(picture), embedded, &picture.image);
+  } else if (kind == ".png")
+    write_png(file, shown(picture), display.exposure, display.tone_map, picture.embedded(file), dither);
+  else if (kind == ".ppm")
+    write_ppm(file, shown(picture), display.exposure, display.tone_map, picture.form.ppm, dither);
+  else if (kind == ".pfm")
+    write_pfm(file, shown(picture));
+  else
+    write_hdr(file, shown(picture));
+}
+
+void write_picture(const Picture& picture, const std::filesystem::path& file) {
+  const std::string kind = image_ending(file, picture.form);
+  if (!is_image_output(file) || (kind == ".exr" && !has_openexr()))
+    throw UsageError(file.string() + ": found this name, expected one that ends in .png, .exr, .pfm, .hdr or .ppm" +
+                     (has_openexr() ? "" : "; .exr not, as this build has no OpenEXR"));
+  write_picture(picture, kind, file);
 }
 
 }  // namespace tyndall

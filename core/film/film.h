@@ -1,14 +1,61 @@
 #pragma once
 #include "core/base/vec.h"
-#include "core/film/exact_sum.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <vector>
 
-/// What a render gathers: exact sums of each pixel's samples, and their counts.
+/// What a render gathers: exact sums of each pixel's samples, and their counts; and how the films of several machines
+/// or runs become one. The sums are equal to the last bit whatever the order of their numbers, so that threads, tiles,
+/// pauses and machines cannot change a picture.
 namespace tyndall {
+
+/// A sum in fixed point, held as two integers: `high` counts 2^-29 of the film's `quantum`, `low` counts 2^-61 of it.
+/// Smaller bits of each number are cut off before it is added. 2^24 numbers below 2^30 quanta fit if their sum is below
+/// 2^34 quanta. The samples of a pixel meet this: their mean is at most one quantum, so that a sample of 2^30 quanta
+/// has a probability of at most 2^-30, and 16 of them among 2^24 samples one of 2^-140.
+struct ExactSum {
+  std::int64_t high = 0, low = 0;
+
+  /// x: the number divided by the film's quantum, |x| < 2^30.
+  TYNDALL_INLINE void add(double x) {
+    const double scaled = x * 0x1p29;
+    const auto whole = static_cast<std::int64_t>(scaled);
+    high += whole;
+    low += static_cast<std::int64_t>((scaled - static_cast<double>(whole)) * 0x1p32);
+  }
+  TYNDALL_INLINE void add(const ExactSum& other) {
+    high += other.high;
+    low += other.low;
+  }
+  /// The sum divided by the film's quantum, rounded to double.
+  double value() const { return static_cast<double>(high) * 0x1p-29 + static_cast<double>(low) * 0x1p-61; }
+  bool operator==(const ExactSum&) const = default;
+};
+
+// Four numbers side by side: the compiler computes with all of them at once if the CPU can.
+using FourDoubles [[gnu::vector_size(32)]] = double;
+using FourIntegers [[gnu::vector_size(32)]] = std::int64_t;
+using TwoIntegers [[gnu::vector_size(16)]] = std::int64_t;
+
+/// Adds a number to each of three sums, as ExactSum::add() does.
+TYNDALL_INLINE void add_each(ExactSum (&to)[3], double x, double y, double z) {
+  const FourDoubles scaled = FourDoubles{x, y, z, 0} * 0x1p29;
+  const auto whole = __builtin_convertvector(scaled, FourIntegers);
+  const FourDoubles rest = (scaled - __builtin_convertvector(whole, FourDoubles)) * 0x1p32;
+  const auto low = __builtin_convertvector(rest, FourIntegers);
+  void *const of_xy = &to[0], *const of_z = &to[2];
+  FourIntegers xy;
+  TwoIntegers z_alone;
+  __builtin_memcpy(&xy, of_xy, sizeof xy), __builtin_memcpy(&z_alone, of_z, sizeof z_alone);
+  xy += __builtin_shufflevector(whole, low, 0, 4, 1, 5);
+  z_alone += __builtin_shufflevector(whole, low, 2, 6);
+  __builtin_memcpy(of_xy, &xy, sizeof xy), __builtin_memcpy(of_z, &z_alone, sizeof z_alone);
+}
 
 /// Pixels x0 <= x < x1, y0 <= y < y1 of the full image, y down.
 struct Region {
@@ -159,5 +206,24 @@ inline std::size_t planned_cells(const Region& region) {
   return planned_columns(region) *
          static_cast<std::size_t>((region.height() + planned_cell_edge - 1) / planned_cell_edge);
 }
+
+/// A film and its name in messages (its file).
+struct FilmPart {
+  std::string name;
+  Film film;
+};
+
+/// The parts do not make one picture. what() is one line: "NAME: found X, expected Y".
+struct MergeError : std::runtime_error {
+  using runtime_error::runtime_error;
+};
+
+/// The film of all samples of all parts, which may come in any order: bit for bit the film that one run would have
+/// gathered. The parts must have the same image, region and quantum, and their sample ranges must follow each other
+/// without overlap or gap; an empty part (no samples) adds nothing. Emission is kept if all parts that are not empty
+/// have it. frames: at least one part; each film without its pixels and emission. read(index): returns the whole film
+/// of that part; called once for each, in the order of their samples, with at most two of these films in memory at a
+/// time. Throws MergeError.
+Film merge(const std::vector<FilmPart>& frames, const std::function<Film(std::size_t index)>& read);
 
 }  // namespace tyndall

@@ -130,38 +130,29 @@ void check_names(const Place& at, const std::vector<T>& things) {
     if (!names.insert(thing.name).second) fail({at, thing.name}, "this name twice", "each name once");
 }
 
-void check_shape(const Place& at, const Sphere<>& sphere) { check_fields(at, sphere); }
-/// A shape of two sides. side, sides: what messages call one and both.
-template <class Flat>
-void check_flat(const Place& at, const Flat& shape, const std::string& side, const std::string& sides) {
+template <class Shape>
+void check_shape(const Place& at, const Shape& shape) {
   check_fields(at, shape);
-  if (!parallel(shape.u, shape.v)) return;
-  const bool no_length = shape.u == Vec3d{} || shape.v == Vec3d{};
-  fail(at, std::string("a ") + Flat::type + " with " + (no_length ? side + " of length 0" : "parallel " + sides),
-       sides + " u and v that span an area");
-}
-void check_shape(const Place& at, const Quad<>& quad) { check_flat(at, quad, "an edge", "edges"); }
-void check_shape(const Place& at, const Triangle<>& triangle) { check_flat(at, triangle, "an edge", "edges"); }
-void check_shape(const Place& at, const Disk<>& disk) { check_flat(at, disk, "a half axis", "half axes"); }
-void check_shape(const Place& at, const Box<>& box) {
-  check_fields(at, box);
-  const double low[3] = {box.min.x, box.min.y, box.min.z}, high[3] = {box.max.x, box.max.y, box.max.z};
-  const Place max{at, "max"};
-  for (std::size_t i = 0; i < 3; ++i)
-    if (!(low[i] < high[i]))
-      fail({max, i}, number_text(high[i]), "a number > " + number_text(low[i]) + " (min on this axis)");
+  if constexpr (std::is_same_v<Shape, Box<>>) {
+    const double low[3] = {shape.min.x, shape.min.y, shape.min.z}, high[3] = {shape.max.x, shape.max.y, shape.max.z};
+    const Place max{at, "max"};
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!(low[i] < high[i]))
+        fail({max, i}, number_text(high[i]), "a number > " + number_text(low[i]) + " (min on this axis)");
+  } else if constexpr (!std::is_same_v<Shape, Sphere<>>) {
+    if (!parallel(shape.u, shape.v)) return;
+    constexpr bool disk = std::is_same_v<Shape, Disk<>>;
+    const std::string side = disk ? "a half axis" : "an edge", sides = disk ? "half axes" : "edges";
+    const bool no_length = shape.u == Vec3d{} || shape.v == Vec3d{};
+    fail(at, std::string("a ") + Shape::type + " with " + (no_length ? side + " of length 0" : "parallel " + sides),
+         sides + " u and v that span an area");
+  }
 }
 
 void check_transform(const Place& at, const Transform& transform) {
   const Place here{at, "transform"};
   for (std::size_t i = 0; i < transform.size(); ++i)
     std::visit([&](const auto& move) { check_fields({here, i}, move); }, transform[i]);
-}
-
-void check_solid(const Place& at, const Solid3d& solid, const Scene& scene) {
-  std::visit([&](const auto& shape) { check_shape(at, shape); }, solid.shape);
-  if (solid.material < 0 || static_cast<std::size_t>(solid.material) >= scene.materials.size())
-    fail({at, "material"}, "material number " + std::to_string(solid.material), "a material of the scene");
 }
 
 void check_volume(const Place& at, const Volume& volume, const Scene& scene) {
@@ -185,12 +176,18 @@ void check_objects(const Place& at, const std::vector<Object>& objects, const Sc
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Place here{at, i};
     const Object& object = objects[i];
-    std::visit(Overloaded{[&](const Solid3d& solid) { check_solid(here, solid, scene); },
-                          [&](const Volume& volume) { check_volume(here, volume, scene); },
-                          [&](const Group& group) {
-                            check_objects({here, "objects"}, group.objects, scene);
-                          }},
-               object.kind);
+    std::visit(
+        Overloaded{[&](const Solid3d& solid) {
+                     std::visit([&](const auto& shape) { check_shape(here, shape); }, solid.shape);
+                     if (solid.material < 0 || static_cast<std::size_t>(solid.material) >= scene.materials.size())
+                       fail({here, "material"}, "material number " + std::to_string(solid.material),
+                            "a material of the scene");
+                   },
+                   [&](const Volume& volume) { check_volume(here, volume, scene); },
+                   [&](const Group& group) {
+                     check_objects({here, "objects"}, group.objects, scene);
+                   }},
+        object.kind);
     check_transform(here, object.transform);
   }
 }

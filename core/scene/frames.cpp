@@ -4,10 +4,10 @@
 #include "core/base/text.h"
 #include "core/scene/check.h"
 #include "core/scene/json_read.h"
-#include "core/scene/json_tree.h"
-#include "core/scene/pointer_values.h"
+#include "core/scene/slots.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -16,7 +16,33 @@
 namespace tyndall {
 namespace {
 
-constexpr const char* look_from = "/camera/look_from";
+/// Whether both cameras see the same. A camera without a lens has everything in focus, wherever it is focused.
+bool same_view(const Camera& a, Camera b) {
+  if (a.defocus_angle == 0 && b.defocus_angle == 0) b.focus_distance = a.focus_distance;
+  return a == b;
+}
+
+/// Slope of component c between key k and the next one.
+double secant(const std::vector<KeyFrame>& keys, std::size_t k, std::size_t c) {
+  return (keys[k + 1].value[c] - keys[k].value[c]) / (keys[k + 1].frame - keys[k].frame);
+}
+
+/// Slope of component c at key k: see value_at().
+double slope_at(const std::vector<KeyFrame>& keys, std::size_t k, std::size_t c) {
+  if (k == 0 || k + 1 == keys.size()) return 0;
+  const double before = secant(keys, k - 1, c), after = secant(keys, k, c);
+  if (!(before * after > 0)) return 0;
+  const double h0 = keys[k].frame - keys[k - 1].frame, h1 = keys[k + 1].frame - keys[k].frame;
+  const double w0 = h0 + 2 * h1, w1 = 2 * h0 + h1;
+  return (w0 + w1) / (w0 / before + w1 / after);
+}
+
+double hermite(double t, double h, double from, double to, double slope_from, double slope_to) {
+  const double s = 1 - t;
+  const double value =
+      s * s * (1 + 2 * t) * from + t * t * (3 - 2 * t) * to + h * t * s * (s * slope_from - t * slope_to);
+  return std::clamp(value, std::min(from, to), std::max(from, to));  // rounding alone
+}
 
 Vec3d vector_of(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
 
@@ -44,15 +70,22 @@ struct AxisFrame {
   }
 };
 
+Vec3d look_at(const Scene& scene, double time) {
+  const KeyedValue* target = find_keys(*scene.animation, "/camera/look_at");
+  return target ? vector_of(value_at(*target, scene.animation->curve, time)) : scene.camera.look_at;
+}
+
+bool is_at_key(const KeyedValue& keyed, double time) {
+  return std::any_of(keyed.keys.begin(), keyed.keys.end(), [&](const KeyFrame& key) { return key.frame == time; });
+}
+
 /// The keys of look_from as spherical coordinates around look_at, which may have keys of its own. From key to key the
 /// camera goes around the shorter way.
 KeyedValue spherical_keys(const KeyedValue& keyed, const Scene& scene, const AxisFrame& frame) {
-  const KeyedValue* target = find_keys(*scene.animation, "/camera/look_at");
   KeyedValue out = keyed;
   double before = 0;
   for (KeyFrame& key : out.keys) {
-    const Vec3d at = target ? vector_of(value_at(*target, scene.animation->curve, key.frame)) : scene.camera.look_at;
-    Spherical s = frame.spherical(vector_of(key.value) - at);
+    Spherical s = frame.spherical(vector_of(key.value) - look_at(scene, key.frame));
     if (&key != out.keys.data()) s.around = before + std::remainder(s.around - before, 2 * std::numbers::pi);
     before = s.around;
     key.value = {s.length, s.around, s.from_axis};
@@ -62,48 +95,90 @@ KeyedValue spherical_keys(const KeyedValue& keyed, const Scene& scene, const Axi
 
 std::vector<double> keyed_value(const KeyedValue& keyed, const Scene& scene, double time) {
   const Animation& animation = *scene.animation;
-  const bool on_key =
-      std::any_of(keyed.keys.begin(), keyed.keys.end(), [&](const KeyFrame& k) { return k.frame == time; });
-  if (!animation.orbit || keyed.pointer != look_from || keyed.keys[0].value.size() != 3 || on_key)
+  if (!animation.orbit || keyed.pointer != "/camera/look_from" || keyed.keys[0].value.size() != 3 ||
+      is_at_key(keyed, time))
     return value_at(keyed, animation.curve, time);
   const AxisFrame frame(scene.camera.vup);
   const std::vector<double> s = value_at(spherical_keys(keyed, scene, frame), animation.curve, time);
-  const KeyedValue* target = find_keys(animation, "/camera/look_at");
-  const Vec3d at = target ? vector_of(value_at(*target, animation.curve, time)) : scene.camera.look_at;
-  const Vec3d place = at + frame.vector({s[0], s[1], s[2]});
+  const Vec3d place = look_at(scene, time) + frame.vector({s[0], s[1], s[2]});
   return {place.x, place.y, place.z};
-}
-
-JsonValue json_of(const std::vector<double>& value, bool whole) {
-  if (value.size() != 1) return to_json(value);
-  return {whole ? std::round(value[0]) : value[0]};  // all numbers of /render are whole
-}
-
-/// The object that holds the value, if that is the center of a sphere at rest; null: it is none.
-JsonObject* sphere_of_center(JsonValue& root, const std::vector<std::string>& steps) {
-  if (steps.size() < 3 || steps.back() != "center" || steps[steps.size() - 2] == "boundary") return nullptr;
-  JsonValue* holder = find_value(root, {steps.begin(), steps.end() - 1});
-  auto* object = holder ? std::get_if<JsonObject>(&holder->value) : nullptr;
-  const bool rests = object && text_of(find(*object, "type")) == "sphere" && !find(*object, "center_end");
-  return rests ? object : nullptr;
 }
 
 void apply_key(JsonValue& root, const KeyedValue& keyed, const Scene& scene, double time) {
   const auto steps = pointer_steps(keyed.pointer);
   const std::vector<double> value = keyed_value(keyed, scene, time);
-  put_value(root, *steps, json_of(value, steps->front() == "render"), keyed.pointer);
+  const bool whole = steps->front() == "render";  // as all its numbers
+  const JsonValue number{whole ? std::round(value[0]) : value[0]};
+  put_value(root, *steps, value.size() == 1 ? number : to_json(value), keyed.pointer);
 }
 
-/// Lets spheres whose center has keys move within the frame.
-void blur_motion(JsonValue& root, const Scene& scene, double time) {
+/// Lets spheres at rest whose center has keys move within the frame.
+void blur_motion(Scene& still, const Scene& scene, double time) {
   for (const KeyedValue& keyed : scene.animation->keyed) {
-    JsonObject* sphere = sphere_of_center(root, *pointer_steps(keyed.pointer));
+    std::vector<std::string> steps = *pointer_steps(keyed.pointer);
+    Object* object = object_at(still, steps);
+    auto* solid = object && steps == std::vector<std::string>{"center"} ? std::get_if<Solid3d>(&object->kind) : nullptr;
+    auto* sphere = solid ? std::get_if<Sphere<>>(&solid->shape) : nullptr;
     const std::vector<double> next = keyed_value(keyed, scene, time + 1);
-    if (sphere && next != keyed_value(keyed, scene, time)) put(*sphere, "center_end", next);
+    if (sphere && !sphere->center_end && next != keyed_value(keyed, scene, time)) sphere->center_end = vector_of(next);
   }
 }
 
 }  // namespace
+
+SceneChange change_between(const Scene& before, const Scene& after) {
+  // By name and one by one, because a copy of a large scene costs more than the comparison. A member that is added to
+  // Scene does not compile here until it was decided whether samples depend on it.
+  const auto& [name_a, width_a, height_a, camera_a, background_a, render_a, display_a, animation_a, textures_a,
+               materials_a, objects_a] = before;
+  const auto& [name_b, width_b, height_b, camera_b, background_b, render_b, display_b, animation_b, textures_b,
+               materials_b, objects_b] = after;
+  RenderSettings render = render_b;
+  render.spp = render_a.spp;
+  const bool same_things =
+      background_a == background_b && textures_a == textures_b && materials_a == materials_b && objects_a == objects_b;
+  const bool same = width_a == width_b && height_a == height_b && render_a == render && same_things;
+  render.seed = render_a.seed, render.sampler = render_a.sampler;
+  const bool same_light = same_things && render_a == render && camera_a.shutter_open == camera_b.shutter_open &&
+                          camera_a.shutter_close == camera_b.shutter_close;
+  return {!same_view(camera_a, camera_b), !same, !same_light};
+}
+
+std::vector<double> value_at(const KeyedValue& keyed, Curve curve, double time) {
+  const std::vector<KeyFrame>& keys = keyed.keys;
+  assert(!keys.empty());
+  if (time <= keys.front().frame) return keys.front().value;
+  if (time >= keys.back().frame) return keys.back().value;
+  std::size_t k = 0;
+  while (keys[k + 1].frame <= time) ++k;
+  const double h = keys[k + 1].frame - keys[k].frame, t = (time - keys[k].frame) / h;
+  std::vector<double> value = keys[k].value;
+  if (t == 0) return value;
+  for (std::size_t c = 0; c < value.size(); ++c) {
+    const double from = keys[k].value[c], to = keys[k + 1].value[c];
+    value[c] = curve == Curve::linear ? (1 - t) * from + t * to
+                                      : hermite(t, h, from, to, slope_at(keys, k, c), slope_at(keys, k + 1, c));
+  }
+  return value;
+}
+
+void set_key(Animation& animation, const std::string& pointer, KeyFrame key) {
+  const auto is_it = [&](const KeyedValue& keyed) { return keyed.pointer == pointer; };
+  auto at = std::find_if(animation.keyed.begin(), animation.keyed.end(), is_it);
+  if (at == animation.keyed.end()) at = animation.keyed.insert(at, {pointer, {}});
+  const auto before = [](const KeyFrame& a, const KeyFrame& b) { return a.frame < b.frame; };
+  const auto place = std::lower_bound(at->keys.begin(), at->keys.end(), key, before);
+  if (place != at->keys.end() && place->frame == key.frame)
+    *place = std::move(key);
+  else
+    at->keys.insert(place, std::move(key));
+}
+
+const KeyedValue* find_keys(const Animation& animation, const std::string& pointer) {
+  for (const KeyedValue& keyed : animation.keyed)
+    if (keyed.pointer == pointer) return &keyed;
+  return nullptr;
+}
 
 Scene scene_at(const Scene& scene, double time) {
   Scene still = scene;
@@ -113,9 +188,8 @@ Scene scene_at(const Scene& scene, double time) {
   add_sections(root);
   for (const KeyedValue& keyed : scene.animation->keyed) apply_key(root, keyed, scene, time);
   still = scene_with_pictures(root, scene);
-  if (still.camera.shutter_close == 0 && still.camera.shutter_open == 0) return checked(std::move(still));
-  blur_motion(root, scene, time);
-  return checked(scene_with_pictures(root, scene));
+  if (still.camera.shutter_close != 0 || still.camera.shutter_open != 0) blur_motion(still, scene, time);
+  return checked(std::move(still));
 }
 
 Scene frame_scene(const Scene& scene, const FramePlan& plan, int frame) {
@@ -154,15 +228,14 @@ void check_keys(const Scene& scene) {
     try {
       scene_at(scene, frame);
     } catch (const ParseError& error) {
-      for (const KeyedValue& keyed : scene.animation->keyed) {
-        const bool has_key =
-            std::any_of(keyed.keys.begin(), keyed.keys.end(), [&](const KeyFrame& k) { return k.frame == frame; });
-        if (has_key && error.where.starts_with(keyed.pointer))
-          throw ParseError{"/animation/keys/" + pointer_step(keyed.pointer) + "/" + std::to_string(frame), error.found,
-                           error.expected};
-      }
-      throw ParseError{"/animation/keys, frame " + std::to_string(frame) + ": " + error.where, error.found,
-                       error.expected};
+      const std::vector<KeyedValue>& keyed = scene.animation->keyed;
+      const auto at_fault = std::find_if(keyed.begin(), keyed.end(), [&](const KeyedValue& one) {
+        return is_at_key(one, frame) && error.where.starts_with(one.pointer);
+      });
+      const std::string key = at_fault == keyed.end()
+                                  ? ", frame " + std::to_string(frame) + ": " + error.where
+                                  : "/" + pointer_step(at_fault->pointer) + "/" + std::to_string(frame);
+      throw ParseError{"/animation/keys" + key, error.found, error.expected};
     }
   }
 }

@@ -1,6 +1,6 @@
 #include "core/base/text.h"
-#include "core/scene/json.h"
 #include "core/scene/json_tree.h"
+#include "core/scene/load.h"
 #include "core/scene/place.h"
 
 #include <nlohmann/json.hpp>
@@ -45,26 +45,18 @@ Span token_at(std::string_view text, std::size_t last) {
   return span;
 }
 
-struct Phrase {
-  std::string_view reason, said;
-};
-
-/// What the parser waited for.
-std::string_view expected_instead(std::string_view reason) {
-  constexpr Phrase phrases[] = {{"expected string literal", "a key in double quotes"},
-                                {"expected ':'", "':'"},
-                                {"expected ']'", "',' or ']'"},
-                                {"expected '}'", "',' or '}'"},
-                                {"expected end of input", "the end of the file"}};
-  for (const Phrase& phrase : phrases)
-    if (reason.ends_with(phrase.reason)) return phrase.said;
-  return "a value: a number, a text in double quotes, a list or an object";
-}
-
-/// Faults inside a text, a number or a comment: what is found and what should be there instead.
+/// What the parser's message ends with or holds, and how a person says what is found and what should be there instead.
 struct Fault {
   std::string_view reason, found, expected;
 };
+/// What the parser waited for.
+constexpr Fault waits[] = {{"expected string literal", "", "a key in double quotes"},
+                           {"expected ':'", "", "':'"},
+                           {"expected ']'", "", "',' or ']'"},
+                           {"expected '}'", "", "',' or '}'"},
+                           {"expected end of input", "", "the end of the file"},
+                           {"", "", "a value: a number, a text in double quotes, a list or an object"}};
+/// Faults inside a text, a number or a comment.
 constexpr Fault faults[] = {
     {"invalid comment", "a comment that is not closed", "*/ at its end"},
     {"missing closing quote", "a text that is not closed", "\" at its end"},
@@ -86,7 +78,8 @@ ParseError syntax_error(std::string_view text, std::size_t end, std::string_view
   for (const Fault& fault : faults)
     if (reason.find(fault.reason) != reason.npos)
       return {line_and_column(text, last), std::string(fault.found), std::string(fault.expected)};
-  const std::string expected(expected_instead(reason));
+  const auto ends_reason = [&](const Fault& wait) { return reason.ends_with(wait.reason); };
+  const std::string expected(std::find_if(std::begin(waits), std::end(waits), ends_reason)->expected);
   if (at_end) return {line_and_column(text, last), "the end of the file", expected};
   const Span token = token_at(text, last);
   const std::string_view found = text.substr(token.begin, token.end - token.begin);

@@ -23,13 +23,13 @@ void read_version(const JsonObject& root, const Place& at) {
 }
 
 void read_camera(const JsonValue& json, const Place& at, Camera& camera) {
-  const JsonObject& object = object_at(json, at, "an object with the camera's values");
+  const JsonObject& object = read_as<JsonObject>(json, at, "an object with the camera's values");
   read_fields(object, at, fields_of<Camera>(), {"shutter"}, camera);
   const JsonValue* shutter = find(object, "shutter");
   if (!shutter) return;
   const Place here{at, "shutter"};
   const char* expected = "an array of 2 numbers (times at which the shutter opens and closes)";
-  const JsonArray& array = array_at(*shutter, here, expected);
+  const JsonArray& array = read_as<JsonArray>(*shutter, here, expected);
   if (array.size() != 2) fail(here, describe(*shutter), expected);
   const Meaning time{any_number(), "", "time; things that move do so from 0 to 1"};
   read_value(array[0], {here, std::size_t{0}}, time, camera.shutter_open);
@@ -105,7 +105,7 @@ void read_texture_or_sky(const JsonObject& object, const Place& at, PictureShelf
       read_fields(object, at, fields_of<Kind>(), {"type"}, kind);
     if constexpr (requires { kind.file; }) {
       const std::string expected = "the path of an image, relative to the scene file";
-      kind.file = string_at(member_at(object, at, "file", expected), {at, "file"}, expected);
+      kind.file = read_as<std::string>(member_at(object, at, "file", expected), {at, "file"}, expected);
       if (kind.file.empty()) fail({at, "file"}, "\"\"", expected);
       kind.pixels = shelf.get(kind.file, {at, "file"}, std::is_same_v<Kind, SkyPicture>);
     }
@@ -131,12 +131,8 @@ void read_background(const JsonValue& json, const Place& at, PictureShelf& shelf
   }
 }
 
-void read_texture(const JsonValue& json, const Place& at, PictureShelf& shelf, Texture& texture) {
-  read_texture_or_sky(object_at(json, at, "an object that describes a texture"), at, shelf, texture.kind);
-}
-
 void read_material(const JsonValue& json, const Place& at, const NameTable& textures, Material& material) {
-  const JsonObject& object = object_at(json, at, "an object that describes a material");
+  const JsonObject& object = read_as<JsonObject>(json, at, "an object that describes a material");
   read_kind(object, at, material.kind, [&]<class T>(T& kind) {
     if constexpr (T::colour_name != nullptr) {
       allow_keys(object, at, fields_of<T>(), {"type", T::colour_name});
@@ -146,12 +142,6 @@ void read_material(const JsonValue& json, const Place& at, const NameTable& text
     }
     read_fields(object, at, fields_of<T>(), kind);
   });
-}
-
-/// All frames of a film have one size.
-bool may_have_keys(const std::vector<std::string>& steps) {
-  constexpr std::string_view refused[] = {"tyndall", "name", "image", "animation"};
-  return std::find(std::begin(refused), std::end(refused), steps[0]) == std::end(refused);
 }
 
 int read_frame(const std::string& text, const Place& at) {
@@ -166,11 +156,8 @@ std::vector<double> read_numbers(const JsonValue& json, const Place& at) {
   constexpr const char* expected = "a number or an array of numbers";
   if (const auto* number = std::get_if<double>(&json.value)) return {*number};
   std::vector<double> numbers;
-  for (const JsonValue& item : array_at(json, at, expected)) {
-    const auto* number = std::get_if<double>(&item.value);
-    if (!number) fail({at, numbers.size()}, describe(item), "a number");
-    numbers.push_back(*number);
-  }
+  for (const JsonValue& item : read_as<JsonArray>(json, at, expected))
+    numbers.push_back(read_as<double>(item, {at, numbers.size()}, "a number"));
   if (numbers.size() < 2) fail(at, describe(json), expected);
   return numbers;
 }
@@ -178,9 +165,12 @@ std::vector<double> read_numbers(const JsonValue& json, const Place& at) {
 KeyedValue read_keyed_value(const JsonMember& member, const Place& at) {
   const auto steps = pointer_steps(member.key);
   if (!steps) fail(at, in_quotes(member.key), "a JSON pointer to a value of the scene, such as /camera/vfov");
-  if (!may_have_keys(*steps)) fail(at, in_quotes(member.key), "a value of the camera, a material, an object, …");
+  const std::string& part = steps->front();  // all frames of a film have one size
+  if (part == "tyndall" || part == "name" || part == "image" || part == "animation")
+    fail(at, in_quotes(member.key), "a value of the camera, a material, an object, …");
   KeyedValue keyed{member.key, {}};
-  const JsonObject& keys = object_at(member.value, at, "an object of values by frame, such as { \"0\": 1, \"47\": 2 }");
+  const JsonObject& keys =
+      read_as<JsonObject>(member.value, at, "an object of values by frame, such as { \"0\": 1, \"47\": 2 }");
   for (const JsonMember& key : keys)
     keyed.keys.push_back({read_frame(key.key, at), read_numbers(key.value, {at, key.key})});
   std::sort(keyed.keys.begin(), keyed.keys.end(),
@@ -190,12 +180,12 @@ KeyedValue read_keyed_value(const JsonMember& member, const Place& at) {
 
 Animation read_animation(const JsonValue& json, const Place& at) {
   Animation animation;
-  const JsonObject& object = object_at(json, at, "an object with \"frames\" and \"keys\"");
+  const JsonObject& object = read_as<JsonObject>(json, at, "an object with \"frames\" and \"keys\"");
   read_fields(object, at, fields_of<Animation>(), {"keys"}, animation);
   const JsonValue* keys = find(object, "keys");
   if (!keys) return animation;
   const Place here{at, "keys"};
-  for (const JsonMember& member : object_at(*keys, here, "an object of keys by JSON pointer"))
+  for (const JsonMember& member : read_as<JsonObject>(*keys, here, "an object of keys by JSON pointer"))
     animation.keyed.push_back(read_keyed_value(member, {here, member.key}));
   return animation;
 }
@@ -208,7 +198,7 @@ NameTable read_named(const JsonObject& root, const Place& at, const char* key, c
   const JsonValue* json = find(root, key);
   if (!json) return table;
   const Place here{at, key};
-  const JsonObject& object = object_at(*json, here, expected);
+  const JsonObject& object = read_as<JsonObject>(*json, here, expected);
   out.reserve(object.size());
   for (const JsonMember& member : object) {
     table.emplace(member.key, static_cast<int>(out.size()));
@@ -220,7 +210,7 @@ NameTable read_named(const JsonObject& root, const Place& at, const char* key, c
 
 Scene scene_from(const JsonValue& json, PictureShelf shelf) {
   const Place at;
-  const JsonObject& root = object_at(json, at, "a scene: { \"tyndall\": 1, … }");
+  const JsonObject& root = read_as<JsonObject>(json, at, "a scene: { \"tyndall\": 1, … }");
   read_version(root, at);
   allow_keys(root, at,
              {"tyndall", "name", "image", "camera", "background", "render", "display", "animation", "textures",
@@ -228,10 +218,11 @@ Scene scene_from(const JsonValue& json, PictureShelf shelf) {
   Scene scene;
   const auto part = [&](const char* key, const char* expected, const auto& list, auto& out) {
     const Place here{at, key};
-    if (const JsonValue* value = find(root, key)) read_fields(object_at(*value, here, expected), here, list, {}, out);
+    if (const JsonValue* value = find(root, key))
+      read_fields(read_as<JsonObject>(*value, here, expected), here, list, {}, out);
   };
   if (const JsonValue* name = find(root, "name"))
-    scene.name = string_at(*name, {at, "name"}, "a text (the scene's name)");
+    scene.name = read_as<std::string>(*name, {at, "name"}, "a text (the scene's name)");
   part("image", "an object with \"width\" and \"height\"", image_fields(), scene);
   if (const JsonValue* camera = find(root, "camera")) read_camera(*camera, {at, "camera"}, scene.camera);
   if (const JsonValue* background = find(root, "background"))
@@ -241,9 +232,12 @@ Scene scene_from(const JsonValue& json, PictureShelf shelf) {
   if (const JsonValue* animation = find(root, "animation"))
     scene.animation = read_animation(*animation, {at, "animation"});
   NameTables references;
-  references.textures = read_named(
-      root, at, "textures", "an object of textures by name", scene.textures,
-      [&](const auto& value, const Place& here, Texture& texture) { read_texture(value, here, shelf, texture); });
+  references.textures =
+      read_named(root, at, "textures", "an object of textures by name", scene.textures,
+                 [&](const JsonValue& value, const Place& here, Texture& texture) {
+                   read_texture_or_sky(read_as<JsonObject>(value, here, "an object that describes a texture"), here,
+                                       shelf, texture.kind);
+                 });
   references.materials = read_named(root, at, "materials", "an object of materials by name", scene.materials,
                                     [&](const auto& value, const Place& here, Material& material) {
                                       read_material(value, here, references.textures, material);
@@ -260,20 +254,12 @@ std::shared_ptr<const Image::Pixels> read_sky_pixels(const std::string& file, co
   return PictureShelf(folder).get(file, at, true);
 }
 
-Scene scene_with_pictures(const JsonValue& root, const Scene& pictures) {
-  return scene_from(root, PictureShelf(pictures));
+Scene scene_with_files(const JsonValue& root, const std::filesystem::path& folder) {
+  return checked(scene_from(root, PictureShelf(folder)));
 }
 
-Scene read_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
-                 const std::vector<Override>& overrides) {
-  try {
-    JsonDocument document = parse_json(text);
-    JsonValue& root = document.root;
-    for (const Override& one : overrides) apply_override(root, one), fit_to_type(root, one);
-    return checked(scene_from(root, PictureShelf(folder)));
-  } catch (const ParseError& error) {
-    throw SceneError(name, error.where, error.found, error.expected);
-  }
+Scene scene_with_pictures(const JsonValue& root, const Scene& pictures) {
+  return scene_from(root, PictureShelf(pictures));
 }
 
 }  // namespace tyndall

@@ -52,14 +52,13 @@ std::size_t depth_of(const JsonValue& json) {
 
 /// The value as JSON. Text that is not JSON stands for a string of that text.
 JsonValue override_value(const std::string& text, const std::string& where) {
-  for (const std::string& json : {text, in_quotes(text)}) {
-    try {
-      const JsonDocument document = parse_json(json);
-      return document.root;  // a copy, whose memory is its own
-    } catch (const ParseError&) {
-    }
+  try {
+    const JsonDocument document = parse_json(text);
+    return document.root;  // a copy, whose memory is its own
+  } catch (const ParseError&) {
+    if (!is_utf8(text)) throw ParseError{where, "a value that is not UTF-8", "JSON or text"};
+    return {text};
   }
-  throw ParseError{where, "a value that is not UTF-8", "JSON or text"};
 }
 
 /// The place for a new or existing member of `holder`.
@@ -102,10 +101,8 @@ bool print_line(const JsonValue& json, std::string& line, std::size_t limit) {
     line += object->empty() ? "}" : " }";
   } else if (const auto* text = std::get_if<std::string>(&json.value)) {
     line += in_quotes(*text);
-  } else if (const auto* number = std::get_if<double>(&json.value)) {
-    line += number_text(*number);
   } else {
-    line += std::get_if<bool>(&json.value) ? (std::get<bool>(json.value) ? "true" : "false") : "null";
+    line += describe(json);
   }
   return line.size() <= limit;
 }

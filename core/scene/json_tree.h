@@ -1,6 +1,7 @@
 #pragma once
 #include "core/base/choice.h"
-#include "core/scene/json.h"
+#include "core/scene/place.h"
+#include "core/scene/scene.h"
 
 #include <cmath>
 #include <concepts>
@@ -23,22 +24,19 @@ namespace tyndall {
 /// and given back all together; long ones are on their own.
 class JsonMemory {
  public:
-  static constexpr std::size_t alignment = 8;
+  static constexpr std::size_t longest_short = 4096;  ///< bytes
 
-  void* allocate(std::size_t bytes) {
-    if (bytes > longest_short) return ::operator new(bytes);
+  /// bytes: of a short list, a multiple of 8.
+  void* take(std::size_t bytes) {
     if (bytes > free_) {
       blocks_.push_back(std::unique_ptr<std::byte[]>(new std::byte[block]));
       free_ = block;
     }
     return blocks_.back().get() + block - std::exchange(free_, free_ - bytes);
   }
-  void deallocate(void* memory, std::size_t bytes) {
-    if (bytes > longest_short) ::operator delete(memory);
-  }
 
  private:
-  static constexpr std::size_t longest_short = 4096, block = std::size_t(1) << 16;  // bytes
+  static constexpr std::size_t block = std::size_t(1) << 16;  // bytes
   std::vector<std::unique_ptr<std::byte[]>> blocks_;
   std::size_t free_ = 0;  ///< bytes at the end of the last block
 };
@@ -53,11 +51,12 @@ struct JsonAllocator {
   template <class Other>
   JsonAllocator(const JsonAllocator<Other>& other) : memory(other.memory) {}
   T* allocate(std::size_t count) {
-    static_assert(alignof(T) <= JsonMemory::alignment && sizeof(T) % JsonMemory::alignment == 0);
-    return static_cast<T*>(memory ? memory->allocate(count * sizeof(T)) : ::operator new(count * sizeof(T)));
+    static_assert(alignof(T) <= 8 && sizeof(T) % 8 == 0);
+    const std::size_t bytes = count * sizeof(T);
+    return static_cast<T*>(memory && bytes <= JsonMemory::longest_short ? memory->take(bytes) : ::operator new(bytes));
   }
   void deallocate(T* list, std::size_t count) {
-    memory ? memory->deallocate(list, count * sizeof(T)) : ::operator delete(list);
+    if (!memory || count * sizeof(T) > JsonMemory::longest_short) ::operator delete(list);
   }
   JsonAllocator select_on_container_copy_construction() const { return {}; }
   bool operator==(const JsonAllocator& other) const = default;
@@ -79,6 +78,7 @@ struct JsonMember {
 
 /// A value of the program as JSON. Numbers that are not finite, and values that are absent, become null.
 inline JsonValue to_json(JsonValue value) { return value; }
+inline JsonValue to_json(JsonObject object) { return {std::move(object)}; }
 inline JsonValue to_json(double number) { return std::isfinite(number) ? JsonValue{number} : JsonValue{}; }
 inline JsonValue to_json(bool value) { return {value}; }
 inline JsonValue to_json(std::string text) { return {std::move(text)}; }
@@ -129,6 +129,10 @@ void apply_override(JsonValue& root, const Override& override_);
 
 /// The document that write_scene() writes.
 JsonValue scene_json(const Scene& scene);
+/// Adds the sections that a scene does not write because they are at their defaults, so that pointers can go into them.
+void add_sections(JsonValue& root);
+/// The value at a pointer, also where it is not written; nothing: the scene has no such value.
+std::optional<JsonValue> value_at_pointer(const Scene& scene, const std::string& pointer);
 
 /// The document as text: two spaces a level, what is short on one line.
 std::string print_json(const JsonValue& root);

@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <span>
 #include <system_error>
@@ -69,30 +70,20 @@ std::string scene_in_image(const std::string& name) {
   return *scene;
 }
 
-fs::path scenes_folder() {
+std::map<std::string, fs::path> built_in_files() {
+  std::map<std::string, fs::path> files;
   const fs::path assets = assets_folder();
-  return assets.empty() ? fs::path() : assets / "scenes";
-}
-
-std::vector<std::string> built_in_names() {
-  constexpr std::string_view ending = ".json";
-  std::vector<std::string> names;
-  for (const std::string& name : names_in_folder(scenes_folder()))
-    if (name.size() > ending.size() && name.ends_with(ending))
-      names.push_back(name.substr(0, name.size() - ending.size()));
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-/// Its file, if `what` is the name of a built-in scene; else an empty path.
-fs::path built_in_file(const std::string& what) {
-  const auto names = built_in_names();
-  return std::binary_search(names.begin(), names.end(), what) ? scenes_folder() / (what + ".json") : fs::path();
+  if (assets.empty()) return files;
+  for (const std::string& name : names_in_folder(assets / "scenes"))
+    if (const fs::path file = assets / "scenes" / name; file.extension() == ".json") files[file.stem().string()] = file;
+  return files;
 }
 
 [[noreturn]] void fail_missing(const std::string& what) {
-  const auto names = built_in_names();
-  std::string hint = did_you_mean(what, {names.begin(), names.end()});
+  std::vector<std::string_view> names;
+  const auto files = built_in_files();
+  for (const auto& built_in : files) names.push_back(built_in.first);
+  std::string hint = did_you_mean(what, names);
   if (names.empty()) hint = "; no built-in scenes were found (TYNDALL_ASSETS names their folder)";
   throw SceneError(what, "no such file", expected_scene + hint);
 }
@@ -107,14 +98,15 @@ std::string name_of(const std::string& text) {
   }
 }
 
+/// Absolute, and without symbolic links as far as the file is there.
+fs::path whole_path(const fs::path& path) {
+  std::error_code error;
+  return fs::weakly_canonical(fs::absolute(path, error), error);
+}
+
 /// Reads the scene from the text, which is there.
 void read_text_of(LoadedScene& loaded, const std::vector<Override>& overrides) {
   loaded.scene = read_scene(loaded.text, loaded.name, loaded.folder, overrides);
-  try {
-    check_keys(loaded.scene);
-  } catch (const ParseError& error) {
-    throw SceneError(loaded.name, error.where, error.found, error.expected);
-  }
   each_picture(loaded.scene,
                [&](const auto& picture) { loaded.files.push_back(picture_name(loaded.folder / picture.file).file); });
 }
@@ -134,8 +126,7 @@ fs::path assets_folder() {
 
 std::vector<BuiltIn> built_in_scenes() {
   std::vector<BuiltIn> scenes;
-  for (const std::string& name : built_in_names()) {
-    const fs::path path = scenes_folder() / (name + ".json");
+  for (const auto& [name, path] : built_in_files()) {
     const std::string text = read_file(path.string());
     const std::vector<std::string> comments = leading_comments(text);
     BuiltIn& scene = scenes.emplace_back(BuiltIn{name, name_of(text), "", path});
@@ -143,6 +134,33 @@ std::vector<BuiltIn> built_in_scenes() {
     if (scene.title.empty() && !comments.empty()) scene.title = comments[0];
   }
   return scenes;
+}
+
+Scene read_scene(std::string_view text, const std::string& name, const fs::path& folder,
+                 const std::vector<Override>& overrides) {
+  try {
+    JsonDocument document = parse_json(text);
+    for (const Override& one : overrides) apply_override(document.root, one), fit_to_type(document.root, one);
+    Scene scene = scene_with_files(document.root, folder);
+    check_keys(scene);
+    return scene;
+  } catch (const ParseError& error) {
+    throw SceneError(name, error.where, error.found, error.expected);
+  }
+}
+
+SkyPicture sky_of_file(const fs::path& file, const fs::path& folder) {
+  const fs::path whole = whole_path(file), below = whole.lexically_relative(whole_path(folder));
+  const bool inside = !below.empty() && *below.begin() != "..";
+  const Place top, background{top, "background"};
+  SkyPicture sky;
+  sky.file = (inside ? below : whole).generic_string();
+  try {
+    sky.pixels = read_sky_pixels(sky.file, folder, {background, "file"});
+  } catch (const ParseError& wrong) {
+    throw SceneError(file.string(), wrong.where, wrong.found, wrong.expected);
+  }
+  return sky;
 }
 
 LoadedScene load_scene(const std::string& what, const std::vector<Override>& overrides) {
@@ -153,10 +171,10 @@ LoadedScene load_scene(const std::string& what, const std::vector<Override>& ove
     loaded.folder = ".";
     loaded.text = read_all(stdin, loaded.name);
     if (is_image(loaded.text)) throw SceneError(loaded.name, "a picture", "a scene; 'tyndall view -' shows a P3 or P6");
-  } else if (const fs::path built_in = built_in_file(what); !built_in.empty()) {
-    loaded.folder = built_in.parent_path();
-    loaded.files = {built_in};
-    loaded.text = read_file(built_in.string());
+  } else if (const auto files = built_in_files(); files.contains(what)) {
+    loaded.files = {files.at(what)};
+    loaded.folder = files.at(what).parent_path();
+    loaded.text = read_file(files.at(what).string());
   } else {
     std::error_code error;
     const fs::file_status status = fs::status(what, error);
@@ -183,22 +201,6 @@ LoadedScene load_scene_text(const std::string& text, const std::string& name, co
   loaded.text = text;
   read_text_of(loaded, overrides);
   return loaded;
-}
-
-SkyPicture sky_of_file(const fs::path& file, const fs::path& folder) {
-  std::error_code error;
-  const fs::path whole = fs::weakly_canonical(fs::absolute(file, error), error);
-  const fs::path below = whole.lexically_relative(fs::weakly_canonical(fs::absolute(folder, error), error));
-  const bool inside = !below.empty() && *below.begin() != "..";
-  const Place top, background{top, "background"};
-  SkyPicture sky;
-  sky.file = (inside ? below : whole).generic_string();
-  try {
-    sky.pixels = read_sky_pixels(sky.file, folder, {background, "file"});
-  } catch (const ParseError& wrong) {
-    throw SceneError(file.string(), wrong.where, wrong.found, wrong.expected);
-  }
-  return sky;
 }
 
 std::vector<fs::path> files_of_scene(const fs::path& file) {
@@ -253,12 +255,11 @@ std::string contents_remark(const LoadedScene& loaded) {
 }
 
 Scene move_textures(Scene scene, const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  const fs::path target = fs::weakly_canonical(fs::absolute(to, error), error);
-  if (target == fs::weakly_canonical(fs::absolute(from, error), error)) return scene;
+  const fs::path target = whole_path(to);
+  if (target == whole_path(from)) return scene;
   each_picture(scene, [&](auto& picture) {
     if (fs::path(picture.file).is_absolute()) return;
-    const fs::path file = fs::weakly_canonical(fs::absolute(from / picture.file, error), error);
+    const fs::path file = whole_path(from / picture.file);
     const fs::path relative = file.lexically_relative(target);
     const std::string text = (relative.empty() ? file : relative).generic_string();
     picture.file = is_utf8(text) ? text : all_printable(text);

@@ -1,13 +1,34 @@
 #pragma once
-#include "core/scene/json.h"
+#include "core/base/error.h"
+#include "core/scene/place.h"
+#include "core/scene/scene.h"
 
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-/// Finds the scene that a user names: a built-in one, a file, or an image with a scene in it.
+/// The scene file: JSON with comments. app/cli/README.md shows the format, assets/scene.schema.json describes it. And
+/// the scene that a user names: a built-in one, a file, or an image with a scene in it.
 namespace tyndall {
+
+/// Reads and checks a scene. name: what errors call it (usually the file's name). folder: where relative texture files
+/// are. Throws SceneError for everything that is wrong with it, also for textures that cannot be read, and for keys
+/// that have no place in it.
+Scene read_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+                 const std::vector<Override>& overrides = {});
+
+/// The sky of a picture file. folder: that of the scene, from which the file is named if it lies in it. Throws
+/// SceneError.
+SkyPicture sky_of_file(const std::filesystem::path& file, const std::filesystem::path& folder);
+
+/// A valid scene in normal form: every value that is required or not its default, keys in the format's order. Reading
+/// it gives an equal scene. Image files are written as they stand in the scene: see move_textures().
+std::string write_scene(const Scene& scene);
+
+/// Comment lines at the top of a scene file (without "//"), for `inspect`.
+std::vector<std::string> leading_comments(std::string_view text);
 
 struct LoadedScene {
   Scene scene;
@@ -31,10 +52,6 @@ LoadedScene load_scene(const std::string& what, const std::vector<Override>& ove
 /// Loads a scene from its text. name: what messages call it; folder: where its relative texture files are.
 LoadedScene load_scene_text(const std::string& text, const std::string& name, const std::filesystem::path& folder,
                             const std::vector<Override>& overrides = {});
-
-/// The sky of a picture file. folder: that of the scene, from which the file is named if it lies in it. Throws
-/// SceneError.
-SkyPicture sky_of_file(const std::filesystem::path& file, const std::filesystem::path& folder);
 
 /// What reading a scene file depends on: the file itself and the pictures that it names for textures and sky, whether
 /// or not they are there and can be read. For those who wait until a broken one is mended.

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <utility>
-#include <vector>
 
 namespace tyndall {
 namespace {
@@ -27,29 +26,14 @@ std::string range_text(const Valid& valid) {
 
 std::string pointer_step(std::string_view key) {
   std::string out;
-  for (const char c : key) {
-    if (c == '~') {
-      out += "~0";
-    } else if (c == '/') {
-      out += "~1";
-    } else {
-      out += c;
-    }
-  }
+  for (const char c : key) out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
   return out;
 }
 
 std::string pointer(const Place& place) {
   if (!place.parent) return "/";
-  std::vector<const Place*> steps;
-  for (const Place* p = &place; p->parent; p = p->parent) steps.push_back(p);
-  std::string out;
-  for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
-    const Place& p = **step;
-    out += '/';
-    out += p.key.data() ? pointer_step(p.key) : std::to_string(p.index);
-  }
-  return out;
+  const std::string step = place.key.data() ? pointer_step(place.key) : std::to_string(place.index);
+  return (place.parent->parent ? pointer(*place.parent) : "") + "/" + step;
 }
 
 void fail(const Place& place, std::string found, std::string expected) {

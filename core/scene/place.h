@@ -2,10 +2,8 @@
 #include "core/base/choice.h"
 #include "core/base/fields.h"
 #include "core/base/text.h"
-#include "core/base/vec.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +17,12 @@ namespace tyndall {
 /// What is wrong with a scene, and where: a JSON pointer, or a line and column.
 struct ParseError {
   std::string where, found, expected;
+};
+
+/// One override of a value in the file's JSON, applied before validation: pointer "/materials/gold/fuzz", value JSON
+/// or, if it is not JSON, a string.
+struct Override {
+  std::string pointer, value;
 };
 
 /// A place in a scene: one step (a key or an index) from the place that holds it. Nothing is copied; the JSON pointer
@@ -63,14 +67,7 @@ void for_each_field(const Fields& list, const Visit& visit) {
 Meaning colour_meaning(std::string_view colour_name);
 
 enum class Form { number, whole, vector };
-inline constexpr Form form_of(const double*) { return Form::number; }
-inline constexpr Form form_of(const int*) { return Form::whole; }
-inline constexpr Form form_of(const std::uint32_t*) { return Form::whole; }
-inline constexpr Form form_of(const Vec3<double>*) { return Form::vector; }
-template <class T>
-constexpr Form form_of(const std::optional<T>*) {
-  return form_of(static_cast<const T*>(nullptr));
-}
+
 /// A setting's value in a message.
 inline std::string setting_text(double value) { return number_text(value); }
 inline std::string setting_text(bool value) { return value ? "on" : "off"; }

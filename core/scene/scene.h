@@ -1,7 +1,6 @@
 #pragma once
 #include "core/materials/materials.h"
 #include "core/media/medium.h"
-#include "core/scene/animation.h"
 #include "core/scene/settings.h"
 #include "core/shapes/shapes.h"
 #include "core/textures/textures.h"

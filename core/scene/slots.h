@@ -41,42 +41,35 @@ std::string label_of(const char* name, const char* label);
 /// The slot of a colour's Vec3d: a material's, a medium's or the background's.
 Slot colour_slot(std::string pointer, const char* name, Vec3d value);
 
-template <class T>
-struct Given {
-  using type = T;
-};
-template <class T>
-struct Given<std::optional<T>> {
-  using type = T;
-};
-
 /// A member as a value; what is not given counts as 0.
+inline Value to_value(const Vec3d& member) { return member; }
+Value to_value(const auto& member) { return static_cast<double>(member); }
 template <class T>
-Value to_value(const T& member) {
-  if constexpr (std::is_same_v<T, Vec3d>)
-    return member;
-  else if constexpr (!std::is_same_v<T, typename Given<T>::type>)
-    return to_value(member.value_or(typename Given<T>::type{}));
-  else
-    return static_cast<double>(member);
+Value to_value(const std::optional<T>& member) {
+  return to_value(member.value_or(T{}));
 }
 
 /// And back. A whole number that may be left open is so at 0.
+inline void from_value(const Value& value, Vec3d& member) { member = std::get<Vec3d>(value); }
 template <class T>
 void from_value(const Value& value, T& member) {
-  if constexpr (std::is_same_v<T, Vec3d>)
-    member = std::get<Vec3d>(value);
-  else if constexpr (std::is_same_v<T, std::optional<int>>)
-    member = std::get<double>(value) > 0 ? T(static_cast<int>(std::get<double>(value))) : std::nullopt;
-  else if constexpr (!std::is_same_v<T, typename Given<T>::type>)
-    from_value(value, member.emplace());
-  else
-    member = static_cast<T>(std::get<double>(value));
+  member = static_cast<T>(std::get<double>(value));
 }
+template <class T>
+void from_value(const Value& value, std::optional<T>& member) {
+  from_value(value, member.emplace());
+  if (std::is_same_v<T, int> && !(std::get<double>(value) > 0)) member.reset();
+}
+
+/// The type of a member, also of one that may be left open.
+template <class T>
+T given_type(const T&);
+template <class T>
+T given_type(const std::optional<T>&);
 
 template <class Owner, class T>
 Slot slot_of(const std::string& part, const Field<Owner, T>& field, const T& now, const T& standard) {
-  using P = typename Given<T>::type;
+  using P = decltype(given_type(now));
   Slot slot{part + "/" + field.name,
             label_of(field.name, field.label),
             field.name,
@@ -187,17 +180,14 @@ void visit_part(SceneT& scene, const std::string& part, const Use& use) {
   };
   if (part == "/background") return std::visit(visit, scene.background);
   const auto is_named = [&](const auto& one) { return one.name == name; };
-  if (head == "textures")
-    if (const auto found = std::find_if(scene.textures.begin(), scene.textures.end(), is_named);
-        found != scene.textures.end())
-      return std::visit(visit, found->kind);
-  if (head == "materials")
-    if (const auto found = std::find_if(scene.materials.begin(), scene.materials.end(), is_named);
-        found != scene.materials.end()) {
-      std::visit(visit, found->kind);
-      const char* colour = colour_name(found->kind);
-      return colour ? colour_in(part + "/" + colour, colour, *found, found->colour, use) : void();
-    }
+  const auto texture = std::find_if(scene.textures.begin(), scene.textures.end(), is_named);
+  if (head == "textures" && texture != scene.textures.end()) return std::visit(visit, texture->kind);
+  const auto material = std::find_if(scene.materials.begin(), scene.materials.end(), is_named);
+  if (head == "materials" && material != scene.materials.end()) {
+    std::visit(visit, material->kind);
+    const char* colour = colour_name(material->kind);
+    return colour ? colour_in(part + "/" + colour, colour, *material, material->colour, use) : void();
+  }
   if (auto* object = object_at(scene, steps)) visit_object(*object, part, steps, use);
 }
 

@@ -1,6 +1,6 @@
 #include "core/accuracy/error.h"
 #include "core/image/image_io.h"
-#include "core/scene/json.h"
+#include "core/scene/load.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/measure.h"

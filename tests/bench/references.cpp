@@ -2,7 +2,7 @@
 
 #include "core/accuracy/estimate.h"
 #include "core/image/image_io.h"
-#include "core/scene/json.h"
+#include "core/scene/load.h"
 #include "tests/support/fingerprint.h"
 #include "tests/support/prepared.h"
 

@@ -1,7 +1,7 @@
 #include "core/files/film_files.h"
 
 #include "core/image/image_io.h"
-#include "core/scene/json.h"
+#include "core/scene/load.h"
 #include "tests/support/pictures.h"
 #include "tests/support/scratch.h"
 

@@ -1,4 +1,4 @@
-#include "core/files/stats.h"
+#include "core/files/film_files.h"
 
 #include "core/scene/load.h"
 

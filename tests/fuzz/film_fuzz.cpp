@@ -1,5 +1,5 @@
 // Films in EXR files: the label, the frame and the film itself, which is then added to another one and drawn.
-#include "core/film/merge.h"
+#include "core/film/film.h"
 #include "core/image/image_io.h"
 #include "tests/fuzz/fuzz_input.h"
 

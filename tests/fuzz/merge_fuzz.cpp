@@ -1,5 +1,5 @@
 // Merging: the input describes films of 2 x 2 pixels, 6 bytes each. What is merged has just the samples of all parts.
-#include "core/film/merge.h"
+#include "core/film/film.h"
 #include "tests/fuzz/fuzz_input.h"
 
 #include <numeric>

@@ -1,5 +1,5 @@
 // Scene files: what is read can be written, and reads again as the same scene.
-#include "core/scene/json.h"
+#include "core/scene/load.h"
 #include "tests/fuzz/fuzz_input.h"
 
 using namespace tyndall;

@@ -1,6 +1,6 @@
 // --set POINTER=VALUE: the input is a line with an override, then another.
 #include "app/text/values.h"
-#include "core/scene/json.h"
+#include "core/scene/load.h"
 #include "tests/fuzz/fuzz_input.h"
 
 using namespace tyndall;

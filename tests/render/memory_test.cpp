@@ -1,5 +1,5 @@
 #include "core/image/image_io.h"
-#include "core/scene/json.h"
+#include "core/scene/load.h"
 #include "tests/support/allocations.h"
 #include "tests/support/scratch.h"
 #include "tests/support/watched_renderer.h"

@@ -1,6 +1,5 @@
 #include "core/accuracy/estimate.h"
 
-#include "core/scene/json.h"
 #include "core/scene/load.h"
 #include "tests/support/prepared.h"
 

@@ -1,5 +1,4 @@
 #include "core/compile/columns.h"
-#include "core/compile/sun.h"
 #include "tests/support/probe.h"
 #include "tests/support/skies.h"
 #include "tests/support/thorough.h"

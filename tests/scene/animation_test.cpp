@@ -1,7 +1,6 @@
-#include "core/scene/animation.h"
+#include "core/scene/settings.h"
 
 #include "core/scene/frames.h"
-#include "core/scene/json.h"
 #include "core/scene/load.h"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,5 @@
 #include "core/scene/slots.h"
 
-#include "core/scene/pointer_values.h"
 #include "tests/scene/random_scene.h"
 
 #include <doctest/doctest.h>
@@ -74,6 +73,17 @@ TEST_CASE("slots: values by their pointers are those of the scene's document, an
       }
   }
   CHECK(seen > 1000);
+}
+
+TEST_CASE("value_at_pointer: what a file leaves out has its default, also of the sky and of films") {
+  Scene scene;
+  scene.background = SkyPicture{};
+  scene.animation = Animation{};
+  for (const char* pointer :
+       {"/background/rotate_y", "/background/scale", "/animation/curve", "/camera/focus_distance"})
+    CHECK_MESSAGE(value_at_pointer(scene, pointer), pointer);
+  for (const char* pointer : {"/background/turn", "/camera/fov", "/render/spp/0", "camera"})
+    CHECK_FALSE_MESSAGE(value_at_pointer(scene, pointer), pointer);
 }
 
 TEST_CASE("slots: what a scene does not have is not found and not set") {

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/scene/json.h"
+#include "core/scene/load.h"
 
 #include <string>
 #include <utility>

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/film/merge.h"
+#include "core/film/film.h"
 
 #include <vector>
 

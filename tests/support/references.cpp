@@ -1,7 +1,7 @@
 #include "tests/support/references.h"
 
 #include "core/image/image_io.h"
-#include "core/scene/json.h"
+#include "core/scene/load.h"
 #include "tests/support/fingerprint.h"
 #include "tests/support/paths.h"
 #include "tests/support/prepared.h"

@@ -2,7 +2,7 @@
 // tests of the build for browsers. Prints a line for each: its name, the hash of its picture, and millions of rays a
 // second.
 #include "core/base/fnv1a.h"
-#include "core/files/stats.h"
+#include "core/files/film_files.h"
 #include "core/render/render.h"
 #include "core/scene/load.h"
 

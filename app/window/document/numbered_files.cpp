@@ -3,7 +3,6 @@
 #include "app/files/outputs.h"
 #include "app/window/system/pacing.h"
 #include "core/files/film_files.h"
-#include "core/files/stats.h"
 #include "core/system/open_file.h"
 
 #include <fmt/core.h>

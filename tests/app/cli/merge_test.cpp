@@ -1,6 +1,6 @@
 #include "app/cli/requests.h"
 #include "core/image/image_io.h"
-#include "core/scene/json.h"
+#include "core/scene/load.h"
 #include "tests/support/scratch.h"
 #include "tests/support/thorough.h"
 

@@ -4,7 +4,7 @@
 #include "app/window/edit/object_list.h"
 #include "core/compile/compile.h"
 #include "core/render/render.h"
-#include "core/scene/json.h"
+#include "core/scene/load.h"
 #include "tests/app/window/opened_session.h"
 #include "tests/support/mixed_scene.h"
 #include "tests/support/prepared.h"

@@ -2,7 +2,7 @@
 
 #include "app/window/edit/arrange.h"
 #include "core/scene/check.h"
-#include "core/scene/json.h"
+#include "core/scene/load.h"
 
 #include <doctest/doctest.h>
 
