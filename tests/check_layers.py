@@ -54,7 +54,7 @@ RESERVED = [
     (r"emscripten/", r"app/web/"),
     (r"CLI/", r"app/cli/"),
     (r"fmt/", r"app/"),
-    (r"hwy/", r"core/base/lanes_simd_arithmetic\.h$"),
+    (r"hwy/", r"core/base/lanes_simd\.h$"),
     (r"nlohmann/", r"app/|core/scene/json[a-z_]*\.cpp$"),
     (r"(stb/)?stb_(truetype|easy_font)", r"app/report/lettering\.cpp$"),
     (r"(OpenEXR|Imath)/|Imf|Imath|(stb/)?stb_image|jpeglib|jerror|png\.h", r"core/image/(image_io[a-z_]*\.cpp|image_io_exr_open\.h)$"),

@@ -45,7 +45,7 @@ TYNDALL_INLINE IntOf<F> find_slot(const GuideView& g, Vec3<F> point, int level, 
   const I tag = as_int(name), mask = splat_int<F>(g.slot_mask);
   I at = as_int(shift_right<1>(name)) & mask, found = I(-1);
   for (auto open = wanted; any(open); at = (at + I(1)) & mask) {
-    const I here = gather_int<F>(g.cells + cell_tag, at * I(numbers_of_cell));
+    const I here = gather<F>(g.cells + cell_tag, at * I(numbers_of_cell));
     const auto same = mask_and(open, equal(here, tag));
     found = select(same, at, found);
     open = mask_and_not(mask_and_not(open, same), equal(here, I(0)));
@@ -67,7 +67,7 @@ TYNDALL_INLINE IntOf<F> find_cell(const GuideView& g, Vec3<F> point, MaskOf<F> w
   }
   for (int level = guide_middle_level - 1; level >= 0; --level) {
     const I safe = select(refined, found, I(0)) * I(numbers_of_cell);
-    refined = mask_and(refined, equal(gather_int<F>(g.cells + cell_is_refined, safe), I(1)));
+    refined = mask_and(refined, equal(gather<F>(g.cells + cell_is_refined, safe), I(1)));
     if (!any(refined)) break;
     const I finer = find_slot(g, point, level, refined);
     refined = mask_and(refined, less_equal(I(0), finer));
@@ -116,7 +116,7 @@ TYNDALL_INLINE SeenLobe<F> see_lobe(const GuideView& g, IntOf<F> sequence, Vec3<
   const auto at = [&](int k) __attribute__((always_inline)) { return gather<F>(g.lobe + k, row); };
   const auto vector = [&](int k) __attribute__((always_inline)) { return Vec3<F>{at(k), at(k + 1), at(k + 2)}; };
   const Vec3<F> offset = point - vector(lobe_point), flight = vector(lobe_flight), axis = vector(lobe_axis);
-  const I image = gather_int<F>(g.events + events_image, sequence * I(numbers_of_events));
+  const I image = gather<F>(g.events + events_image, sequence * I(numbers_of_events));
   const auto by_image = less_equal(I(0), image);
   SeenImage<F> light{-flight, by_image};
   if (any(mask_not(by_image)))
@@ -223,11 +223,11 @@ TYNDALL_INLINE GuidedSequence<F> find_sequence(const GuideView& g, Vec3<F> point
   const I cell = find_cell(g, point, wanted);
   auto open = mask_and(wanted, less_equal(I(0), cell));
   const I safe = select(open, cell, I(0)), row = safe * I(numbers_of_cell);
-  I at = gather_int<F>(g.cells + cell_first, row), found = I(-1);
-  const I end = gather_int<F>(g.cells + cell_end, row);
+  I at = gather<F>(g.cells + cell_first, row), found = I(-1);
+  const I end = gather<F>(g.cells + cell_end, row);
   for (open = mask_and(open, less(at, end)); any(open); open = mask_and(open, less(at, end))) {
     const I of = select(open, at, I(0)) * I(numbers_of_events);
-    const OrderedEvents<F> its{gather_int<F>(g.events + events_low, of), gather_int<F>(g.events + events_high, of)};
+    const OrderedEvents<F> its{gather<F>(g.events + events_low, of), gather<F>(g.events + events_high, of)};
     const auto same = mask_and(open, same_events(its, events));
     found = select(same, at, found);
     open = mask_and_not(open, same);
@@ -245,8 +245,8 @@ TYNDALL_INLINE GuidedSequence<F> draw_guided_sequence(const GuideView& g, Vec3<F
   const I cell = find_cell(g, point, wanted);
   auto open = mask_and(wanted, less_equal(I(0), cell));
   const I safe = select(open, cell, I(0)), row = safe * I(numbers_of_cell);
-  I at = gather_int<F>(g.cells + cell_first, row);
-  const I end = gather_int<F>(g.cells + cell_end, row);
+  I at = gather<F>(g.cells + cell_first, row);
+  const I end = gather<F>(g.cells + cell_end, row);
   GuidedSequence<F> drawn{I(-1), gather<F>(g.query_probability, safe)};
   F weight = F(0.0f);
   for (open = mask_and(open, less(at, end)); any(open); open = mask_and(open, less(at, end))) {

@@ -119,7 +119,7 @@ TYNDALL_INLINE SpecularSlab<F> load_slab(const SpecularView& c, IntOf<F> slab) {
     p.offset[k] = value(slab_offsets + k), p.half[k] = value(slab_halves + k);
   }
   p.index = value(slab_index), p.medium_density = value(slab_medium_density), p.closed = to_int(value(slab_closed));
-  p.element = lookup_int<F>(c.outer, c.spheres, slab + IntOf<F>(c.first_slab));
+  p.element = lookup<F>(c.outer, c.spheres, slab + IntOf<F>(c.first_slab));
   return p;
 }
 

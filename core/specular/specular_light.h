@@ -36,7 +36,7 @@ TYNDALL_INLINE SpecularSphere<F> query_slab(const auto& s, const SpecularRequest
                                             SpecularQuery<F>& a) {
   const SpecularView& c = s.specular;
   a.slab = load_slab<F>(
-      c, select(a.by_slab, lookup_int<F>(c.sphere, c.pairs, a.pair.light) - IntOf<F>(c.first_slab), IntOf<F>(0)));
+      c, select(a.by_slab, lookup<F>(c.sphere, c.pairs, a.pair.light) - IntOf<F>(c.first_slab), IntOf<F>(0)));
   const BoundingSphere<F> around = bounding_sphere(a.light_columns, q.time);
   const Vec3<F> normal = select(q.in_medium, zero3<F>(), q.facing);
   const Pair<F> u{q.sampler.independent_1d(dimension::event_sequence),
@@ -53,9 +53,9 @@ TYNDALL_INLINE SpecularQuery<F> specular_query(const auto& s, const SpecularRequ
   SpecularQuery<F> a{};
   a.pair = choose_light(c, point, q.sampler.independent_1d(dimension::specular_pair));
   a.probability = connect_probability(s, point) * a.pair.probability;
-  const IntOf<F> sphere = lookup_int<F>(c.sphere, c.pairs, a.pair.light), mirror = sphere - IntOf<F>(c.first_mirror);
+  const IntOf<F> sphere = lookup<F>(c.sphere, c.pairs, a.pair.light), mirror = sphere - IntOf<F>(c.first_mirror);
   a.sphere = load_sphere<F>(c, sphere, q.time);
-  a.light = lookup_int<F>(c.light, c.pairs, a.pair.light);
+  a.light = lookup<F>(c.light, c.pairs, a.pair.light);
   a.light_columns = load_light_or_sun<F>(s, a.light, a.sphere);
   a.by_slab = less_equal(IntOf<F>(c.first_slab), sphere);
   a.by_mirror = mask_and_not(less_equal(IntOf<F>(0), mirror), a.by_slab);
@@ -311,7 +311,7 @@ template <class F>
   auto arrives = less(F(0.0f), weight);
   if (!any(arrives)) return zero3<F>();
   const IntOf<F> light_element =
-      s.has_sun_paths() ? element_of_light<F>(s, a.light) : lookup_int<F>(s.lights.element, s.lights.count, a.light);
+      s.has_sun_paths() ? element_of_light<F>(s, a.light) : lookup<F>(s.lights.element, s.lights.count, a.light);
   const Ray<F> near{q.point, found.direction, q.time, q.from};
   const Ray<F> far{point_at(taken.light_point, -found.far_distance, found.arrive), found.arrive, q.time, found.from};
   for (int leg = 0; leg < 2; ++leg) {

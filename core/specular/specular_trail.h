@@ -22,7 +22,7 @@ TYNDALL_INLINE SpecularHistory<F> meet_object(const SceneView& s, const Specular
                                               IntOf<F> element, MaskOf<F> reflected) {
   using I = IntOf<F>;
   const I code =
-      lookup_int<F>(s.specular.sphere_of, s.element_count, element);  // 2 · object, + 1 for an inner sphere; or -1
+      lookup<F>(s.specular.sphere_of, s.element_count, element);  // 2 · object, + 1 for an inner sphere; or -1
   const auto none = mask_or(less(code, I(0)), less(trail.met.packed, I(0)));
   const I safe = select(none, I(0), code);
   const I object = as_int(shift_right<1>(as_uint(safe)));
@@ -32,7 +32,7 @@ TYNDALL_INLINE SpecularHistory<F> meet_object(const SceneView& s, const Specular
   HistoryEvent<F> event = event_at_sphere<F>(before.packed, equal(safe & I(1), I(1)), reflected, away);
   if (s.specular.has_slabs()) {
     const auto by_slab = less_equal(I(s.specular.first_slab), object);
-    const I first = lookup_int<F>(s.specular.outer, s.specular.spheres, object);
+    const I first = lookup<F>(s.specular.outer, s.specular.spheres, object);
     const auto at = event_at_slab<F>(before.packed, as_int(shift_right<1>(as_uint(element - first))));
     event.start = select(by_slab, at.start, event.start), event.count = select(by_slab, at.count, event.count);
     event.is_full = mask_or(mask_and(by_slab, at.is_full), mask_and_not(event.is_full, by_slab));
@@ -178,7 +178,7 @@ template <class F>
   const SpecularView& c = s.specular;
   const I sphere = select(could, trail.met.object(), I(0));
   const I safe_light = select(could, light, I(0));
-  const I pair = gather_int<F>(c.pair_of, sphere * I(s.lights.count) + safe_light);
+  const I pair = gather<F>(c.pair_of, sphere * I(s.lights.count) + safe_light);
   could = mask_and(could, less_equal(I(0), pair));
   if (!any(could)) return F(1.0f);
   const LightColumns<F> columns = load_light<F>(s.lights, safe_light);
@@ -203,7 +203,7 @@ template <class F>
   auto could = mask_and(escaped, trail.met.has_object());
   if (!any(could)) return F(1.0f);
   const I sphere = select(could, trail.met.object(), I(0));
-  const I pair = lookup_int<F>(c.sun_pair_of, c.spheres, sphere);
+  const I pair = lookup<F>(c.sun_pair_of, c.spheres, sphere);
   could = mask_and(could, less_equal(I(0), pair));
   if (!any(could)) return F(1.0f);
   const LightColumns<F> window = sun_window(s.sky, load_sphere<F>(c, sphere, ray.time));

@@ -27,7 +27,7 @@ TYNDALL_INLINE Vec3<F> light_vector(const LightView& l, const float* const* colu
 
 template <class F>
 TYNDALL_INLINE LightColumns<F> load_light(const LightView& l, IntOf<F> k) {
-  return {l.count == 1 ? IntOf<F>(l.kind[0]) : lookup_int<F>(l.kind, l.count, k),
+  return {l.count == 1 ? IntOf<F>(l.kind[0]) : lookup<F>(l.kind, l.count, k),
           light_vector<F>(l, l.corner, k),
           light_vector<F>(l, l.edge_u, k),
           light_vector<F>(l, l.edge_v, k),

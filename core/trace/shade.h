@@ -38,7 +38,7 @@ TYNDALL_INLINE SurfacePoint<F> surface_at(const SceneView& s, const Ray<F>& ray,
   SurfacePoint<F> p;
   p.element = select(less(element, IntOf<F>(0)), IntOf<F>(0), element);
   p.point = point_at(ray.origin, safe_t, ray.direction);
-  p.material = lookup_int<F>(s.material, s.element_count, p.element);
+  p.material = lookup<F>(s.material, s.element_count, p.element);
   Vec3<F> column{lookup<F>(s.x, s.element_count, p.element), lookup<F>(s.y, s.element_count, p.element),
                  lookup<F>(s.z, s.element_count, p.element)};
   p.normal = column;
@@ -69,7 +69,7 @@ TYNDALL_INLINE TextureUv<F> surface_uv(const auto& s, const SurfacePoint<F>& p) 
   F u = mul_add(column[0], p.point.x, mul_add(column[1], p.point.y, mul_add(column[2], p.point.z, column[3])));
   F v = mul_add(column[4], p.point.x, mul_add(column[5], p.point.y, mul_add(column[6], p.point.z, column[7])));
   if (s.has_outlined() && s.features.disks) {
-    const auto disk = equal(lookup_int<F>(s.disk, s.element_count, p.element), IntOf<F>(1));
+    const auto disk = equal(lookup<F>(s.disk, s.element_count, p.element), IntOf<F>(1));
     const Pair<F> on_disk = disk_uv(u, v);
     u = select(disk, on_disk.x, u), v = select(disk, on_disk.y, v);
   }
@@ -140,7 +140,7 @@ TYNDALL_INLINE Vec3<F> surface_colour(const auto& s, const SurfacePoint<F>& p, M
   const Vec3<F> colour{lookup<F>(s.red, s.material_count, p.material), lookup<F>(s.green, s.material_count, p.material),
                        lookup<F>(s.blue, s.material_count, p.material)};
   if (!s.has_textures()) return colour;
-  const IntOf<F> texture = lookup_int<F>(s.texture_of, s.material_count, p.material);
+  const IntOf<F> texture = lookup<F>(s.texture_of, s.material_count, p.material);
   if (!any(mask_and(lanes, less_equal(IntOf<F>(0), texture)))) return colour;
   return textured(s, colour, texture, lanes, texture_point<F>(s, p), &p);
 }
@@ -150,7 +150,7 @@ template <class F>
 TYNDALL_INLINE Vec3<F> light_radiance(const auto& s, IntOf<F> element, Vec3<F> point, MaskOf<F> lanes) {
   SurfacePoint<F> p;
   p.element = element;
-  p.material = lookup_int<F>(s.material, s.element_count, element);
+  p.material = lookup<F>(s.material, s.element_count, element);
   p.point = point;
   p.inverted = less(F(1.0f), F(0.0f));
   p.normal = zero3<F>();

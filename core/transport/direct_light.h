@@ -127,7 +127,7 @@ TYNDALL_INLINE F found_light_weight(const auto& s, const Paths<F>& p, IntOf<F> e
   const auto could = mask_and(lit, less(F(0.0f), p.pdf));
   if (!s.light_sampling || !any(could)) return F(1.0f);
   if (s.integrator != Integrator::mis) return select(could, F(0.0f), F(1.0f));
-  const IntOf<F> light = lookup_int<F>(s.light_of, s.element_count, element);
+  const IntOf<F> light = lookup<F>(s.light_of, s.element_count, element);
   const IntOf<F> safe = select(less(light, IntOf<F>(0)), IntOf<F>(0), light);
   const F chosen = beside_sky(s, p.ray.origin, light_pdf(s, safe, p.ray.origin, p.ray.time, p.ray.direction, distance));
   const F ratio = p.pdf / max(chosen, F(1e-30f));

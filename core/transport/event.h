@@ -9,7 +9,7 @@ namespace tyndall {
 template <class F>
 TYNDALL_INLINE void meet_surfaces(const auto& s, const Ray<F>& ray, const Hit<F>& hit, Event<F>& e) {
   e.at = surface_at(s, ray, hit.t, hit.element);
-  e.kind = lookup_int<F>(s.kind, s.material_count, e.at.material);
+  e.kind = lookup<F>(s.kind, s.material_count, e.at.material);
   e.colour = surface_colour(s, e.at, e.surface);
 }
 
@@ -21,7 +21,7 @@ TYNDALL_INLINE void add_emission(const auto& s, Paths<F>& p, const Hit<F>& hit, 
   if (any(lit)) {
     F weight = found_light_weight(s, p, e.at.element, hit.t, lit);
     if (s.has_specular_paths()) {
-      const IntOf<F> light = lookup_int<F>(s.light_of, s.element_count, e.at.element);
+      const IntOf<F> light = lookup<F>(s.light_of, s.element_count, e.at.element);
       const F by_chance = mis_weight_of_bsdf_hit(s, p.trail, p.ray, light, e.at.point, lit);
       recorder.on_weight_against_specular_paths(by_chance);
       weight = weight * by_chance;

@@ -87,7 +87,7 @@ TYNDALL_INLINE MaskOf<F> step_guided(const auto& s, GuidedPath<F>& g, MaskOf<F> 
   e.surface = active;
   meet_surfaces(s, p.ray, hit, e);
   add_guided_emission(s, g, hit, e, active);
-  const I thing = lookup_int<F>(s.guide.thing_of, s.element_count, e.at.element);
+  const I thing = lookup<F>(s.guide.thing_of, s.element_count, e.at.element);
   const I expected = as_int(shift_right<1>(as_uint(g.left.low & I(63))));
   active = mask_and(active, mask_and(less_equal(I(0), thing), equal(expected, thing + I(1))));
   if (!any(active)) return active;
@@ -120,8 +120,8 @@ template <class F>
                 q.time, q.from};
   const Vec3<F> direction = g.path.ray.direction;
   const I row = select(active, sequence.index, I(0)) * I(numbers_of_events);
-  g.left = {gather_int<F>(guide.events + events_next_low, row), gather_int<F>(guide.events + events_next_high, row)};
-  const I depth = q.depth + gather_int<F>(guide.events + events_count, row);
+  g.left = {gather<F>(guide.events + events_next_low, row), gather<F>(guide.events + events_next_high, row)};
+  const I depth = q.depth + gather<F>(guide.events + events_count, row);
   const F scattered = scattered_pdf(s, q, direction), pdf = guided_pdf(directions, direction);
   const auto useful = mask_and(less(F(0.0f), scattered), less(F(0.0f), pdf));
   active = mask_and(mask_and(lanes, active), mask_and(useful, less(depth, I(s.max_depth))));

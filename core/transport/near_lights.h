@@ -27,15 +27,10 @@ TYNDALL_INLINE NearEvent<F> fly_by_angle(const SceneView& s, const Paths<F>& p, 
   NearEvent<F> event;
   event.happens = less(F(1.0f), F(0.0f));
   event.texture = IntOf<F>(-1);
-  event.light = lookup_int<F>(s.near_light, s.near_count, pair);
+  event.light = lookup<F>(s.near_light, s.near_count, pair);
   MediumFlight<F>& flight = event.flight;
-  flight = {lookup_int<F>(s.near_medium, s.near_count, pair),
-            p.ray.origin,
-            p.ray.direction,
-            F(0.0f),
-            F(1.0f),
-            F(0.0f),
-            F(0.0f)};
+  flight = {
+      lookup<F>(s.near_medium, s.near_count, pair), p.ray.origin, p.ray.direction, F(0.0f), F(1.0f), F(0.0f), F(0.0f)};
   for (int k = 0; k < s.medium_count; ++k) {
     const MediumColumns& m = s.media[k];
     const auto mine = mask_and(lanes, equal(flight.medium, IntOf<F>(k)));

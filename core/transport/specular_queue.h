@@ -93,7 +93,7 @@ TYNDALL_INLINE void answer_queue(const auto& s, SpecularQueue<F>& waiting, TileC
   waiting.count -= count;
   if (waiting.count == 0) return;
   for (auto& column : waiting.number) store(column, load<F>(column + lanes));
-  for (auto& column : waiting.integer) store(column, load_int<F>(column + lanes));
+  for (auto& column : waiting.integer) store(column, load<F>(column + lanes));
 }
 
 /// Answers requests for the light of specular paths.
