@@ -1,10 +1,7 @@
 #ifdef TYNDALL_OPENEXR
 
-#include "core/film/film.h"
-#include "core/image/image_io.h"
-#include "core/image/image_io_exr_open.h"
+#include "core/image/image_io_exr.h"
 
-#include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfDoubleAttribute.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfStringAttribute.h>
@@ -130,19 +127,13 @@ Film read_film_of(const std::filesystem::path& file, Imf::MultiPartInputFile& ex
   Film film = read_frame(file, exr.header(0));
   const auto count = static_cast<std::size_t>(film.region.width()) * static_cast<std::size_t>(film.region.height());
   film.pixels.resize(count);
+  if (present.findChannel("film.A.R.emission0")) film.emission.resize(count);
   ExrTarget target{{}, exr.header(0).dataWindow()};
-  const auto add = [&](const std::vector<FilmChannel>& channels, void* first, std::size_t stride) {
-    for (const FilmChannel& channel : channels) {
-      const Imf::Channel* found = present.findChannel(channel.name);
-      if (found == nullptr || found->type != Imf::UINT)
-        damaged_film(file, "no channel " + channel.name + " of type uint");
-      target.add(channel.name, Imf::UINT, static_cast<char*>(first) + channel.offset, stride);
-    }
-  };
-  add(film_channels(), film.pixels.data(), sizeof(FilmPixel));
-  if (present.findChannel(emission_channels().front().name)) {
-    film.emission.resize(count);
-    add(emission_channels(), film.emission.data(), sizeof(EmissionSums));
+  for (const FilmChannel& channel : film_channels(film)) {
+    const Imf::Channel* found = present.findChannel(channel.name);
+    if (found == nullptr || found->type != Imf::UINT)
+      damaged_film(file, "no channel " + channel.name + " of type uint");
+    target.add(channel.name, Imf::UINT, channel.first, channel.stride);
   }
   target.read(exr, 0);
   check_counts(file, film);

@@ -1,10 +1,8 @@
 #ifdef TYNDALL_OPENEXR
 
-#include "core/image/image_io_exr_open.h"
+#include "core/image/image_io_exr.h"
 
-#include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticities.h>
-#include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfRgbaFile.h>
 #include <OpenEXR/ImfRgbaYca.h>
 #include <OpenEXR/ImfStandardAttributes.h>

@@ -178,7 +178,7 @@ void write_hdr(const std::filesystem::path& file, const LinearImage& image) {
   for (std::size_t i = 0; i < rgb.size(); i += 3) prepare_pixel(&rgb[i]);
   const std::vector<std::uint8_t> bytes = encode_hdr(image.width, image.height, rgb.data());
   WholeFile out(file);
-  out.write(bytes);
+  out.write(std::as_bytes(std::span(bytes)));
   out.commit();
 }
 

@@ -23,6 +23,7 @@ struct PngDecoder {
   std::jmp_buf stop{};
   char problem[128] = "";
   bool out_of_memory = false;
+  int passes = 1;  ///< over the rows: more where these are interlaced
 
   PngDecoder() = default;
   ~PngDecoder() { png_destroy_read_struct(&png, &info, nullptr); }
@@ -77,28 +78,18 @@ bool read_png_header(PngDecoder& decoder) {
   png_read_info(decoder.png, decoder.info);
   png_set_expand(decoder.png);
   png_set_gray_to_rgb(decoder.png);
-  return true;
-}
-
-/// Where the pixels go: `row` bytes a row.
-struct PngRows {
-  std::uint8_t* bytes;
-  std::size_t row, height;
-};
-
-/// Makes libpng ready to give rows. False: see `problem`.
-bool start_rows(PngDecoder& decoder, int& passes) {
-  if (setjmp(decoder.stop) != 0) return false;
-  passes = png_set_interlace_handling(decoder.png);
+  decoder.passes = png_set_interlace_handling(decoder.png);
   png_read_update_info(decoder.png, decoder.info);
   return true;
 }
 
 /// Reads all rows, and what follows them, so that all checksums are looked at. False: see `problem`.
-bool read_png_rows(PngDecoder& decoder, int passes, const PngRows& rows) {
+bool read_png_rows(PngDecoder& decoder, Samples& samples) {
   if (setjmp(decoder.stop) != 0) return false;
-  for (int pass = 0; pass < passes; ++pass)
-    for (std::size_t y = 0; y < rows.height; ++y) png_read_row(decoder.png, rows.bytes + y * rows.row, nullptr);
+  const std::size_t row = samples.bytes.size() / static_cast<std::size_t>(samples.height);
+  for (int pass = 0; pass < decoder.passes; ++pass)
+    for (std::size_t at = 0; at < samples.bytes.size(); at += row)
+      png_read_row(decoder.png, samples.bytes.data() + at, nullptr);
   png_read_end(decoder.png, nullptr);
   return true;
 }
@@ -115,17 +106,14 @@ Samples read_samples(const std::filesystem::path& file, PngDecoder& decoder) {
     if (decoder.out_of_memory) throw std::bad_alloc();
     cannot_read(file, std::string("damaged: ") + decoder.problem);
   };
-  int passes = 1;
-  if (!read_png_header(decoder) || !start_rows(decoder, passes)) fail();
+  if (!read_png_header(decoder)) fail();
   Samples samples;
   samples.width = static_cast<int>(png_get_image_width(decoder.png, decoder.info));
   samples.height = static_cast<int>(png_get_image_height(decoder.png, decoder.info));
   samples.channels = png_get_channels(decoder.png, decoder.info);
   samples.largest = png_get_bit_depth(decoder.png, decoder.info) == 16 ? 65535 : 255;
-  const std::size_t row = png_get_rowbytes(decoder.png, decoder.info),
-                    height = static_cast<std::size_t>(samples.height);
-  samples.bytes.resize(row * height);
-  if (!read_png_rows(decoder, passes, {samples.bytes.data(), row, height})) fail();
+  samples.bytes.resize(png_get_rowbytes(decoder.png, decoder.info) * static_cast<std::size_t>(samples.height));
+  if (!read_png_rows(decoder, samples)) fail();
   return samples;
 }
 

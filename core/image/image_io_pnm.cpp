@@ -95,13 +95,12 @@ void write_ppm(const std::filesystem::path& file, const LinearImage& image, doub
                PpmCurve ppm, std::optional<DitherOrigin> dither) {
   check_writable(file, image);
   const std::string header = "P6\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n255\n";
+  const std::vector<std::uint8_t> pixels = ppm == PpmCurve::gamma2
+                                               ? gamma2_bytes(image.rgb, exposure, curve)
+                                               : tone_map(image.rgb, exposure, curve, image.width, dither);
   WholeFile out(file);
-  out.write(std::span(reinterpret_cast<const std::uint8_t*>(header.data()), header.size()));
-  if (ppm == PpmCurve::gamma2)
-    out.write(gamma2_bytes(image.rgb, exposure, curve));
-  else
-    out.write(dither ? tone_map_dithered(image.rgb, exposure, curve, image.width, *dither)
-                     : tone_map(image.rgb, exposure, curve));
+  out.write(std::as_bytes(std::span(header)));
+  out.write(std::as_bytes(std::span(pixels)));
   out.commit();
 }
 
@@ -135,9 +134,9 @@ void write_pfm(const std::filesystem::path& file, const LinearImage& image) {
   const std::string header = "PF\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n-1.0\n";
   const auto row = 3 * static_cast<std::size_t>(image.width);
   WholeFile out(file);
-  out.write(std::span(reinterpret_cast<const std::uint8_t*>(header.data()), header.size()));
+  out.write(std::as_bytes(std::span(header)));
   for (std::size_t left = image.rgb.size(); left > 0; left -= row)
-    out.write(std::span<const float>(image.rgb).subspan(left - row, row));
+    out.write(std::as_bytes(std::span(image.rgb).subspan(left - row, row)));
   out.commit();
 }
 

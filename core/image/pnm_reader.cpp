@@ -16,46 +16,18 @@ const char* PnmReader::expected() const {
   return part_ <= Part::largest ? of_header[static_cast<int>(part_)] : "a colour";
 }
 
-/// Goes on behind white space and remarks. Whether that uses up the bytes.
-bool PnmReader::skip_gap(std::span<const std::uint8_t> bytes, std::size_t& at) {
-  for (; at < bytes.size(); ++at) {
-    const char c = static_cast<char>(bytes[at]);
-    if (in_remark_)
-      in_remark_ = c != '\n' && c != '\r';
-    else if (c == '#')
-      in_remark_ = true;
-    else if (!is_space(c))
-      return false;
-  }
-  return true;
-}
-
-/// The next whole number, once the character behind it has come, where `at` then stands; beyond 10^17 on either side,
-/// that. Nothing: the bytes are used up.
-std::optional<std::int64_t> PnmReader::take_number(std::span<const std::uint8_t> bytes, std::size_t& at) {
+void PnmReader::take_digit(char c) {
   constexpr std::int64_t largest = 100'000'000'000'000'000;
   constexpr std::size_t longest_shown = 24;  // characters of what was found in a number's place
-  if (digits_.text.empty() && skip_gap(bytes, at)) return {};
-  for (; at < bytes.size(); ++at) {
-    const char c = static_cast<char>(bytes[at]);
-    if (is_space(c) || c == '#') return finish_number();
-    const bool sign = digits_.text.empty() && (c == '-' || c == '+'), digit = c >= '0' && c <= '9';
-    digits_.negative = digits_.negative || (sign && c == '-');
-    digits_.any = digits_.any || digit;
-    digits_.damaged = digits_.damaged || !(sign || digit);
-    if (digit) digits_.value = std::min(10 * digits_.value + c - '0', largest);
-    if (digits_.text.size() < longest_shown)
-      digits_.text += c;
-    else if (digits_.damaged)
-      fail_number();
-  }
-  return {};
-}
-
-std::int64_t PnmReader::finish_number() {
-  if (digits_.damaged || !digits_.any) fail_number();
-  const Digits done = std::exchange(digits_, {});
-  return done.negative ? -done.value : done.value;
+  const bool sign = digits_.text.empty() && (c == '-' || c == '+'), digit = c >= '0' && c <= '9';
+  digits_.negative = digits_.negative || (sign && c == '-');
+  digits_.any = digits_.any || digit;
+  digits_.damaged = digits_.damaged || !(sign || digit);
+  if (digit) digits_.value = std::min(10 * digits_.value + c - '0', largest);
+  if (digits_.text.size() < longest_shown)
+    digits_.text += c;
+  else if (digits_.damaged)
+    fail_number();
 }
 
 void PnmReader::fail_number() const {
@@ -78,33 +50,17 @@ void PnmReader::take_header_number(std::int64_t number) {
   if (part_ == Part::width) {
     header_.width = number;
     part_ = Part::height;
-    return;
-  }
-  if (part_ == Part::height) {
+  } else if (part_ == Part::height) {
     header_.height = number;
     check_readable(name_, header_.width, header_.height);
     part_ = Part::largest;
-    return;
+  } else {
+    if (number < 1 || number > 65535)
+      cannot_read(name_, "found " + std::to_string(number) + " as the largest number of a colour, expected 1 to 65535");
+    header_.largest = static_cast<unsigned>(number);
+    light_ = light_table(header_.largest, power_);
+    part_ = header_.is_text() ? Part::pixels : Part::gap;
   }
-  if (number < 1 || number > 65535)
-    cannot_read(name_, "found " + std::to_string(number) + " as the largest number of a colour, expected 1 to 65535");
-  header_.largest = static_cast<unsigned>(number);
-  light_ = light_table(header_.largest, power_);
-  part_ = header_.is_text() ? Part::pixels : Part::gap;
-}
-
-/// Takes the one character between a header and the bytes of pixels; a remark may stand before it.
-void PnmReader::take_gap(char c) {
-  if (in_remark_)
-    in_remark_ = c != '\n' && c != '\r';
-  else
-    in_remark_ = c == '#';
-  if (!in_remark_) part_ = c == '\r' ? Part::line_feed : Part::pixels;
-}
-
-/// Whether this character behind a CR belongs to the header. left: bytes from it on, if the size is known.
-bool PnmReader::is_line_end(char c, std::size_t left) const {
-  return c == '\n' && (!size_ || left > header_.number_size() * header_.numbers());
 }
 
 /// A number outside of the range becomes the nearest within, and is counted.
@@ -117,46 +73,51 @@ void PnmReader::put(std::int64_t number, std::vector<float>& rgb) {
   if (++taken_ == header_.numbers()) part_ = Part::end;
 }
 
-void PnmReader::take_pixel_bytes(std::span<const std::uint8_t> bytes, std::size_t& at, std::vector<float>& rgb) {
-  for (; at < bytes.size() && part_ == Part::pixels; ++at) {
-    if (header_.number_size() == 1)
-      put(bytes[at], rgb);
-    else if (high_byte_)
-      put(*std::exchange(high_byte_, std::nullopt) * 256 + bytes[at], rgb);
-    else
-      high_byte_ = bytes[at];
+/// Takes a byte that ends no number. False: it does not belong to the picture.
+bool PnmReader::take_byte(std::uint8_t byte, std::vector<float>& rgb) {
+  const char c = static_cast<char>(byte);
+  if (part_ == Part::line_feed) {
+    part_ = Part::pixels;
+    if (c == '\n' && (!size_ || *size_ - position_ > header_.number_size() * header_.numbers())) return true;
   }
+  if (part_ == Part::mark) {
+    take_mark(c);
+  } else if (part_ > Part::gap && !header_.is_text()) {
+    if (part_ == Part::end) return false;
+    if (header_.number_size() == 2 && !high_byte_)
+      high_byte_ = byte;
+    else
+      put(std::exchange(high_byte_, std::nullopt).value_or(0) * 256 + byte, rgb);
+  } else if (in_remark_ || c == '#' || is_space(c)) {
+    in_remark_ = in_remark_ ? c != '\n' && c != '\r' : c == '#';
+    if (part_ == Part::gap && !in_remark_) part_ = c == '\r' ? Part::line_feed : Part::pixels;
+  } else if (part_ == Part::end) {
+    return false;
+  } else {
+    take_digit(c);
+  }
+  return true;
 }
 
 std::size_t PnmReader::take(std::span<const std::uint8_t> bytes, std::vector<float>& rgb, bool header_only) {
   std::size_t at = 0;
   while (at < bytes.size() && !(header_only && header())) {
-    if (part_ == Part::mark) {
-      take_mark(static_cast<char>(bytes[at++]));
-    } else if (part_ <= Part::largest) {
-      if (const auto number = take_number(bytes, at)) take_header_number(*number);
-    } else if (part_ == Part::gap) {
-      take_gap(static_cast<char>(bytes[at++]));
-    } else if (part_ == Part::line_feed) {
-      const std::size_t taken = before_ + at;
-      if (is_line_end(static_cast<char>(bytes[at]), size_ ? *size_ - taken : 0)) ++at;
-      part_ = Part::pixels;
-    } else if (part_ == Part::end) {
-      if (!header_.is_text()) break;
-      if (!skip_gap(bytes, at)) break;
-    } else if (header_.is_text()) {
-      if (const auto number = take_number(bytes, at)) put(*number, rgb);
-    } else {
-      take_pixel_bytes(bytes, at, rgb);
-    }
+    const char c = static_cast<char>(bytes[at]);
+    if (!digits_.text.empty() && (is_space(c) || c == '#'))
+      end(rgb);
+    else if (take_byte(bytes[at], rgb))
+      ++at, ++position_;
+    else
+      break;
   }
-  before_ += at;
   return at;
 }
 
 void PnmReader::end(std::vector<float>& rgb) {
   if (digits_.text.empty()) return;
-  const std::int64_t number = finish_number();
+  if (digits_.damaged || !digits_.any) fail_number();
+  const Digits done = std::exchange(digits_, {});
+  const std::int64_t number = done.negative ? -done.value : done.value;
   part_ <= Part::largest ? take_header_number(number) : put(number, rgb);
 }
 

@@ -18,8 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
-
 /// Follows symbolic links to a name that is none, or to one that stands for an open file.
 fs::path end_of_links(const fs::path& file) {
   fs::path target = file;
@@ -86,7 +84,7 @@ FilePlace find_place(const fs::path& file) {
   const bool there = !error;
   if (!there && error != std::errc::no_such_file_or_directory) cannot_write(file, error.message());
   place.target = end_of_links(file);
-  place.folder = folder_of(place.target);
+  place.folder = place.target.has_parent_path() ? place.target.parent_path() : fs::path(".");
   if (!place.target.has_filename()) cannot_write(file, error_text(EISDIR));
   if (const std::string only = protection_of(place.folder); !only.empty())
     place.folder_problem = "its folder may " + only;
@@ -105,12 +103,8 @@ FilePlace find_place(const fs::path& file) {
 }
 
 bool is_stream(const fs::path& file) {
-  if (file == "-") return true;
-  std::error_code error;
-  const fs::file_type type = fs::status(file, error).type();
-  if (type == fs::file_type::fifo || type == fs::file_type::character) return true;
   try {
-    return type == fs::file_type::regular && find_place(file).method == WriteMethod::stream;
+    return find_place(file).method == WriteMethod::stream;
   } catch (const ImageFileError&) {
     return false;  // writing it says why
   }
@@ -183,19 +177,15 @@ WholeFile::~WholeFile() {
   if (!temporary_.empty()) remove_file(temporary_);
 }
 
-void WholeFile::put(const void* data, std::size_t size) {
-  const auto* bytes = static_cast<const std::uint8_t*>(data);
-  position_ += size;
-  while (size > 0) {
-    const std::size_t part = std::min(size, buffer_size - buffer_.size());
-    buffer_.insert(buffer_.end(), bytes, bytes + part);
-    bytes += part, size -= part;
+void WholeFile::write(std::span<const std::byte> bytes) {
+  position_ += bytes.size();
+  while (!bytes.empty()) {
+    const auto part = bytes.first(std::min(bytes.size(), buffer_size - buffer_.size()));
+    buffer_.insert(buffer_.end(), part.begin(), part.end());
+    bytes = bytes.subspan(part.size());
     if (buffer_.size() == buffer_size) flush();
   }
 }
-
-void WholeFile::write(std::span<const std::uint8_t> bytes) { put(bytes.data(), bytes.size()); }
-void WholeFile::write(std::span<const float> values) { put(values.data(), values.size_bytes()); }
 
 void WholeFile::flush() {
   check(bytes_.write(buffer_.data(), buffer_.size()));
@@ -211,7 +201,7 @@ void WholeFile::seek(std::uint64_t position) {
 /// Copies all that was written to an open file.
 void WholeFile::copy_to(const OpenFile& to) const {
   check(bytes_.seek(0));
-  std::vector<std::uint8_t> part(std::size_t{1} << 16);
+  std::vector<std::byte> part(std::size_t{1} << 16);
   for (std::size_t got = 1; got > 0;) {
     check(bytes_.read(part.data(), part.size(), got));
     check(to.write(part.data(), got));
