@@ -1,5 +1,5 @@
 #pragma once
-#include "core/base/reservoir.h"
+#include "core/base/sampling.h"
 #include "core/specular/request.h"
 #include "core/specular/specular_trail.h"
 #include "core/specular/sun_window.h"

@@ -15,25 +15,17 @@ namespace tyndall {
 namespace {
 
 int flags_of(OpenFor purpose) {
-  switch (purpose) {
-    case OpenFor::reading:
-      return O_RDONLY;
-    case OpenFor::writing:
-      return O_WRONLY | O_NOCTTY;
-    case OpenFor::appending:
-      return O_WRONLY | O_APPEND | O_NOCTTY;
-    case OpenFor::adding:
-      return O_WRONLY | O_APPEND | O_CREAT;
-    case OpenFor::changing:
-      return O_RDWR | O_CREAT;
-    case OpenFor::creating:
-      return O_RDWR | O_CREAT | O_EXCL;
-    case OpenFor::looking:
-      return O_RDWR | O_NOFOLLOW | O_NONBLOCK;
-    case OpenFor::folder:
-      return O_RDONLY | O_DIRECTORY;
-  }
-  return O_RDONLY;
+  constexpr int flags[] = {
+      O_RDONLY,                          // reading
+      O_WRONLY | O_NOCTTY,               // writing
+      O_WRONLY | O_APPEND | O_NOCTTY,    // appending
+      O_WRONLY | O_APPEND | O_CREAT,     // adding
+      O_RDWR | O_CREAT,                  // changing
+      O_RDWR | O_CREAT | O_EXCL,         // creating
+      O_RDWR | O_NOFOLLOW | O_NONBLOCK,  // looking
+      O_RDONLY | O_DIRECTORY,            // folder
+  };
+  return flags[static_cast<int>(purpose)];
 }
 
 int result(long value) { return value < 0 ? errno : 0; }

@@ -1,4 +1,4 @@
-#include "core/base/reservoir.h"
+#include "core/base/sampling.h"
 
 #include <doctest/doctest.h>
 
