@@ -59,12 +59,6 @@ Imath::M44f adaptation(const Imath::V2f& from, const Imath::V2f& to) {
   return cones * scale * cones.inverse();
 }
 
-/// The fractions of red, green and blue in the luminance, by the attribute "chromaticities"; without it those of
-/// Rec.709. Throws ImageFileError for chromaticities that span no colours.
-Imath::V3f luminance_weights(const std::filesystem::path& file, const Imf::Header& header) {
-  return Imf::RgbaYca::computeYw(chromaticities_of(file, header));
-}
-
 /// Converts linear RGB, 3 floats a pixel, by the attribute "chromaticities" to the Rec.709 RGB of the same CIE XYZ.
 /// The white of the file is converted like any other colour, unless the attribute "adoptedNeutral" says which
 /// chromaticity is to look neutral: that one becomes the white of Rec.709, by a linear Bradford transform. Values of
@@ -130,7 +124,7 @@ void read_channels(const std::filesystem::path& file, Imf::MultiPartInputFile& e
 void read_whole_chroma(const std::filesystem::path& file, Imf::MultiPartInputFile& exr, const ExrLayer& layer,
                        LinearImage& image) {
   read_channels(file, exr, layer, image);
-  const Imath::V3f weights = luminance_weights(file, exr.header(layer.part));
+  const Imath::V3f weights = Imf::RgbaYca::computeYw(chromaticities_of(file, exr.header(layer.part)));
   for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
     const float y = image.rgb[i], red = (image.rgb[i + 1] + 1) * y, blue = (image.rgb[i + 2] + 1) * y;
     image.rgb[i] = red, image.rgb[i + 1] = (y - red * weights.x - blue * weights.z) / weights.y,
@@ -159,7 +153,7 @@ void read_luminance_chroma(const std::filesystem::path& file, Imf::MultiPartInpu
                     sampling_of(header, layer.channels[2]) == std::pair{2, 2};
   if (!half) return read_whole_chroma(file, exr, layer, image);
   check_sampling(file, header, layer.channels[0]);
-  luminance_weights(file, header);  // refuses chromaticities that cannot be
+  chromaticities_of(file, header);  // refuses those that cannot be
   if (exr.parts() > 1)
     cannot_read(file, "found luminance and chroma of 2 x 2 pixels in a file of several parts, expected one part");
   read_half_chroma(file, layer, image);

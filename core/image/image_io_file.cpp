@@ -15,11 +15,9 @@
 namespace tyndall {
 namespace {
 
-bool is_valid_size(std::int64_t width, std::int64_t height) {
-  return width > 0 && height > 0 && width <= max_image_pixels && height <= max_image_pixels / width;
-}
-
+/// Why no image has this size; "": some have.
 std::string size_problem(std::int64_t width, std::int64_t height) {
+  if (width > 0 && height > 0 && width <= max_image_pixels && height <= max_image_pixels / width) return "";
   return "found an image of " + std::to_string(width) + " x " + std::to_string(height) +
          " pixels, expected 1 to 2^28 in all";
 }
@@ -111,7 +109,7 @@ void cannot_write(const std::filesystem::path& file, const std::string& why) {
 }
 
 void check_readable(const std::filesystem::path& file, std::int64_t width, std::int64_t height) {
-  if (!is_valid_size(width, height)) cannot_read(file, size_problem(width, height));
+  if (const std::string problem = size_problem(width, height); !problem.empty()) cannot_read(file, problem);
 }
 
 void check_enough(const std::filesystem::path& file, std::uint64_t size, std::uint64_t minimum) {
@@ -121,7 +119,7 @@ void check_enough(const std::filesystem::path& file, std::uint64_t size, std::ui
 }
 
 void check_writable(const std::filesystem::path& file, std::int64_t width, std::int64_t height) {
-  if (!is_valid_size(width, height)) cannot_write(file, size_problem(width, height));
+  if (const std::string problem = size_problem(width, height); !problem.empty()) cannot_write(file, problem);
 }
 
 void check_writable(const std::filesystem::path& file, const LinearImage& image) {

@@ -59,6 +59,17 @@ OpenFile OpenFile::unnamed() {
   return file;
 }
 
+std::pair<OpenFile, OpenFile> OpenFile::pipe() {
+  std::pair<OpenFile, OpenFile> made;
+  int ends[2];
+  if (::pipe(ends) != 0) {
+    made.first.error_ = made.second.error_ = errno;
+    return made;
+  }
+  for (const int end : ends) fcntl(end, F_SETFD, FD_CLOEXEC);
+  return {OpenFile(ends[0]), OpenFile(ends[1])};
+}
+
 int OpenFile::close() { return descriptor_ > STDERR_FILENO ? result(::close(std::exchange(descriptor_, -1))) : 0; }
 
 int read_some(int file, void* to, std::size_t size, std::size_t& got) {
@@ -134,13 +145,6 @@ int OpenFile::set_owner(unsigned mode, unsigned user, unsigned group) const {
   if (!same_user || !same_group) mode &= 0777u;  // nobody becomes what the old owner was by running the file
   if ((now.st_mode & 07777u) == mode || fchmod(descriptor_, mode) == 0) return 0;
   return errno == EPERM || errno == ENOTSUP ? 0 : errno;  // these two: the file system has no modes
-}
-
-Bell::Bell() {
-  int ends[2];
-  if (pipe(ends) != 0) return;
-  for (const int end : ends) fcntl(end, F_SETFD, FD_CLOEXEC);
-  heard_ = OpenFile(ends[0]), rung_ = OpenFile(ends[1]);
 }
 
 void Bell::ring() const {
