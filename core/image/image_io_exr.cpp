@@ -14,7 +14,6 @@
 
 #include <bit>
 #include <cassert>
-#include <cstring>
 #include <deque>
 #include <exception>
 #include <type_traits>
@@ -86,13 +85,6 @@ class Stream : public Imf::OStream {
   std::exception_ptr error_;
 };
 
-std::string planned_bytes(const Film& film) {
-  static_assert(std::is_trivially_copyable_v<PlannedSamples>);
-  std::string bytes(film.planned.size() * sizeof(PlannedSamples), '\0');
-  std::memcpy(bytes.data(), film.planned.data(), bytes.size());
-  return bytes;
-}
-
 /// What makes the channels film.* a film.
 void describe_film(Imf::Header& header, const Film& film, const Embedded& embedded) {
   header.insert(exr_name::width, Imf::IntAttribute(film.width));
@@ -106,7 +98,10 @@ void describe_film(Imf::Header& header, const Film& film, const Embedded& embedd
   header.insert(exr_name::unfinished, Imf::IntAttribute(embedded.label.unfinished ? 1 : 0));
   header.insert(exr_name::version, Imf::StringAttribute(embedded.label.version));
   header.insert(exr_name::isa, Imf::StringAttribute(embedded.label.isa));
-  if (!film.planned.empty()) header.insert(exr_name::planned, Imf::StringAttribute(planned_bytes(film)));
+  static_assert(std::is_trivially_copyable_v<PlannedSamples>);
+  const std::string planned(reinterpret_cast<const char*>(film.planned.data()),
+                            film.planned.size() * sizeof(PlannedSamples));
+  if (!planned.empty()) header.insert(exr_name::planned, Imf::StringAttribute(planned));
   header.insert(exr_name::checksum, Imf::StringAttribute(checksum_text(film, embedded)));
 }
 

@@ -106,10 +106,6 @@ void write_png(const std::filesystem::path& file, const LinearImage& image, doub
   out.commit();
 }
 
-void check_png(const std::filesystem::path& file, std::span<const std::uint8_t> png) {
-  if (!png_chunk(png, "IEND")) cannot_read(file, "damaged: the PNG ends in the middle");
-}
-
 std::optional<std::span<const std::uint8_t>> png_chunk(std::span<const std::uint8_t> png, std::string_view type) {
   std::size_t at = signature_size;
   while (const auto chunk = take_chunk(png, at)) {

@@ -194,7 +194,7 @@ PictureFile read_png(const std::filesystem::path& file, std::span<const std::uin
     check_readable(file, high_first(bytes, 16, 4), high_first(bytes, 20, 4));
     check_enough(file, bytes.size(), min_png_bytes(bytes));
   }
-  check_png(file, bytes);
+  if (!png_chunk(bytes, "IEND")) cannot_read(file, "damaged: the PNG ends in the middle");
   PngDecoder decoder;
   decoder.left = bytes;
   const Samples samples = read_samples(file, decoder);

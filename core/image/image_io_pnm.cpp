@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <string_view>
 
@@ -34,33 +34,18 @@ struct PfmHeader {
   }
 };
 
-/// The next word of a header.
-std::string_view next_word(std::string_view& text) {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  const auto end = std::find_if(text.begin(), text.end(), is_space);
-  const std::string_view word = text.substr(0, static_cast<std::size_t>(end - text.begin()));
-  text.remove_prefix(word.size());
-  return word;
-}
-
-bool parse(std::string_view word, int& value) {
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size();
-}
-
-bool parse(std::string_view word, double& value) { return number_from_text(word, value); }
-
 PfmHeader read_header(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
   PfmHeader header;
-  std::string_view text(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 256));
-  const std::size_t start = text.size();
-  header.channels = next_word(text) == "PF" ? 3 : 1;
-  const bool good = parse(next_word(text), header.width) && parse(next_word(text), header.height) &&
-                    parse(next_word(text), header.scale);
-  if (!good || header.scale == 0 || !std::isfinite(header.scale))
+  const auto begin = bytes.first(std::min<std::size_t>(bytes.size(), 256));
+  char kind = 0, scale[256] = "";
+  int end = 0;
+  const int read = std::sscanf(std::string(begin.begin(), begin.end()).c_str(), "P%c %9d %9d %255s%n", &kind,
+                               &header.width, &header.height, scale, &end);
+  if (read != 4 || !number_from_text(scale, header.scale) || header.scale == 0 || !std::isfinite(header.scale))
     cannot_read(file, "damaged: expected a PFM header: PF, width, height, scale");
   check_readable(file, header.width, header.height);
-  header.end = start - text.size();
+  header.channels = kind == 'F' ? 3 : 1;
+  header.end = static_cast<std::size_t>(end);
   return header;
 }
 

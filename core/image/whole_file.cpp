@@ -208,14 +208,6 @@ void WholeFile::copy_to(const OpenFile& to) const {
   }
 }
 
-/// Copies what was written to standard output, into a pipe or device, or to the end of a file that is open elsewhere.
-void WholeFile::send() const {
-  OpenFile to = file_ == "-" ? OpenFile(standard_output) : OpenFile(file_, OpenFor::appending);
-  check(to.error());
-  copy_to(to);
-  check(to.close());
-}
-
 /// Writes into the file that cannot be replaced.
 void WholeFile::overwrite() const {
   OpenFile to(place_.target, OpenFor::writing);
@@ -235,7 +227,12 @@ void WholeFile::overwrite() const {
 
 void WholeFile::commit() {
   flush();
-  if (place_.method == WriteMethod::stream) return send();
+  if (place_.method == WriteMethod::stream) {  // standard output, a pipe or device, or the end of a file open elsewhere
+    OpenFile to = file_ == "-" ? OpenFile(standard_output) : OpenFile(file_, OpenFor::appending);
+    check(to.error());
+    copy_to(to);
+    return check(to.close());
+  }
   if (place_.method == WriteMethod::in_place) return overwrite();
   if (place_.exists) check(bytes_.set_owner(place_.mode, place_.owner.user, place_.owner.group));
   check(bytes_.synchronise());

@@ -80,7 +80,6 @@ class WholeFile {
   void flush();
   void open_beside();
   void check_in_place();
-  void send() const;
   void overwrite() const;
   void copy_to(const OpenFile& to) const;
   void check(int error) const;
