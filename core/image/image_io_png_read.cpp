@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <csetjmp>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <new>
@@ -21,7 +22,7 @@ struct PngDecoder {
   png_infop info = nullptr;
   std::span<const std::uint8_t> left;  ///< bytes that were not read yet
   std::jmp_buf stop{};
-  char problem[128] = "";
+  char problem[128] = "libpng cannot be used";
   bool out_of_memory = false;
   int passes = 1;  ///< over the rows: more where these are interlaced
 
@@ -31,13 +32,10 @@ struct PngDecoder {
   PngDecoder& operator=(const PngDecoder&) = delete;
 };
 
-[[noreturn]] void stop_decoding(PngDecoder& decoder, const char* problem) {
-  std::strncpy(decoder.problem, problem, sizeof decoder.problem - 1);
-  std::longjmp(decoder.stop, 1);
-}
-
 void on_error(png_structp png, png_const_charp problem) {
-  stop_decoding(*static_cast<PngDecoder*>(png_get_error_ptr(png)), problem);
+  auto& decoder = *static_cast<PngDecoder*>(png_get_error_ptr(png));
+  std::snprintf(decoder.problem, sizeof decoder.problem, "%s", problem);
+  std::longjmp(decoder.stop, 1);
 }
 
 /// The checksum behind the compressed pixels is the only one that libpng merely warns of.
@@ -51,11 +49,9 @@ void* take_memory(png_structp png, png_alloc_size_t size) {
   return memory;
 }
 
-void give_back_memory(png_structp, void* memory) { std::free(memory); }
-
 void take_bytes(png_structp png, png_bytep to, std::size_t size) {
   auto& decoder = *static_cast<PngDecoder*>(png_get_io_ptr(png));
-  if (size > decoder.left.size()) stop_decoding(decoder, "the PNG ends in the middle");
+  if (size > decoder.left.size()) png_error(png, "the PNG ends in the middle");
   std::memcpy(to, decoder.left.data(), size);
   decoder.left = decoder.left.subspan(size);
 }
@@ -63,10 +59,10 @@ void take_bytes(png_structp png, png_bytep to, std::size_t size) {
 /// Reads up to the pixels, which become RGB or RGBA of 8 or 16 bits. False: see `problem`.
 bool read_png_header(PngDecoder& decoder) {
   if (setjmp(decoder.stop) != 0) return false;
-  decoder.png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &decoder, on_error, on_warning, &decoder, take_memory,
-                                         give_back_memory);
+  decoder.png =
+      png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &decoder, on_error, on_warning, &decoder, take_memory, nullptr);
   if (decoder.png) decoder.info = png_create_info_struct(decoder.png);
-  if (!decoder.info) stop_decoding(decoder, "libpng cannot be used");
+  if (!decoder.info) return false;
   constexpr png_alloc_size_t usual_chunk = 4'000'000;
   const png_alloc_size_t size = decoder.left.size();
   png_set_user_limits(decoder.png, max_image_pixels, max_image_pixels);
