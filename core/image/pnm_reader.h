@@ -9,6 +9,7 @@
 #include <vector>
 
 /// The grammar of PNM pictures (PPM and PGM): the one for whole files and for pictures that come by a pipe, row by row.
+/// It is in image_io_pnm.cpp.
 namespace tyndall {
 
 /// What the header of a PNM says.
