@@ -139,15 +139,6 @@ std::optional<std::string> PnmReader::remark() const {
 
 namespace {
 
-/// Believes the size that a header says only where the file is long enough for it. left: bytes behind the header.
-void check_length(const std::filesystem::path& file, const PnmHeader& header, std::size_t left) {
-  const std::size_t needed = header.is_text() ? 2 * header.numbers() : 1 + header.numbers() * header.number_size();
-  if (left < needed)
-    cannot_read(file, "damaged: found " + std::to_string(left) + " bytes behind the header, expected at least " +
-                          std::to_string(needed) + " for " + std::to_string(header.width) + " x " +
-                          std::to_string(header.height) + " pixels");
-}
-
 struct PfmHeader {
   int width = 0, height = 0;
   std::size_t channels = 3;
@@ -222,7 +213,13 @@ PictureFile read_ppm(const std::filesystem::path& file, std::span<const std::uin
   const std::string ends = std::string("damaged: the file ends where ") + reader.expected() + " is expected";
   if (!reader.header()) cannot_read(file, ends);
   const PnmHeader& header = *reader.header();
-  check_length(file, header, bytes.size() - at);
+  // The size that a header says is believed only where the file is long enough for it.
+  const std::size_t left = bytes.size() - at;
+  const std::size_t needed = header.is_text() ? 2 * header.numbers() : 1 + header.numbers() * header.number_size();
+  if (left < needed)
+    cannot_read(file, "damaged: found " + std::to_string(left) + " bytes behind the header, expected at least " +
+                          std::to_string(needed) + " for " + std::to_string(header.width) + " x " +
+                          std::to_string(header.height) + " pixels");
   picture.image.width = static_cast<int>(header.width), picture.image.height = static_cast<int>(header.height);
   picture.bits = header.largest > 255 ? 16 : 8;
   rgb.reserve(std::size_t{3} * static_cast<std::size_t>(header.width * header.height));
