@@ -7,9 +7,8 @@
 #include "core/system/process.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
-#include <chrono>
+#include <random>
 #include <string>
 #include <system_error>
 
@@ -43,13 +42,6 @@ std::string obstacle_of(const FilePlace& place) {
 constexpr std::size_t buffer_size = std::size_t{1} << 20;
 constexpr const char* temporary_mark = ".tmp-";
 constexpr std::size_t digits_of_number = 16;
-
-/// A number that another writer of the same file hardly has, too. If it has, O_EXCL tells, and the next one is taken.
-std::uint64_t likely_unique() {
-  static std::atomic<std::uint64_t> count{0};
-  const auto now = static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
-  return fnv1a(std::to_string(now) + ' ' + std::to_string(process_number()) + ' ' + std::to_string(++count));
-}
 
 /// What the names of all temporary files of a target begin with: its name, or if that would become too long, its
 /// beginning and the hash of all of it.
@@ -134,8 +126,9 @@ WholeFile::WholeFile(const fs::path& file) : file_(file), place_(find_place(file
 void WholeFile::open_beside() {
   const std::string prefix = temporary_prefix(place_.folder, place_.target.filename().string());
   remove_dead(place_.folder, prefix);
+  std::random_device random;  // where another writer has the same number, O_EXCL tells, and the next one is taken
   for (int attempt = 0; attempt < 1000; ++attempt)
-    if (create(place_.folder / (prefix + hash_text(likely_unique())))) return;
+    if (create(place_.folder / (prefix + hash_text(std::uint64_t{random()} << 32 | random())))) return;
   if (place_.method == WriteMethod::replace) fail(EEXIST);
 }
 
