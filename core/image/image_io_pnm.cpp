@@ -139,31 +139,6 @@ std::optional<std::string> PnmReader::remark() const {
 
 namespace {
 
-struct PfmHeader {
-  int width = 0, height = 0;
-  std::size_t channels = 3;
-  double scale = -1;    ///< negative: little endian
-  std::size_t end = 0;  ///< behind the last word
-  std::size_t pixels() const {
-    return channels * sizeof(float) * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  }
-};
-
-PfmHeader read_header(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
-  PfmHeader header;
-  const auto begin = bytes.first(std::min<std::size_t>(bytes.size(), 256));
-  char kind = 0, scale[256] = "";
-  int end = 0;
-  const int read = std::sscanf(std::string(begin.begin(), begin.end()).c_str(), "P%c %9d %9d %255s%n", &kind,
-                               &header.width, &header.height, scale, &end);
-  if (read != 4 || !number_from_text(scale, header.scale) || header.scale == 0 || !std::isfinite(header.scale))
-    cannot_read(file, "damaged: expected a PFM header: PF, width, height, scale");
-  check_readable(file, header.width, header.height);
-  header.channels = kind == 'F' ? 3 : 1;
-  header.end = static_cast<std::size_t>(end);
-  return header;
-}
-
 float read_float(const std::uint8_t* bytes, bool swap) {
   std::uint32_t word = 0;
   std::memcpy(&word, bytes, sizeof word);
@@ -247,23 +222,29 @@ void write_pfm(const std::filesystem::path& file, const LinearImage& image) {
 }
 
 PictureFile read_pfm(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
-  const PfmHeader header = read_header(file, bytes);
-  const auto pixels = bytes.subspan(pixels_after(bytes, header.end, header.pixels()));
-  if (pixels.size() < header.pixels()) cannot_read(file, "damaged: the PFM ends in the middle");
-  check_end(file, pixels.subspan(header.pixels()), "P");
-  const auto width = static_cast<std::size_t>(header.width), height = static_cast<std::size_t>(header.height);
+  const auto begin = bytes.first(std::min<std::size_t>(bytes.size(), 256));
+  char kind = 0, word[256] = "";
+  int columns = 0, rows = 0, end = 0;
+  double scale = 0;  // negative: little endian
+  const int read = std::sscanf(std::string(begin.begin(), begin.end()).c_str(), "P%c %9d %9d %255s%n", &kind, &columns,
+                               &rows, word, &end);
+  if (read != 4 || !number_from_text(word, scale) || scale == 0 || !std::isfinite(scale))
+    cannot_read(file, "damaged: expected a PFM header: PF, width, height, scale");
+  check_readable(file, columns, rows);
+  const auto width = static_cast<std::size_t>(columns), height = static_cast<std::size_t>(rows);
+  const std::size_t channels = kind == 'F' ? 3 : 1, row_size = channels * sizeof(float) * width;
+  const auto pixels = bytes.subspan(pixels_after(bytes, static_cast<std::size_t>(end), row_size * height));
+  if (pixels.size() < row_size * height) cannot_read(file, "damaged: the PFM ends in the middle");
+  check_end(file, pixels.subspan(row_size * height), "P");
   PictureFile picture;
-  LinearImage& image = picture.image;
-  image.width = header.width, image.height = header.height;
-  image.rgb.reserve(width * height * 3);
-  const auto factor = static_cast<float>(std::abs(header.scale));
-  for (std::size_t y = height; y-- > 0;) {
-    const std::uint8_t* row = pixels.data() + y * width * header.channels * sizeof(float);
+  picture.image = {columns, rows, {}};
+  picture.image.rgb.reserve(width * height * 3);
+  const auto factor = static_cast<float>(std::abs(scale));
+  for (std::size_t y = height; y-- > 0;)
     for (std::size_t i = 0; i < width * 3; ++i) {
-      const std::size_t at = header.channels == 3 ? i : i / 3;
-      image.rgb.push_back(factor * read_float(row + at * sizeof(float), header.scale > 0));
+      const std::size_t at = y * row_size + (channels == 3 ? i : i / 3) * sizeof(float);
+      picture.image.rgb.push_back(factor * read_float(&pixels[at], scale > 0));
     }
-  }
   return picture;
 }
 
