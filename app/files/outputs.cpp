@@ -160,7 +160,7 @@ std::vector<std::string> write_images(const Picture& picture, const std::vector<
 
 void write_text_file(const fs::path& file, const std::string& text) {
   WholeFile out(file);
-  out.write(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+  out.write(std::as_bytes(std::span(text)));
   out.commit();
 }
 
@@ -225,7 +225,7 @@ void write_copy(const fs::path& from, const fs::path& to) {
   while (in) {
     in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     const auto got = static_cast<std::size_t>(in.gcount());
-    out.write(std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), got));
+    out.write(std::as_bytes(std::span(bytes.data(), got)));
   }
   if (!in.eof()) throw IoError(from.string() + ": cannot read");
   out.commit();

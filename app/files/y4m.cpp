@@ -37,7 +37,7 @@ std::string Y4mFile::header() const {
 }
 
 Y4mFile::Y4mFile(const std::filesystem::path& file, const Y4mFormat& format, bool fresh)
-    : file_(file), format_(format), stream_(file == "-" || is_stream(file)) {
+    : file_(file), format_(format), stream_(is_stream(file)) {
   if (file == "-") {
     bytes_ = OpenFile::copy_of_standard_output();
   } else {
@@ -90,9 +90,9 @@ void Y4mFile::write(const std::string& bytes) {
 }
 
 void Y4mFile::add(const LinearImage& image, const Display& display) {
+  const auto dither = display.dither ? std::optional(DitherOrigin{}) : std::nullopt;
   const std::vector<std::uint8_t> planes =
-      ycbcr_planes(display.dither ? tone_map_dithered(image.rgb, display.exposure, display.tone_map, image.width, {})
-                                  : tone_map(image.rgb, display.exposure, display.tone_map));
+      ycbcr_planes(tone_map(image.rgb, display.exposure, display.tone_map, image.width, dither));
   write(std::string(frame_header) + std::string(planes.begin(), planes.end()));
   if (!stream_) check(bytes_.synchronise());
   ++frames_;

@@ -1,7 +1,6 @@
 #include "app/text/progress.h"
 
 #include "app/text/standard_streams.h"
-#include "core/base/environment.h"
 #include "core/base/text.h"
 #include "core/system/process.h"
 

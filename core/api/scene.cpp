@@ -147,7 +147,7 @@ void Scene::save(const std::string& file) const {
     const std::filesystem::path to = file;
     const std::string text = write_scene(move_textures(data_->scene, data_->folder, to.parent_path()));
     WholeFile out(to);
-    out.write(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+    out.write(std::as_bytes(std::span(text)));
     out.commit();
   });
 }

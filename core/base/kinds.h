@@ -7,21 +7,17 @@
 /// index in that list. The index is always derived from the type.
 namespace tyndall {
 
-template <class Kind, class List>
-struct PlaceInList;
 template <class Kind, class... Kinds>
-struct PlaceInList<Kind, std::variant<Kinds...>> {
-  static constexpr std::int32_t find() {
-    static_assert((std::is_same_v<Kind, Kinds> || ...), "this kind is not in the list");
-    std::int32_t place = 0;
-    (void)((std::is_same_v<Kind, Kinds> || (++place, false)) || ...);
-    return place;
-  }
-};
+constexpr std::int32_t find_place_in(const std::variant<Kinds...>*) {
+  static_assert((std::is_same_v<Kind, Kinds> || ...), "this kind is not in the list");
+  std::int32_t place = 0;
+  (void)((std::is_same_v<Kind, Kinds> || (++place, false)) || ...);
+  return place;
+}
 
 /// The index of a kind in a list, from 0.
 template <class Kind, class List>
-inline constexpr std::int32_t place_in = PlaceInList<Kind, List>::find();
+inline constexpr std::int32_t place_in = find_place_in<Kind>(static_cast<const List*>(nullptr));
 
 /// A set of functions for std::visit, one for each kind. A kind without a function does not compile.
 template <class... Handlers>

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstdint>
-#include <cstring>
+#include <type_traits>
 
 /// Marks a function that kernels call: it is always inlined, for two reasons. A call would cost more than the
 /// function's work. And of an ordinary inline function the linker keeps one copy for all callers: a copy with wide
@@ -46,7 +46,7 @@ using MaskOf = typename LaneTypes<F>::Mask;
 template <class F>
 inline constexpr int lanes_of = LaneTypes<F>::lanes;
 
-/// A number type made of two groups of lanes (see lanes_twice.h), and the type of one group.
+/// A number type made of two groups of lanes (see lanes_target.h), and the type of one group.
 template <class F>
 concept Doubled = requires {
   typename LaneTypes<F>::Half;
@@ -157,52 +157,35 @@ TYNDALL_INLINE std::uint32_t shift_right(std::uint32_t v) {
 TYNDALL_INLINE float min_lane(float v) { return v; }
 TYNDALL_INLINE float min_lane(double v) { return static_cast<float>(v); }
 
+/// The lanes that numbers S in memory become: F for float, and the whole numbers beside F for the others.
+template <class F, class S>
+using LanesFrom = std::conditional_t<std::is_same_v<S, float>, F,
+                                     std::conditional_t<std::is_same_v<S, std::int32_t>, IntOf<F>, UintOf<F>>>;
+
 /// Returns table[index] for each lane. The indices of unused lanes must be valid, too.
-template <Plain F>
-TYNDALL_INLINE F gather(const float* table, IntOf<F> index) {
-  return static_cast<F>(table[index]);
-}
-template <Plain F>
-TYNDALL_INLINE IntOf<F> gather_int(const std::int32_t* table, IntOf<F> index) {
-  return table[index];
+template <Plain F, class S>
+TYNDALL_INLINE LanesFrom<F, S> gather(const S* table, IntOf<F> index) {
+  return static_cast<LanesFrom<F, S>>(table[index]);
 }
 
 /// Like gather(), for a table of `count` entries: faster if the whole table fits into registers.
-template <Plain F>
-TYNDALL_INLINE F lookup(const float* table, [[maybe_unused]] int count, IntOf<F> index) {
-  return static_cast<F>(table[index]);
-}
-template <Plain F>
-TYNDALL_INLINE IntOf<F> lookup_int(const std::int32_t* table, [[maybe_unused]] int count, IntOf<F> index) {
-  return table[index];
+template <Plain F, class S>
+TYNDALL_INLINE LanesFrom<F, S> lookup(const S* table, [[maybe_unused]] int count, IntOf<F> index) {
+  return gather<F>(table, index);
 }
 
 /// lanes_of<F> consecutive values.
-template <Plain F>
-TYNDALL_INLINE F load(const float* from) {
-  return static_cast<F>(*from);
-}
-template <Plain F>
-TYNDALL_INLINE IntOf<F> load_int(const std::int32_t* from) {
-  return *from;
-}
-template <Plain F>
-TYNDALL_INLINE UintOf<F> load_uint(const std::uint32_t* from) {
-  return *from;
+template <Plain F, class S>
+TYNDALL_INLINE LanesFrom<F, S> load(const S* from) {
+  return static_cast<LanesFrom<F, S>>(*from);
 }
 /// Loads `count` >= 0 consecutive values, at most one for each lane, and sets the other lanes to 0. Does not read the
 /// memory behind the values.
-template <Plain F>
-TYNDALL_INLINE F load_some(const float* from, int count) {
-  return count > 0 ? static_cast<F>(*from) : F(0);
+template <Plain F, class S>
+TYNDALL_INLINE LanesFrom<F, S> load_some(const S* from, int count) {
+  return count > 0 ? load<F>(from) : LanesFrom<F, S>(0);
 }
-template <Plain F>
-TYNDALL_INLINE IntOf<F> load_some_int(const std::int32_t* from, int count) {
-  return count > 0 ? *from : 0;
-}
-TYNDALL_INLINE void store(float* to, float v) { *to = v; }
-TYNDALL_INLINE void store(float* to, double v) { *to = static_cast<float>(v); }
-TYNDALL_INLINE void store(std::int32_t* to, std::int32_t v) { *to = v; }
-TYNDALL_INLINE void store(std::uint32_t* to, std::uint32_t v) { *to = v; }
+template <class S, class T>
+requires(std::is_arithmetic_v<T>) TYNDALL_INLINE void store(S* to, T v) { *to = static_cast<S>(v); }
 
 }  // namespace tyndall

@@ -1,15 +1,124 @@
 #pragma once
-#include "core/base/lanes_simd_arithmetic.h"
+#include "core/base/lanes.h"
+
+#include <hwy/highway.h>
 
 /// The only door to the SIMD library: a group of lanes with all the operations of base/lanes.h. The code is compiled
 /// for the instruction set whose flags the including file has, in a namespace named after the set, so that no two
-/// objects share a symbol. Loads and stores are here; the arithmetic is in base/lanes_simd_arithmetic.h.
+/// objects share a symbol.
 namespace tyndall {
 namespace HWY_NAMESPACE {
 
-TYNDALL_INLINE void store(float* to, Floats a) { hn::StoreU(a.v, TagF(), to); }
-TYNDALL_INLINE void store(std::int32_t* to, Ints a) { hn::StoreU(a.v, TagI(), to); }
-TYNDALL_INLINE void store(std::uint32_t* to, Uints a) { hn::StoreU(a.v, TagU(), to); }
+namespace hn = hwy::HWY_NAMESPACE;
+using TagF = hn::ScalableTag<float>;
+using TagI = hn::ScalableTag<std::int32_t>;
+using TagU = hn::ScalableTag<std::uint32_t>;
+inline constexpr int native_lanes = static_cast<int>(hn::MaxLanes(TagF()));
+
+struct Mask {
+  using Scalar = Mask;
+  static constexpr int lanes = native_lanes;
+  hn::Mask<TagF> v;
+  Mask() = default;
+  TYNDALL_INLINE Mask(hn::Mask<TagF> mask) : v(mask) {}
+};
+
+/// A group of lanes: as many numbers T as a register holds.
+template <class T>
+struct Lanes {
+  using Scalar = T;
+  using Tag = hn::ScalableTag<T>;
+  hn::Vec<Tag> v;
+  Lanes() = default;
+  TYNDALL_INLINE Lanes(hn::Vec<Tag> lanes) : v(lanes) {}
+  TYNDALL_INLINE Lanes(T value) : v(hn::Set(Tag(), value)) {}
+
+  TYNDALL_INLINE friend Lanes operator+(Lanes a, Lanes b) { return hn::Add(a.v, b.v); }
+  TYNDALL_INLINE friend Lanes operator-(Lanes a, Lanes b) { return hn::Sub(a.v, b.v); }
+  TYNDALL_INLINE friend Lanes operator*(Lanes a, Lanes b) { return hn::Mul(a.v, b.v); }
+  TYNDALL_INLINE friend Lanes operator/(Lanes a, Lanes b) { return hn::Div(a.v, b.v); }
+  TYNDALL_INLINE friend Lanes operator-(Lanes a) { return hn::Neg(a.v); }
+  TYNDALL_INLINE friend Lanes operator^(Lanes a, Lanes b) { return hn::Xor(a.v, b.v); }
+  TYNDALL_INLINE friend Lanes operator&(Lanes a, Lanes b) { return hn::And(a.v, b.v); }
+  TYNDALL_INLINE friend Lanes operator|(Lanes a, Lanes b) { return hn::Or(a.v, b.v); }
+  TYNDALL_INLINE friend Mask operator<(Lanes a, Lanes b) { return hn::RebindMask(TagF(), hn::Lt(a.v, b.v)); }
+  TYNDALL_INLINE friend Mask operator<=(Lanes a, Lanes b) {
+    if constexpr (std::is_same_v<T, float>)
+      return hn::Le(a.v, b.v);
+    else
+      return hn::RebindMask(TagF(), hn::Not(hn::Lt(b.v, a.v)));
+  }
+  TYNDALL_INLINE friend Mask operator==(Lanes a, Lanes b) { return hn::RebindMask(TagF(), hn::Eq(a.v, b.v)); }
+  TYNDALL_INLINE friend Lanes select(Mask m, Lanes a, Lanes b) {
+    return hn::IfThenElse(hn::RebindMask(Tag(), m.v), a.v, b.v);
+  }
+  TYNDALL_INLINE friend void store(T* to, Lanes a) { hn::StoreU(a.v, Tag(), to); }
+};
+using Floats = Lanes<float>;
+using Ints = Lanes<std::int32_t>;
+using Uints = Lanes<std::uint32_t>;
+
+TYNDALL_INLINE Mask mask_and(Mask a, Mask b) { return hn::And(a.v, b.v); }
+TYNDALL_INLINE Mask mask_or(Mask a, Mask b) { return hn::Or(a.v, b.v); }
+TYNDALL_INLINE Mask mask_not(Mask a) { return hn::Not(a.v); }
+TYNDALL_INLINE Mask mask_and_not(Mask a, Mask b) { return hn::AndNot(b.v, a.v); }
+TYNDALL_INLINE bool any(Mask a) {
+#if HWY_TARGET == HWY_WASM  // here and in bits() the library goes by way of memory, as its compilers lacked these
+  return wasm_v128_any_true(a.v.raw);
+#else
+  return !hn::AllFalse(TagF(), a.v);
+#endif
+}
+TYNDALL_INLINE bool all(Mask a) { return hn::AllTrue(TagF(), a.v); }
+TYNDALL_INLINE std::uint32_t bits(Mask a) {
+#if HWY_TARGET == HWY_AVX3
+  return a.v.raw;
+#elif HWY_TARGET == HWY_WASM
+  return static_cast<std::uint32_t>(wasm_i32x4_bitmask(a.v.raw));
+#else
+  alignas(8) std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(TagF(), a.v, bytes);
+  return static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8;
+#endif
+}
+
+// Where one of the two is not a number, or both are zeros of either sign, ARM's own instructions choose otherwise than
+// base/lanes.h promises and x86 does.
+TYNDALL_INLINE Floats min(Floats a, Floats b) {
+#if HWY_ARCH_ARM
+  return select(a < b, a, b);
+#else
+  return hn::Min(a.v, b.v);
+#endif
+}
+TYNDALL_INLINE Floats max(Floats a, Floats b) {
+#if HWY_ARCH_ARM
+  return select(b < a, a, b);
+#else
+  return hn::Max(a.v, b.v);
+#endif
+}
+TYNDALL_INLINE Floats abs(Floats a) { return hn::Abs(a.v); }
+TYNDALL_INLINE Floats sqrt(Floats a) { return hn::Sqrt(a.v); }
+TYNDALL_INLINE Floats copy_sign(Floats magnitude, Floats sign) { return hn::CopySign(magnitude.v, sign.v); }
+TYNDALL_INLINE Floats mul_add(Floats a, Floats b, Floats c) { return hn::MulAdd(a.v, b.v, c.v); }
+TYNDALL_INLINE Floats neg_mul_add(Floats a, Floats b, Floats c) { return hn::NegMulAdd(a.v, b.v, c.v); }
+TYNDALL_INLINE Ints to_int(Floats a) { return hn::ConvertTo(TagI(), a.v); }
+TYNDALL_INLINE Floats floor(Floats a) { return hn::Floor(a.v); }
+TYNDALL_INLINE Uints as_uint(Ints a) { return hn::BitCast(TagU(), a.v); }
+TYNDALL_INLINE Ints as_int(Uints a) { return hn::BitCast(TagI(), a.v); }
+TYNDALL_INLINE Uints float_bits(Floats a) { return hn::BitCast(TagU(), a.v); }
+TYNDALL_INLINE Floats float_from_bits(Uints a) { return hn::BitCast(TagF(), a.v); }
+template <int by>
+TYNDALL_INLINE Uints shift_left(Uints a) {
+  return hn::ShiftLeft<by>(a.v);
+}
+template <int by>
+TYNDALL_INLINE Uints shift_right(Uints a) {
+  return hn::ShiftRight<by>(a.v);
+}
+
+TYNDALL_INLINE float min_lane(Floats a) { return hn::GetLane(hn::MinOfLanes(TagF(), a.v)); }
 
 #if HWY_TARGET == HWY_AVX2
 /// For each set of lanes (as bits): the indices of its lanes in order, four bits each, the first in the lowest bits.
@@ -26,15 +135,13 @@ constexpr LaneLists list_lanes() {
 }
 inline constexpr LaneLists lane_lists = list_lanes();
 
-TYNDALL_INLINE __m256i compress(__m256i values, Mask lanes) {
+template <class T>
+TYNDALL_INLINE hn::Vec<hn::ScalableTag<T>> compress(Lanes<T> a, Mask lanes) {
   const __m256i packed = _mm256_set1_epi32(static_cast<std::int32_t>(lane_lists.of[bits(lanes)]));
   const __m256i list = _mm256_srlv_epi32(packed, _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28));
-  return _mm256_permutevar8x32_epi32(values, list);  // which reads three bits of each number
+  const __m256i values = hn::BitCast(TagI(), a.v).raw;  // of each number in the list, three bits are read
+  return hn::BitCast(hn::ScalableTag<T>(), hn::Vec<TagI>{_mm256_permutevar8x32_epi32(values, list)});
 }
-TYNDALL_INLINE hn::Vec<TagF> compress(Floats a, Mask lanes) {
-  return {_mm256_castsi256_ps(compress(_mm256_castps_si256(a.v.raw), lanes))};
-}
-TYNDALL_INLINE hn::Vec<TagI> compress(Ints a, Mask lanes) { return {compress(a.v.raw, lanes)}; }
 #elif HWY_TARGET == HWY_WASM
 /// For each set of lanes (as bits): the bytes of its lanes in order.
 struct ByteLists {
@@ -50,15 +157,15 @@ constexpr ByteLists list_bytes() {
 }
 inline constexpr ByteLists byte_lists = list_bytes();
 
-template <class Vector>
-TYNDALL_INLINE hn::Vec<Vector> compress(v128_t values, Mask lanes) {
-  return hn::Vec<Vector>{wasm_i8x16_swizzle(values, wasm_v128_load(byte_lists.of[bits(lanes)]))};
+template <class T>
+TYNDALL_INLINE hn::Vec<hn::ScalableTag<T>> compress(Lanes<T> a, Mask lanes) {
+  return hn::Vec<hn::ScalableTag<T>>{wasm_i8x16_swizzle(a.v.raw, wasm_v128_load(byte_lists.of[bits(lanes)]))};
 }
-TYNDALL_INLINE hn::Vec<TagF> compress(Floats a, Mask lanes) { return compress<TagF>(a.v.raw, lanes); }
-TYNDALL_INLINE hn::Vec<TagI> compress(Ints a, Mask lanes) { return compress<TagI>(a.v.raw, lanes); }
 #else
-TYNDALL_INLINE hn::Vec<TagF> compress(Floats a, Mask lanes) { return hn::Compress(a.v, lanes.v); }
-TYNDALL_INLINE hn::Vec<TagI> compress(Ints a, Mask lanes) { return hn::Compress(a.v, hn::RebindMask(TagI(), lanes.v)); }
+template <class T>
+TYNDALL_INLINE hn::Vec<hn::ScalableTag<T>> compress(Lanes<T> a, Mask lanes) {
+  return hn::Compress(a.v, hn::RebindMask(hn::ScalableTag<T>(), lanes.v));
+}
 #endif
 
 TYNDALL_INLINE int count_of(Mask lanes) {
@@ -71,12 +178,9 @@ TYNDALL_INLINE int count_of(Mask lanes) {
 
 /// Stores the values of `lanes` next to each other and returns their number. May overwrite the memory of a whole group:
 /// storing compressed lanes alone is slow on AMD's Zen 4, where the instruction is microcode.
-TYNDALL_INLINE int append(float* to, Floats a, Mask lanes) {
-  hn::StoreU(compress(a, lanes), TagF(), to);
-  return count_of(lanes);
-}
-TYNDALL_INLINE int append(std::int32_t* to, Ints a, Mask lanes) {
-  hn::StoreU(compress(a, lanes), TagI(), to);
+template <class T>
+TYNDALL_INLINE int append(T* to, Lanes<T> a, Mask lanes) {
+  hn::StoreU(compress(a, lanes), hn::ScalableTag<T>(), to);
   return count_of(lanes);
 }
 
@@ -99,15 +203,11 @@ struct LaneTypes<HWY_NAMESPACE::Floats> {
 // Functions that are called with F written out: from_int<F>, gather<F>, load<F>, mask_from_bits<F>.
 template <std::same_as<HWY_NAMESPACE::Floats> F>
 TYNDALL_INLINE F from_int(IntOf<F> v) {
-  return float_from_int(v);
+  return HWY_NAMESPACE::hn::ConvertTo(HWY_NAMESPACE::TagF(), v.v);
 }
-template <std::same_as<HWY_NAMESPACE::Floats> F>
-TYNDALL_INLINE F gather(const float* table, IntOf<F> index) {
-  return HWY_NAMESPACE::hn::GatherIndex(HWY_NAMESPACE::TagF(), table, index.v);
-}
-template <std::same_as<HWY_NAMESPACE::Floats> F>
-TYNDALL_INLINE IntOf<F> gather_int(const std::int32_t* table, IntOf<F> index) {
-  return HWY_NAMESPACE::hn::GatherIndex(HWY_NAMESPACE::TagI(), table, index.v);
+template <std::same_as<HWY_NAMESPACE::Floats> F, class S>
+TYNDALL_INLINE LanesFrom<F, S> gather(const S* table, IntOf<F> index) {
+  return HWY_NAMESPACE::hn::GatherIndex(typename LanesFrom<F, S>::Tag(), table, index.v);
 }
 #if HWY_TARGET == HWY_AVX3
 namespace HWY_NAMESPACE {
@@ -130,44 +230,25 @@ TYNDALL_INLINE __m512i lookup_in_vectors(const void* entries, int count, __m512i
 }
 }  // namespace HWY_NAMESPACE
 #endif
-template <std::same_as<HWY_NAMESPACE::Floats> F>
-TYNDALL_INLINE F lookup(const float* table, [[maybe_unused]] int count, IntOf<F> index) {
+template <std::same_as<HWY_NAMESPACE::Floats> F, class S>
+TYNDALL_INLINE LanesFrom<F, S> lookup(const S* table, [[maybe_unused]] int count, IntOf<F> index) {
 #if HWY_TARGET == HWY_AVX3
-  if (count <= HWY_NAMESPACE::max_in_vectors)
-    return HWY_NAMESPACE::hn::Vec<HWY_NAMESPACE::TagF>{
-        _mm512_castsi512_ps(HWY_NAMESPACE::lookup_in_vectors(table, count, index.v.raw))};
+  if (count <= HWY_NAMESPACE::max_in_vectors) {
+    const IntOf<F> found(
+        HWY_NAMESPACE::hn::Vec<HWY_NAMESPACE::TagI>{HWY_NAMESPACE::lookup_in_vectors(table, count, index.v.raw)});
+    return HWY_NAMESPACE::hn::BitCast(typename LanesFrom<F, S>::Tag(), found.v);
+  }
 #endif
   return gather<F>(table, index);
 }
-template <std::same_as<HWY_NAMESPACE::Floats> F>
-TYNDALL_INLINE IntOf<F> lookup_int(const std::int32_t* table, [[maybe_unused]] int count, IntOf<F> index) {
-#if HWY_TARGET == HWY_AVX3
-  if (count <= HWY_NAMESPACE::max_in_vectors)
-    return HWY_NAMESPACE::hn::Vec<HWY_NAMESPACE::TagI>{HWY_NAMESPACE::lookup_in_vectors(table, count, index.v.raw)};
-#endif
-  return gather_int<F>(table, index);
-}
-template <std::same_as<HWY_NAMESPACE::Floats> F>
-TYNDALL_INLINE F load(const float* from) {
-  return HWY_NAMESPACE::hn::LoadU(HWY_NAMESPACE::TagF(), from);
-}
-template <std::same_as<HWY_NAMESPACE::Floats> F>
-TYNDALL_INLINE IntOf<F> load_int(const std::int32_t* from) {
-  return HWY_NAMESPACE::hn::LoadU(HWY_NAMESPACE::TagI(), from);
-}
-template <std::same_as<HWY_NAMESPACE::Floats> F>
-TYNDALL_INLINE UintOf<F> load_uint(const std::uint32_t* from) {
-  return HWY_NAMESPACE::hn::LoadU(HWY_NAMESPACE::TagU(), from);
+template <std::same_as<HWY_NAMESPACE::Floats> F, class S>
+TYNDALL_INLINE LanesFrom<F, S> load(const S* from) {
+  return HWY_NAMESPACE::hn::LoadU(typename LanesFrom<F, S>::Tag(), from);
 }
 // From AVX2 on: these sets can load a part of the lanes.
-template <std::same_as<HWY_NAMESPACE::Floats> F>
-requires(lanes_of<F> >= 8) TYNDALL_INLINE F load_some(const float* from, int count) {
-  const HWY_NAMESPACE::TagF tag;
-  return HWY_NAMESPACE::hn::MaskedLoad(HWY_NAMESPACE::hn::FirstN(tag, static_cast<std::size_t>(count)), tag, from);
-}
-template <std::same_as<HWY_NAMESPACE::Floats> F>
-requires(lanes_of<F> >= 8) TYNDALL_INLINE IntOf<F> load_some_int(const std::int32_t* from, int count) {
-  const HWY_NAMESPACE::TagI tag;
+template <std::same_as<HWY_NAMESPACE::Floats> F, class S>
+requires(lanes_of<F> >= 8) TYNDALL_INLINE LanesFrom<F, S> load_some(const S* from, int count) {
+  const typename LanesFrom<F, S>::Tag tag;
   return HWY_NAMESPACE::hn::MaskedLoad(HWY_NAMESPACE::hn::FirstN(tag, static_cast<std::size_t>(count)), tag, from);
 }
 template <std::same_as<HWY_NAMESPACE::Floats> F>

@@ -11,8 +11,6 @@
 namespace tyndall {
 namespace {
 
-constexpr bool is_control(unsigned char c) { return c < 0x20 || c == 0x7f; }
-
 void append_hex(std::string& out, std::uint32_t number, int digits) {
   for (int shift = 4 * (digits - 1); shift >= 0; shift -= 4) out += "0123456789abcdef"[number >> shift & 15];
 }
@@ -124,7 +122,7 @@ std::string in_quotes(std::string_view text) {
     if (c == '"' || c == '\\') {
       out += '\\';
       out += c;
-    } else if (is_control(static_cast<unsigned char>(c))) {
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
       append_escaped(out, static_cast<unsigned char>(c));
     } else {
       out += c;
@@ -200,10 +198,9 @@ std::string did_you_mean(std::string_view name, const std::vector<std::string_vi
 }
 
 std::string one_of(const std::vector<std::string_view>& names) {
-  if (names.size() == 1) return in_quotes(names[0]);
-  std::string out = "one of ";
-  for (std::size_t i = 0; i < names.size(); ++i) out += (i ? ", " : "") + in_quotes(names[i]);
-  return out;
+  std::vector<std::string> quoted;
+  for (const std::string_view name : names) quoted.push_back(in_quotes(name));
+  return (names.size() == 1 ? "" : "one of ") + joined(quoted);
 }
 
 }  // namespace tyndall

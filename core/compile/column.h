@@ -68,6 +68,15 @@ class Column {
   std::shared_ptr<T[]> memory_;
 };
 
+template <class F, class T>
+TYNDALL_INLINE LanesFrom<F, T> gather(const Column<T>& table, IntOf<F> index) {
+  return gather<F>(static_cast<const T*>(table), index);
+}
+template <class F, class T>
+TYNDALL_INLINE LanesFrom<F, T> lookup(const Column<T>& table, int count, IntOf<F> index) {
+  return lookup<F>(static_cast<const T*>(table), count, index);
+}
+
 /// A column of vectors, component by component, so that lookup() serves them as it serves numbers.
 struct VectorColumn {
   Column<float> x, y, z;
@@ -97,7 +106,7 @@ struct RecordIn {
     return value((first->*member)[k]);
   }
   TYNDALL_INLINE F value(const float& of_first) const { return gather<F>(&of_first, at); }
-  TYNDALL_INLINE IntOf<F> value(const std::int32_t& of_first) const { return gather_int<F>(&of_first, at); }
+  TYNDALL_INLINE IntOf<F> value(const std::int32_t& of_first) const { return gather<F>(&of_first, at); }
   TYNDALL_INLINE Vec3<F> value(const Vec3f& of_first) const {
     return {value(of_first.x), value(of_first.y), value(of_first.z)};
   }

@@ -1,6 +1,5 @@
 #include "core/film/film.h"
 
-#include "core/base/checksum.h"
 #include "core/base/fnv1a.h"
 
 #include <algorithm>

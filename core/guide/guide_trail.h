@@ -19,7 +19,7 @@ struct GuideTrail {
 template <class F>
 TYNDALL_INLINE OrderedEvents<F> events_with(const SceneView& s, const GuideTrail<F>& trail, IntOf<F> element,
                                             MaskOf<F> reflected) {
-  return append_event(trail.events, lookup_int<F>(s.guide.thing_of, s.elements.count(), element), reflected);
+  return append_event(trail.events, lookup<F>(s.guide.thing_of, s.elements.count(), element), reflected);
 }
 
 /// Weight, by the power heuristic, of light that a path found by BSDF sampling after `events`: r^2 / (1 + r^2), where r

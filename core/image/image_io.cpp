@@ -8,17 +8,6 @@
 namespace tyndall {
 namespace {
 
-PictureFile read_by_kind(const std::filesystem::path& file, ImageKind kind, std::span<const std::uint8_t> bytes,
-                         PpmCurve ppm) {
-  if (kind == ImageKind::ppm) return read_ppm(file, bytes, ppm);
-  constexpr std::pair<ImageKind, decltype(&read_png)> readers[] = {
-      {ImageKind::png, read_png}, {ImageKind::jpeg, read_jpeg}, {ImageKind::bmp, read_bmp},
-      {ImageKind::tga, read_tga}, {ImageKind::pfm, read_pfm},   {ImageKind::hdr, read_hdr}};
-  for (const auto& [its_kind, read] : readers)
-    if (kind == its_kind) return read(file, bytes);
-  cannot_read(file, "found no image, expected PNG, PPM, JPEG, BMP, TGA, PFM, HDR or EXR");
-}
-
 /// A text that Tyndall has written into a PNG or EXR; nothing if it is not there.
 std::optional<std::string> embedded_text(const std::filesystem::path& file, const std::string& name) {
   // Pipes are left alone: what is read from one here could not be read as a scene afterwards.
@@ -61,7 +50,14 @@ PictureFile read_picture(const std::filesystem::path& name, PpmCurve ppm) {
       throw NoSuchLayer(name.string() + ": found a layer's name after a file that is no EXR, expected " +
                         file.string());
     if (!whole && kind != ImageKind::unknown) bytes = read_bytes(file);
-    picture = read_by_kind(file, kind, bytes, ppm);
+    constexpr std::pair<ImageKind, decltype(&read_png)> readers[] = {
+        {ImageKind::png, read_png}, {ImageKind::jpeg, read_jpeg}, {ImageKind::bmp, read_bmp},
+        {ImageKind::tga, read_tga}, {ImageKind::pfm, read_pfm},   {ImageKind::hdr, read_hdr}};
+    for (const auto& [its_kind, read] : readers)
+      if (kind == its_kind) picture = read(file, bytes);
+    if (kind == ImageKind::ppm) picture = read_ppm(file, bytes, ppm);
+    if (kind == ImageKind::unknown)
+      cannot_read(file, "found no image, expected PNG, PPM, JPEG, BMP, TGA, PFM, HDR or EXR");
   }
   picture.kind = kind;
   return picture;

@@ -60,17 +60,6 @@ void check_palette(const std::filesystem::path& file, const BmpHeader& header) {
     }
 }
 
-BmpHeader checked_header(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
-  const BmpHeader header{bytes};
-  refuse_kinds(file, header);
-  const std::int64_t height = std::abs(header.height());
-  check_readable(file, header.width(), height);
-  const std::uint64_t last_row = (static_cast<std::uint64_t>(header.width()) * header.bits() + 7) / 8;
-  check_enough(file, bytes.size(), header.pixels() + header.row() * static_cast<std::uint64_t>(height - 1) + last_row);
-  if (header.bits() <= 8) check_palette(file, header);
-  return header;
-}
-
 /// Whether a header says that its colours are sRGB's, or says nothing of them.
 bool is_srgb(const BmpHeader& header) {
   if (header.size() < 108) return true;
@@ -111,27 +100,15 @@ struct TgaHeader {
   std::uint32_t width() const { return number(12, 2); }
   std::uint32_t height() const { return number(14, 2); }
   std::uint32_t pixel_size() const { return (bytes[16] + 7u) / 8; }
-  bool from_right() const { return (bytes[17] & 0x10) != 0; }
-  std::uint64_t pixels() const { return std::uint64_t{width()} * height(); }
   std::uint64_t first_pixel() const {
     return kind_size + bytes[0] + (has_palette() ? std::uint64_t{colours()} * ((bytes[7] + 7u) / 8) : 0);
   }
 };
 
-void refuse_kinds(const std::filesystem::path& file, const TgaHeader& header) {
-  if (header.has_palette() != header.is_mapped())
-    cannot_read(file, "found a TGA with a palette that its pixels do not use");
-  if ((header.bytes[17] & 0xc0) != 0)
-    cannot_read(file, "found a TGA with interleaved rows, expected one row after the other");
-  if (header.is_mapped() && header.number(3, 2) != 0)
-    cannot_read(file, "found a TGA whose palette begins with colour " + std::to_string(header.number(3, 2)) +
-                          ", expected colour 0");
-}
-
 /// Goes through all pixels, in runs where they are compressed so. Throws unless they are in the file, and each number
 /// of a colour is one of the palette's.
 void check_pixels(const std::filesystem::path& file, const TgaHeader& header) {
-  std::uint64_t at = header.first_pixel(), left = header.pixels();
+  std::uint64_t at = header.first_pixel(), left = std::uint64_t{header.width()} * header.height();
   const std::uint64_t size = header.pixel_size(), end = header.bytes.size();
   while (left > 0) {
     std::uint64_t count = left, stored = left;
@@ -177,7 +154,13 @@ void drop_empty_alpha(Samples& samples) {
 }  // namespace
 
 PictureFile read_bmp(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
-  const BmpHeader header = checked_header(file, bytes);
+  const BmpHeader header{bytes};
+  refuse_kinds(file, header);
+  const std::int64_t height = std::abs(header.height());
+  check_readable(file, header.width(), height);
+  const std::uint64_t last_row = (static_cast<std::uint64_t>(header.width()) * header.bits() + 7) / 8;
+  check_enough(file, bytes.size(), header.pixels() + header.row() * static_cast<std::uint64_t>(height - 1) + last_row);
+  if (header.bits() <= 8) check_palette(file, header);
   PictureFile picture = picture_of(decode_stb(file, bytes), srgb_curve);
   if (!is_srgb(header)) add_remark(picture, file, "its colour space is not sRGB; its pixels are read as sRGB");
   return picture;
@@ -185,13 +168,19 @@ PictureFile read_bmp(const std::filesystem::path& file, std::span<const std::uin
 
 PictureFile read_tga(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
   const TgaHeader header{bytes};
-  refuse_kinds(file, header);
+  if (header.has_palette() != header.is_mapped())
+    cannot_read(file, "found a TGA with a palette that its pixels do not use");
+  if ((header.bytes[17] & 0xc0) != 0)
+    cannot_read(file, "found a TGA with interleaved rows, expected one row after the other");
+  if (header.is_mapped() && header.number(3, 2) != 0)
+    cannot_read(file, "found a TGA whose palette begins with colour " + std::to_string(header.number(3, 2)) +
+                          ", expected colour 0");
   check_readable(file, header.width(), header.height());
   check_pixels(file, header);
   Samples samples = decode_stb(file, bytes);
   drop_empty_alpha(samples);
   PictureFile picture = picture_of(samples, srgb_curve);
-  picture.image = oriented(std::move(picture.image), {false, header.from_right(), false});
+  picture.image = oriented(std::move(picture.image), {false, (bytes[17] & 0x10) != 0, false});
   tell_extension(picture, file, header);
   return picture;
 }

@@ -1,16 +1,11 @@
-#include "core/image/image_io_exr.h"
-#include "core/image/image_io.h"
-
-#include "core/base/fnv1a.h"
-#include "core/image/image_io_file.h"
-#include "core/image/whole_file.h"
-
 #ifdef TYNDALL_OPENEXR
 
-#include <OpenEXR/ImfChannelList.h>
+#include "core/image/image_io_exr.h"
+
+#include "core/base/fnv1a.h"
+#include "core/image/whole_file.h"
+
 #include <OpenEXR/ImfDoubleAttribute.h>
-#include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfOutputFile.h>
@@ -19,7 +14,6 @@
 
 #include <bit>
 #include <cassert>
-#include <cstring>
 #include <deque>
 #include <exception>
 #include <type_traits>
@@ -34,35 +28,26 @@ std::string checksum_text(const Film& film, const Embedded& embedded) {
   return hash_text(film_checksum(film, with + label.contents));
 }
 
-std::vector<FilmChannel> film_channels() {
+std::vector<FilmChannel> film_channels(const Film& film) {
   static_assert(std::endian::native == std::endian::little, "the low word of a limb comes first");
   std::vector<FilmChannel> channels;
-  for (std::size_t half = 0; half < 2; ++half) {
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      const std::string name = std::string("film.") + "AB"[half] + '.' + "RGB"[channel] + '.';
-      const std::size_t sum = offsetof(FilmPixel, sum) + (half * 3 + channel) * sizeof(ExactSum);
-      channels.push_back({name + "high0", sum + offsetof(ExactSum, high)});
-      channels.push_back({name + "high1", sum + offsetof(ExactSum, high) + 4});
-      channels.push_back({name + "low0", sum + offsetof(ExactSum, low)});
-      channels.push_back({name + "low1", sum + offsetof(ExactSum, low) + 4});
-    }
-  }
-  channels.push_back({"film.taken", offsetof(FilmPixel, taken)});
-  channels.push_back({"film.rejectedA", offsetof(FilmPixel, rejected)});
-  channels.push_back({"film.rejectedB", offsetof(FilmPixel, rejected) + 4});
-  channels.push_back({"film.truncated", offsetof(FilmPixel, truncated)});
-  return channels;
-}
-
-std::vector<FilmChannel> emission_channels() {
-  std::vector<FilmChannel> channels;
+  const auto add = [&channels](const std::string& name, const auto& number, std::size_t stride) {
+    for (std::size_t word = 0; word < 2; ++word)
+      channels.push_back({name + "01"[word], reinterpret_cast<const char*>(&number) + 4 * word, stride});
+  };
+  const FilmPixel& pixel = film.pixels.front();
   for (std::size_t half = 0; half < 2; ++half)
     for (std::size_t channel = 0; channel < 3; ++channel) {
-      const std::string name = std::string("film.") + "AB"[half] + '.' + "RGB"[channel] + ".emission";
-      const std::size_t sum = offsetof(EmissionSums, sum) + (half * 3 + channel) * sizeof(std::int64_t);
-      channels.push_back({name + '0', sum});
-      channels.push_back({name + '1', sum + 4});
+      const std::string name = std::string("film.") + "AB"[half] + '.' + "RGB"[channel] + '.';
+      add(name + "high", pixel.sum[half][channel].high, sizeof pixel);
+      add(name + "low", pixel.sum[half][channel].low, sizeof pixel);
+      if (!film.emission.empty())
+        add(name + "emission", film.emission.front().sum[half][channel], sizeof(EmissionSums));
     }
+  channels.push_back({"film.taken", &pixel.taken, sizeof pixel});
+  channels.push_back({"film.rejectedA", &pixel.rejected[0], sizeof pixel});
+  channels.push_back({"film.rejectedB", &pixel.rejected[1], sizeof pixel});
+  channels.push_back({"film.truncated", &pixel.truncated, sizeof pixel});
   return channels;
 }
 
@@ -75,8 +60,7 @@ class Stream : public Imf::OStream {
   Stream(WholeFile& out, const std::string& name) : OStream(name.c_str()), out_(out) {}
 
   void write(const char bytes[], int count) override {
-    guard(
-        [&] { out_.write(std::span(reinterpret_cast<const std::uint8_t*>(bytes), static_cast<std::size_t>(count))); });
+    guard([&] { out_.write(std::as_bytes(std::span(bytes, static_cast<std::size_t>(count)))); });
   }
   std::uint64_t tellp() override { return out_.position(); }
   void seekp(std::uint64_t position) override {
@@ -101,13 +85,6 @@ class Stream : public Imf::OStream {
   std::exception_ptr error_;
 };
 
-std::string planned_bytes(const Film& film) {
-  static_assert(std::is_trivially_copyable_v<PlannedSamples>);
-  std::string bytes(film.planned.size() * sizeof(PlannedSamples), '\0');
-  std::memcpy(bytes.data(), film.planned.data(), bytes.size());
-  return bytes;
-}
-
 /// What makes the channels film.* a film.
 void describe_film(Imf::Header& header, const Film& film, const Embedded& embedded) {
   header.insert(exr_name::width, Imf::IntAttribute(film.width));
@@ -121,7 +98,10 @@ void describe_film(Imf::Header& header, const Film& film, const Embedded& embedd
   header.insert(exr_name::unfinished, Imf::IntAttribute(embedded.label.unfinished ? 1 : 0));
   header.insert(exr_name::version, Imf::StringAttribute(embedded.label.version));
   header.insert(exr_name::isa, Imf::StringAttribute(embedded.label.isa));
-  if (!film.planned.empty()) header.insert(exr_name::planned, Imf::StringAttribute(planned_bytes(film)));
+  static_assert(std::is_trivially_copyable_v<PlannedSamples>);
+  const std::string planned(reinterpret_cast<const char*>(film.planned.data()),
+                            film.planned.size() * sizeof(PlannedSamples));
+  if (!planned.empty()) header.insert(exr_name::planned, Imf::StringAttribute(planned));
   header.insert(exr_name::checksum, Imf::StringAttribute(checksum_text(film, embedded)));
 }
 
@@ -163,13 +143,7 @@ struct Picture {
       add(layer.name + "." + layer.channels[i], Imf::HALF, values.data() + i, layer.channels.size() * sizeof(half));
   }
   void add_film(const Film& film) {
-    const char* pixels = reinterpret_cast<const char*>(film.pixels.data());
-    for (const FilmChannel& channel : film_channels())
-      add(channel.name, Imf::UINT, pixels + channel.offset, sizeof(FilmPixel));
-    const char* emission = reinterpret_cast<const char*>(film.emission.data());
-    if (film.emission.empty()) return;
-    for (const FilmChannel& channel : emission_channels())
-      add(channel.name, Imf::UINT, emission + channel.offset, sizeof(EmissionSums));
+    for (const FilmChannel& channel : film_channels(film)) add(channel.name, Imf::UINT, channel.first, channel.stride);
   }
   void write(const std::filesystem::path& file) const {
     WholeFile out(file);
@@ -217,9 +191,14 @@ void write_checkpoint(const std::filesystem::path& file, const Film& film, const
 
 #else
 
-namespace tyndall {
+#include "core/image/image_io.h"
+#include "core/image/image_io_file.h"
 
 // What stands for all that reads and writes EXR files.
+namespace tyndall {
+
+/// What users are told about EXR files if OpenEXR was not found when the build was configured.
+constexpr const char* without_openexr = "this build has no EXR images (OpenEXR was not found when it was configured)";
 
 bool has_openexr() { return false; }
 

@@ -1,31 +1,36 @@
 #pragma once
-#include "core/film/film.h"
-#include "core/image/image.h"
+#include "core/base/error.h"
+#include "core/image/image_io.h"
+#include "core/image/image_io_file.h"
 
-#include <cstddef>
-#include <filesystem>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+
+#include <new>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-/// How an EXR carries a film: each field of FilmPixel and of EmissionSums as channels of 32-bit words.
+/// How EXR files are opened, which of their channels are a picture, and how they carry a film: for the files of this
+/// folder that include OpenEXR.
 namespace tyndall {
 
-/// One channel of a film in an EXR.
+/// One channel of a film in an EXR: a 32-bit word of FilmPixel or EmissionSums.
 struct FilmChannel {
   std::string name;    ///< for example film.A.R.high0: half A or B, channel, limb, word (0: the limb's low half)
-  std::size_t offset;  ///< of the word in FilmPixel or EmissionSums, bytes
+  const void* first;   ///< the word in the film's first pixel
+  std::size_t stride;  ///< from one pixel to the next, bytes
 };
-std::vector<FilmChannel> film_channels();
-/// The channels of EmissionSums, for example film.A.R.emission0, in files of films that have it.
-std::vector<FilmChannel> emission_channels();
+/// Those of all sums and counts of a film that has pixels, and of its emission where it has any.
+std::vector<FilmChannel> film_channels(const Film& film);
 
 /// Refuses an EXR whose header asks for more memory than a whole file of its size could need: OpenEXR itself believes
 /// what attributes, windows and tiles say, and takes the memory before it looks for the bytes. Throws ImageFileError.
 void check_exr(const std::filesystem::path& file);
-
-/// What users are told about EXR files if OpenEXR was not found when the build was configured.
-inline constexpr const char* without_openexr =
-    "this build has no EXR images (OpenEXR was not found when it was configured)";
 
 /// What users are told about pixels with many depths.
 inline constexpr const char* deep_data = "found deep data (many depths a pixel), expected a flat picture";
@@ -54,5 +59,70 @@ inline constexpr const char* checksum = "tyndall:checksum";  // see checksum_tex
 
 /// The attribute `checksum` for a film, the scene's text and the label.
 std::string checksum_text(const Film& film, const Embedded& embedded);
+
+/// Runs `read` on the opened EXR. Whatever goes wrong becomes an ImageFileError that names the file.
+template <class Read>
+auto with_exr(const std::filesystem::path& file, Read read) {
+  try {
+    check_exr(file);
+    Imf::MultiPartInputFile exr(file.string().c_str());
+    return read(exr);
+  } catch (const ImageFileError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    cannot_read(file, "not enough memory" + memory_limit_text());
+  } catch (const std::exception& error) {
+    cannot_read(file, error.what());
+  }
+}
+
+/// The channels to read, and where their values go.
+struct ExrTarget {
+  Imf::FrameBuffer buffer;
+  Imath::Box2i window;
+
+  void add(const std::string& name, Imf::PixelType type, const void* first, std::size_t stride) {
+    buffer.insert(name, Imf::Slice::Make(type, first, window, stride));
+  }
+  void read(Imf::MultiPartInputFile& exr, int number) {
+    Imf::InputPart part(exr, number);
+    part.setFrameBuffer(buffer);
+    part.readPixels(window.min.y, window.max.y);
+  }
+};
+
+/// The size of a data window.
+inline std::pair<int, int> size_of(const std::filesystem::path& file, const Imath::Box2i& window) {
+  const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+  const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+  check_readable(file, width, height);
+  return {static_cast<int>(width), static_cast<int>(height)};
+}
+
+/// What the channels of a layer mean.
+enum class ExrColour {
+  rgb,               ///< red, green, blue
+  vector,            ///< X, Y, Z: numbers that are no colour, shown as red, green, blue
+  luminance_chroma,  ///< Y, RY = (R - Y) / Y, BY = (B - Y) / Y
+  grey               ///< one channel
+};
+
+struct ExrLayer {
+  int part = 0;  ///< of the file, from 0 on
+  ExrColour colour = ExrColour::rgb;
+  std::string prefix;                 ///< of the channels' names, such as "ViewLayer.Combined"; "": none
+  std::vector<std::string> channels;  ///< whole names: one for grey, else three
+};
+
+/// The layer of that name. Without a name: the picture of the first part that has colour (R, G and B, or Y) without a
+/// layer's name before it, or, in files of several parts, with the part's own name.
+///
+/// A layer is known by its channels' prefix ("ViewLayer.Combined"), by its part's name, by both ("beauty.albedo"), or
+/// by the name of its view; and a single channel by its whole name ("Depth.Z"). What one of these names means is what
+/// the first part says that knows it.
+///
+/// Throws NoSuchLayer for an unknown name, ImageFileError for a file without colour; both list what there is.
+ExrLayer find_exr_layer(const std::filesystem::path& file, const Imf::MultiPartInputFile& exr,
+                        const std::optional<std::string>& name);
 
 }  // namespace tyndall

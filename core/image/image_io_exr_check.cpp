@@ -1,34 +1,25 @@
-#include "core/image/image_io_exr.h"
-#include "core/image/image_io_file.h"
-#include "core/system/files.h"
-
 #ifdef TYNDALL_OPENEXR
+
+#include "core/image/image_io_exr.h"
+#include "core/system/files.h"
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <string_view>
 
 namespace tyndall {
 namespace {
 
 /// Reads a file's values one after the other; nothing of it is kept.
-class ExrBytes {
- public:
-  explicit ExrBytes(const std::filesystem::path& file) : file_(file), size_(std::filesystem::file_size(file)) {
-    stream_.reset(open_stream(file, "rb"));
-    if (!stream_) damaged("it cannot be opened");
-  }
-  [[noreturn]] void damaged(const std::string& what) const { cannot_read(file_, "damaged: " + what); }
+struct ExrBytes {
+  const std::filesystem::path& file;
+  std::uint64_t left = std::filesystem::file_size(file);  ///< bytes that were not read yet
+  ReadStream stream{open_stream(file, "rb")};
 
-  const std::filesystem::path& file() const { return file_; }
-  std::uint64_t size() const { return size_; }
-  std::uint64_t position() const { return position_; }
-  std::uint64_t rest() const { return size_ - position_; }
-
+  [[noreturn]] void damaged(const std::string& what) const { cannot_read(file, "damaged: " + what); }
   void take(void* to, std::uint64_t count) {
-    if (count > rest() || std::fread(to, 1, count, stream_.get()) != count) damaged("the EXR's header ends early");
-    position_ += count;
+    if (count > left || std::fread(to, 1, count, stream.get()) != count) damaged("the EXR's header ends early");
+    left -= count;
   }
   template <class T>
   T take() {
@@ -37,9 +28,9 @@ class ExrBytes {
     return value;
   }
   void skip(std::uint64_t count) {
-    if (count > rest() || fseeko(stream_.get(), static_cast<off_t>(count), SEEK_CUR) != 0)
+    if (count > left || fseeko(stream.get(), static_cast<off_t>(count), SEEK_CUR) != 0)
       damaged("the EXR's header ends early");
-    position_ += count;
+    left -= count;
   }
   /// A name, which ends with a zero byte.
   std::string take_name() {
@@ -50,11 +41,6 @@ class ExrBytes {
     }
     return name;
   }
-
- private:
-  std::filesystem::path file_;
-  std::uint64_t size_ = 0, position_ = 0;
-  ReadStream stream_;
 };
 
 struct ExrChannel {
@@ -73,30 +59,28 @@ struct ExrPart {
 
 /// Bytes that a value of this type has; 0: as many as the attribute says.
 std::uint64_t fixed_size(std::string_view type) {
-  struct Type {
-    std::string_view name;
-    std::uint64_t size;
-  };
-  static constexpr Type types[] = {{"box2i", 16},      {"box2f", 16},   {"chromaticities", 32},
-                                   {"compression", 1}, {"double", 8},   {"envmap", 1},
-                                   {"float", 4},       {"int", 4},      {"keycode", 28},
-                                   {"lineOrder", 1},   {"m33f", 36},    {"m33d", 72},
-                                   {"m44f", 64},       {"m44d", 128},   {"rational", 8},
-                                   {"tiledesc", 9},    {"timecode", 8}, {"v2i", 8},
-                                   {"v2f", 8},         {"v2d", 16},     {"v3i", 12},
-                                   {"v3f", 12},        {"v3d", 24},     {"deepImageState", 1}};
-  const auto* found = std::find_if(std::begin(types), std::end(types), [&](const Type& t) { return t.name == type; });
-  return found == std::end(types) ? 0 : found->size;
+  static constexpr std::pair<std::string_view, std::uint64_t> types[] = {
+      {"box2i", 16},      {"box2f", 16},   {"chromaticities", 32},
+      {"compression", 1}, {"double", 8},   {"envmap", 1},
+      {"float", 4},       {"int", 4},      {"keycode", 28},
+      {"lineOrder", 1},   {"m33f", 36},    {"m33d", 72},
+      {"m44f", 64},       {"m44d", 128},   {"rational", 8},
+      {"tiledesc", 9},    {"timecode", 8}, {"v2i", 8},
+      {"v2f", 8},         {"v2d", 16},     {"v3i", 12},
+      {"v3f", 12},        {"v3d", 24},     {"deepImageState", 1}};
+  for (const auto& [name, size] : types)
+    if (name == type) return size;
+  return 0;
 }
 
-/// The list of channels: names, each with 16 bytes, and an empty name.
+/// The list of channels: names, each with 16 bytes, and an empty name. end: how many bytes are left behind it.
 std::vector<ExrChannel> take_channels(ExrBytes& in, std::uint64_t end) {
   std::vector<ExrChannel> channels;
   while (!in.take_name().empty()) {
     const auto type = in.take<std::uint32_t>();
     in.skip(4);
     const auto every_x = in.take<std::int32_t>(), every_y = in.take<std::int32_t>();
-    if (type > 2 || every_x < 1 || every_y < 1 || in.position() >= end) in.damaged("its list of channels");
+    if (type > 2 || every_x < 1 || every_y < 1 || in.left <= end) in.damaged("its list of channels");
     channels.push_back({type == 1 ? 2u : 4u, static_cast<std::uint64_t>(every_x), static_cast<std::uint64_t>(every_y)});
   }
   return channels;
@@ -104,16 +88,16 @@ std::vector<ExrChannel> take_channels(ExrBytes& in, std::uint64_t end) {
 
 /// Values that hold lengths of their own, for which OpenEXR takes memory before it looks whether they can be right.
 void skip_nested(ExrBytes& in, std::string_view type, std::uint64_t size) {
-  const std::uint64_t end = in.position() + size;
+  const std::uint64_t end = in.left - size;
   if (type == "stringvector") {
-    while (in.position() < end) in.skip(in.take<std::uint32_t>());
+    while (in.left > end) in.skip(in.take<std::uint32_t>());
   } else if (type == "preview") {
     const std::uint64_t width = in.take<std::uint32_t>(), height = in.take<std::uint32_t>();
     if (width > size || height > size) in.damaged("its preview");
     in.skip(4 * width * height);
   } else if (type == "idmanifest") {
     if (in.take<std::uint32_t>() / 1100 > size) in.damaged("its list of names");
-    in.skip(end > in.position() ? end - in.position() : 0);
+    in.skip(in.left > end ? in.left - end : 0);
   } else {
     in.skip(size - (type == "floatvector" ? size % 4 : 0));
   }
@@ -121,8 +105,8 @@ void skip_nested(ExrBytes& in, std::string_view type, std::uint64_t size) {
 
 /// Reads the value of an attribute; keeps what says how large the picture is.
 void take_value(ExrBytes& in, ExrPart& part, const std::string& name, const std::string& type) {
-  const std::uint64_t size = in.take<std::uint32_t>(), start = in.position(), fixed = fixed_size(type);
-  if (size > in.rest() || (fixed != 0 && size != fixed))
+  const std::uint64_t size = in.take<std::uint32_t>(), end = in.left - size, fixed = fixed_size(type);
+  if (size > in.left || (fixed != 0 && size != fixed))
     in.damaged("its attribute " + name + " says that it has " + std::to_string(size) + " bytes");
   if (type == "box2i" && name == "dataWindow")
     part.window = in.take<std::array<std::int32_t, 4>>();
@@ -136,15 +120,14 @@ void take_value(ExrBytes& in, ExrPart& part, const std::string& name, const std:
     in.skip(size - kind.size());
     part.deep = kind == "deep";  // "deepscanline" or "deeptile"
   } else if (type == "chlist")
-    part.channels = take_channels(in, start + size);
+    part.channels = take_channels(in, end);
   else if (type == "tiledesc" && name == "tiles") {
     part.tile_width = in.take<std::uint32_t>();
     part.tile_height = in.take<std::uint32_t>();
     in.skip(1);
   } else
     skip_nested(in, type, size);
-  if (in.position() != start + size)
-    in.damaged("its attribute " + name + " does not fill its " + std::to_string(size) + " bytes");
+  if (in.left != end) in.damaged("its attribute " + name + " does not fill its " + std::to_string(size) + " bytes");
 }
 
 /// How rows are compressed, in the order of OpenEXR's codes: how many rows are one chunk, and how far one can shrink.
@@ -176,7 +159,7 @@ std::uint64_t count_tiles(ExrBytes& in, const ExrPart& part, std::uint64_t width
 std::uint64_t min_size(ExrBytes& in, const ExrPart& part, bool tiled, bool several) {
   const std::int64_t columns = std::int64_t{part.window[2]} - part.window[0] + 1;
   const std::int64_t rows = std::int64_t{part.window[3]} - part.window[1] + 1;
-  check_readable(in.file(), columns, rows);
+  check_readable(in.file, columns, rows);
   const auto width = static_cast<std::uint64_t>(columns), height = static_cast<std::uint64_t>(rows);
   const ExrCompression compression = compression_of(part.compression);
   std::uint64_t bytes = 0, chunks = part.chunks;
@@ -191,7 +174,8 @@ std::uint64_t min_size(ExrBytes& in, const ExrPart& part, bool tiled, bool sever
 }  // namespace
 
 void check_exr(const std::filesystem::path& file) {
-  ExrBytes in(file);
+  ExrBytes in{file};
+  if (!in.stream) in.damaged("it cannot be opened");
   in.skip(4);  // the mark of an EXR
   const auto flags = in.take<std::uint32_t>();
   const bool tiled = (flags & 0x200u) != 0, deep = (flags & 0x800u) != 0, several = (flags & 0x1000u) != 0;
@@ -204,7 +188,7 @@ void check_exr(const std::filesystem::path& file) {
   }
   std::uint64_t minimum = 0;
   for (const ExrPart& part : found) minimum += min_size(in, part, tiled, several);
-  check_enough(file, in.rest(), minimum);
+  check_enough(file, in.left, minimum);
 }
 
 }  // namespace tyndall

@@ -1,10 +1,7 @@
 #ifdef TYNDALL_OPENEXR
 
-#include "core/film/film.h"
-#include "core/image/image_io.h"
-#include "core/image/image_io_exr_open.h"
+#include "core/image/image_io_exr.h"
 
-#include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfDoubleAttribute.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfStringAttribute.h>
@@ -26,13 +23,6 @@ auto value_of(const std::filesystem::path& file, const Imf::Header& header, cons
   const auto* attribute = header.findTypedAttribute<Attribute>(name);
   if (attribute == nullptr) damaged_film(file, std::string("no ") + name);
   return attribute->value();
-}
-
-ExactSum read_cut_throughput(const std::filesystem::path& file, const Imf::Header& header) {
-  std::istringstream text(value_of<Imf::StringAttribute>(file, header, exr_name::cut_throughput));
-  ExactSum sum;
-  if (!(text >> sum.high >> sum.low)) damaged_film(file, std::string(exr_name::cut_throughput) + " is no sum");
-  return sum;
 }
 
 void check_format(const std::filesystem::path& file, const Imf::Header& header) {
@@ -79,7 +69,9 @@ Film read_frame(const std::filesystem::path& file, const Imf::Header& header) {
   int exponent = 0;
   if (!(film.quantum > 0) || !std::isfinite(film.quantum) || std::frexp(film.quantum, &exponent) != 0.5)
     damaged_film(file, std::string(exr_name::quantum) + " is no power of two");
-  film.cut_throughput = read_cut_throughput(file, header);
+  std::istringstream sum(value_of<Imf::StringAttribute>(file, header, exr_name::cut_throughput));
+  if (!(sum >> film.cut_throughput.high >> film.cut_throughput.low))
+    damaged_film(file, std::string(exr_name::cut_throughput) + " is no sum");
   return film;
 }
 
@@ -107,13 +99,6 @@ FilmLabel label_in(const Imf::Header& header) {
           unfinished != nullptr && unfinished->value() != 0, text_in(header, exr_name::contents)};
 }
 
-/// Refuses a film that is not bit for bit the one that was written. Files from before there was a checksum have none.
-void check_sum(const std::filesystem::path& file, const Imf::Header& header, const Film& film) {
-  const std::string checksum = text_in(header, exr_name::checksum);
-  if (!checksum.empty() && checksum != checksum_text(film, {text_in(header, exr_name::scene), "", label_in(header)}))
-    damaged_film(file, "it is not what its checksum says");
-}
-
 /// What `read` finds in an EXR that holds a film; nothing in all other files.
 template <class Read>
 auto with_film(const std::filesystem::path& file, const Read& read)
@@ -126,28 +111,25 @@ auto with_film(const std::filesystem::path& file, const Read& read)
 }
 
 Film read_film_of(const std::filesystem::path& file, Imf::MultiPartInputFile& exr) {
-  const Imf::ChannelList& present = exr.header(0).channels();
-  Film film = read_frame(file, exr.header(0));
+  const Imf::Header& header = exr.header(0);
+  const Imf::ChannelList& present = header.channels();
+  Film film = read_frame(file, header);
   const auto count = static_cast<std::size_t>(film.region.width()) * static_cast<std::size_t>(film.region.height());
   film.pixels.resize(count);
-  ExrTarget target{{}, exr.header(0).dataWindow()};
-  const auto add = [&](const std::vector<FilmChannel>& channels, void* first, std::size_t stride) {
-    for (const FilmChannel& channel : channels) {
-      const Imf::Channel* found = present.findChannel(channel.name);
-      if (found == nullptr || found->type != Imf::UINT)
-        damaged_film(file, "no channel " + channel.name + " of type uint");
-      target.add(channel.name, Imf::UINT, static_cast<char*>(first) + channel.offset, stride);
-    }
-  };
-  add(film_channels(), film.pixels.data(), sizeof(FilmPixel));
-  if (present.findChannel(emission_channels().front().name)) {
-    film.emission.resize(count);
-    add(emission_channels(), film.emission.data(), sizeof(EmissionSums));
+  if (present.findChannel("film.A.R.emission0")) film.emission.resize(count);
+  ExrTarget target{{}, header.dataWindow()};
+  for (const FilmChannel& channel : film_channels(film)) {
+    const Imf::Channel* found = present.findChannel(channel.name);
+    if (found == nullptr || found->type != Imf::UINT)
+      damaged_film(file, "no channel " + channel.name + " of type uint");
+    target.add(channel.name, Imf::UINT, channel.first, channel.stride);
   }
   target.read(exr, 0);
   check_counts(file, film);
-  read_planned(file, exr.header(0), film);
-  check_sum(file, exr.header(0), film);
+  read_planned(file, header, film);
+  const std::string checksum = text_in(header, exr_name::checksum);  // films from before there was one have none
+  if (!checksum.empty() && checksum != checksum_text(film, {text_in(header, exr_name::scene), "", label_in(header)}))
+    damaged_film(file, "it is not what its checksum says");
   return film;
 }
 

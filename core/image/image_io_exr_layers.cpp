@@ -1,12 +1,9 @@
 #ifdef TYNDALL_OPENEXR
 
-#include "core/image/image_io_exr_open.h"
+#include "core/image/image_io_exr.h"
 
 #include "core/base/text.h"
 
-#include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 

@@ -1,10 +1,8 @@
 #ifdef TYNDALL_OPENEXR
 
-#include "core/image/image_io_exr_open.h"
+#include "core/image/image_io_exr.h"
 
-#include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticities.h>
-#include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfRgbaFile.h>
 #include <OpenEXR/ImfRgbaYca.h>
 #include <OpenEXR/ImfStandardAttributes.h>
@@ -61,12 +59,6 @@ Imath::M44f adaptation(const Imath::V2f& from, const Imath::V2f& to) {
   return cones * scale * cones.inverse();
 }
 
-/// The fractions of red, green and blue in the luminance, by the attribute "chromaticities"; without it those of
-/// Rec.709. Throws ImageFileError for chromaticities that span no colours.
-Imath::V3f luminance_weights(const std::filesystem::path& file, const Imf::Header& header) {
-  return Imf::RgbaYca::computeYw(chromaticities_of(file, header));
-}
-
 /// Converts linear RGB, 3 floats a pixel, by the attribute "chromaticities" to the Rec.709 RGB of the same CIE XYZ.
 /// The white of the file is converted like any other colour, unless the attribute "adoptedNeutral" says which
 /// chromaticity is to look neutral: that one becomes the white of Rec.709, by a linear Bradford transform. Values of
@@ -101,86 +93,81 @@ LinearImage empty_picture(const std::filesystem::path& file, const Imf::Header& 
   return image;
 }
 
-/// How many columns and rows of pixels share a value of a channel.
-std::pair<int, int> sampling_of(const Imf::Header& header, const std::string& name) {
-  const Imf::Channel& channel = header.channels()[name];
-  return {channel.xSampling, channel.ySampling};
-}
-
-void check_sampling(const std::filesystem::path& file, const Imf::Header& header, const std::string& name) {
-  const auto [x, y] = sampling_of(header, name);
-  if (x == 1 && y == 1) return;
-  cannot_read(file, "found one value for every " + std::to_string(x) + " x " + std::to_string(y) +
-                        " pixels in channel " + name + ", expected one for each pixel");
-}
-
-/// Reads channels that have a value for each pixel into red, green and blue, or one into all three.
-void read_channels(const std::filesystem::path& file, Imf::MultiPartInputFile& exr, const ExrLayer& layer,
-                   LinearImage& image) {
+/// Reads a layer as the file has it.
+struct LayerReader {
+  const std::filesystem::path& file;
+  Imf::MultiPartInputFile& exr;
+  const ExrLayer layer;
   const Imf::Header& header = exr.header(layer.part);
-  ExrTarget target{{}, header.dataWindow()};
-  float* rgb = image.rgb.data();
-  for (std::size_t i = 0; i < layer.channels.size(); ++i) {
-    check_sampling(file, header, layer.channels[i]);
-    target.add(layer.channels[i], Imf::FLOAT, rgb + i, 3 * sizeof(float));
-  }
-  target.read(exr, layer.part);
-  for (std::size_t i = 0; layer.channels.size() == 1 && i < image.rgb.size(); i += 3) rgb[i + 1] = rgb[i + 2] = rgb[i];
-}
+  LinearImage image = empty_picture(file, header);
 
-/// Luminance and chroma with a value for each pixel, by the definitions in OpenEXR's ImfRgbaYca.h.
-void read_whole_chroma(const std::filesystem::path& file, Imf::MultiPartInputFile& exr, const ExrLayer& layer,
-                       LinearImage& image) {
-  read_channels(file, exr, layer, image);
-  const Imath::V3f weights = luminance_weights(file, exr.header(layer.part));
-  for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
-    const float y = image.rgb[i], red = (image.rgb[i + 1] + 1) * y, blue = (image.rgb[i + 2] + 1) * y;
-    image.rgb[i] = red, image.rgb[i + 1] = (y - red * weights.x - blue * weights.z) / weights.y,
-    image.rgb[i + 2] = blue;
+  /// How many columns and rows of pixels share a value of a channel.
+  std::pair<int, int> sampling_of(const std::string& name) const {
+    const Imf::Channel& channel = header.channels()[name];
+    return {channel.xSampling, channel.ySampling};
   }
-}
-
-/// Luminance for each pixel and chroma for every 2 x 2, by OpenEXR's own filter, in its 16 bits a value.
-void read_half_chroma(const std::filesystem::path& file, const ExrLayer& layer, LinearImage& image) {
-  Imf::RgbaInputFile exr(file.string().c_str(), layer.prefix);
-  const Region& data = image.frame->data;
-  std::vector<Imf::Rgba> row(static_cast<std::size_t>(image.width));
-  exr.setFrameBuffer(Imf::ComputeBasePointer(row.data(), {data.x0, 0}, image.width), 1, 0);
-  auto* to = image.rgb.data();
-  for (int y = data.y0; y < data.y1; ++y) {
-    exr.readPixels(y);
-    for (const Imf::Rgba& pixel : row)
-      for (const float value : {pixel.r, pixel.g, pixel.b}) *to++ = value;
+  void check_sampling(const std::string& name) const {
+    const auto [x, y] = sampling_of(name);
+    if (x == 1 && y == 1) return;
+    cannot_read(file, "found one value for every " + std::to_string(x) + " x " + std::to_string(y) +
+                          " pixels in channel " + name + ", expected one for each pixel");
   }
-}
-
-void read_luminance_chroma(const std::filesystem::path& file, Imf::MultiPartInputFile& exr, const ExrLayer& layer,
-                           LinearImage& image) {
-  const Imf::Header& header = exr.header(layer.part);
-  const bool half = sampling_of(header, layer.channels[1]) == std::pair{2, 2} &&
-                    sampling_of(header, layer.channels[2]) == std::pair{2, 2};
-  if (!half) return read_whole_chroma(file, exr, layer, image);
-  check_sampling(file, header, layer.channels[0]);
-  luminance_weights(file, header);  // refuses chromaticities that cannot be
-  if (exr.parts() > 1)
-    cannot_read(file, "found luminance and chroma of 2 x 2 pixels in a file of several parts, expected one part");
-  read_half_chroma(file, layer, image);
-}
+  /// Channels that have a value for each pixel, as red, green and blue; or one as all three.
+  void read_channels() {
+    ExrTarget target{{}, header.dataWindow()};
+    float* rgb = image.rgb.data();
+    for (std::size_t i = 0; i < layer.channels.size(); ++i) {
+      check_sampling(layer.channels[i]);
+      target.add(layer.channels[i], Imf::FLOAT, rgb + i, 3 * sizeof(float));
+    }
+    target.read(exr, layer.part);
+    for (std::size_t i = 0; layer.channels.size() == 1 && i < image.rgb.size(); i += 3)
+      rgb[i + 1] = rgb[i + 2] = rgb[i];
+  }
+  /// Luminance and chroma with a value for each pixel, by the definitions in OpenEXR's ImfRgbaYca.h.
+  void read_whole_chroma() {
+    read_channels();
+    const Imath::V3f weights = Imf::RgbaYca::computeYw(chromaticities_of(file, header));
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
+      const float y = image.rgb[i], red = (image.rgb[i + 1] + 1) * y, blue = (image.rgb[i + 2] + 1) * y;
+      image.rgb[i] = red, image.rgb[i + 1] = (y - red * weights.x - blue * weights.z) / weights.y,
+      image.rgb[i + 2] = blue;
+    }
+  }
+  /// Luminance for each pixel and chroma for every 2 x 2, by OpenEXR's own filter, in its 16 bits a value.
+  void read_half_chroma() {
+    check_sampling(layer.channels[0]);
+    chromaticities_of(file, header);  // refuses those that cannot be
+    if (exr.parts() > 1)
+      cannot_read(file, "found luminance and chroma of 2 x 2 pixels in a file of several parts, expected one part");
+    Imf::RgbaInputFile chroma(file.string().c_str(), layer.prefix);
+    const Region& data = image.frame->data;
+    std::vector<Imf::Rgba> row(static_cast<std::size_t>(image.width));
+    chroma.setFrameBuffer(Imf::ComputeBasePointer(row.data(), {data.x0, 0}, image.width), 1, 0);
+    auto* to = image.rgb.data();
+    for (int y = data.y0; y < data.y1; ++y) {
+      chroma.readPixels(y);
+      for (const Imf::Rgba& pixel : row)
+        for (const float value : {pixel.r, pixel.g, pixel.b}) *to++ = value;
+    }
+  }
+  void read() {
+    if (layer.colour != ExrColour::luminance_chroma) return read_channels();
+    const std::pair half{2, 2};
+    if (sampling_of(layer.channels[1]) == half && sampling_of(layer.channels[2]) == half) return read_half_chroma();
+    read_whole_chroma();
+  }
+};
 
 }  // namespace
 
 LinearImage read_exr(const std::filesystem::path& file, const std::optional<std::string>& name) {
   return with_exr(file, [&](Imf::MultiPartInputFile& exr) {
-    const ExrLayer layer = find_exr_layer(file, exr, name);
-    const Imf::Header& header = exr.header(layer.part);
-    LinearImage image = empty_picture(file, header);
-    if (layer.colour == ExrColour::luminance_chroma)
-      read_luminance_chroma(file, exr, layer, image);
-    else
-      read_channels(file, exr, layer, image);
-    if (layer.colour == ExrColour::luminance_chroma || layer.colour == ExrColour::rgb)
-      convert_to_rec709(file, header, image.rgb);
-    return image;
+    LayerReader reader{file, exr, find_exr_layer(file, exr, name)};
+    reader.read();
+    if (reader.layer.colour == ExrColour::luminance_chroma || reader.layer.colour == ExrColour::rgb)
+      convert_to_rec709(file, reader.header, reader.image.rgb);
+    return std::move(reader.image);
   });
 }
 

@@ -15,16 +15,12 @@
 namespace tyndall {
 namespace {
 
-bool is_valid_size(std::int64_t width, std::int64_t height) {
-  return width > 0 && height > 0 && width <= max_image_pixels && height <= max_image_pixels / width;
-}
-
+/// Why no image has this size; "": some have.
 std::string size_problem(std::int64_t width, std::int64_t height) {
+  if (width > 0 && height > 0 && width <= max_image_pixels && height <= max_image_pixels / width) return "";
   return "found an image of " + std::to_string(width) + " x " + std::to_string(height) +
          " pixels, expected 1 to 2^28 in all";
 }
-
-bool is_line_end(std::string_view text) { return text.starts_with('\n') || text.starts_with("\r\n"); }
 
 /// A TGA has no mark: it is told by values of its header that can hardly be anything else.
 /// Truevision TGA File Format Specification, version 2.0.
@@ -111,7 +107,7 @@ void cannot_write(const std::filesystem::path& file, const std::string& why) {
 }
 
 void check_readable(const std::filesystem::path& file, std::int64_t width, std::int64_t height) {
-  if (!is_valid_size(width, height)) cannot_read(file, size_problem(width, height));
+  if (const std::string problem = size_problem(width, height); !problem.empty()) cannot_read(file, problem);
 }
 
 void check_enough(const std::filesystem::path& file, std::uint64_t size, std::uint64_t minimum) {
@@ -121,7 +117,7 @@ void check_enough(const std::filesystem::path& file, std::uint64_t size, std::ui
 }
 
 void check_writable(const std::filesystem::path& file, std::int64_t width, std::int64_t height) {
-  if (!is_valid_size(width, height)) cannot_write(file, size_problem(width, height));
+  if (const std::string problem = size_problem(width, height); !problem.empty()) cannot_write(file, problem);
 }
 
 void check_writable(const std::filesystem::path& file, const LinearImage& image) {
@@ -155,8 +151,8 @@ ImageKind image_kind(std::span<const std::uint8_t> start) {
   if (text.starts_with("\x89PNG\r\n\x1a\n")) return ImageKind::png;
   if (text.starts_with("\xff\xd8\xff")) return ImageKind::jpeg;
   if (text.starts_with("\x76\x2f\x31\x01")) return ImageKind::exr;
-  for (const std::string_view name : {"#?RADIANCE", "#?RGBE"})
-    if (text.starts_with(name) && is_line_end(text.substr(name.size()))) return ImageKind::hdr;
+  for (const std::string_view mark : {"#?RADIANCE\n", "#?RADIANCE\r\n", "#?RGBE\n", "#?RGBE\r\n"})
+    if (text.starts_with(mark)) return ImageKind::hdr;
   if (text.starts_with("BM") && text.size() >= 6 && text.find('\0') != text.npos) return ImageKind::bmp;
   if (text.size() > 2 && text[0] == 'P' && (is_space(text[2]) || text[2] == '#')) {
     if (text[1] == 'F' || text[1] == 'f') return ImageKind::pfm;

@@ -58,9 +58,7 @@ PictureFile read_jpeg(const std::filesystem::path& file, std::span<const std::ui
 std::vector<std::uint8_t> encode_png(int width, int height, const std::uint8_t* rgb);
 std::vector<std::uint8_t> encode_hdr(int width, int height, const float* rgb);
 
-/// Throws unless every chunk of a PNG up to its last one ends within the file.
-void check_png(const std::filesystem::path& file, std::span<const std::uint8_t> png);
-/// The data of a PNG's first chunk of that type; nothing if it has none. The PNG must have passed check_png().
+/// The data of a PNG's first chunk of that type; nothing if it has none before its end or that of the file.
 std::optional<std::span<const std::uint8_t>> png_chunk(std::span<const std::uint8_t> png, std::string_view type);
 /// The text with that keyword in a PNG's iTXt chunks.
 std::optional<std::string> png_text(const std::filesystem::path& file, std::span<const std::uint8_t> png,

@@ -14,13 +14,11 @@ namespace {
 
 constexpr float largest_rgbe = 0x1.fcp126f;  // the largest that rounding keeps within the exponent byte
 
-/// The nearest value that RGBE can hold: 0 for negative values and what is not a number, the largest for infinity.
-float in_range(float value) { return value > 0 ? std::min(value, largest_rgbe) : 0.0f; }
-
-/// A pixel's channels share the exponent of the largest, with 8 bits each. The encoder cuts the rest off, which would
-/// darken the image by a quarter of a percent: adding half a step makes it round.
+/// A pixel becomes the nearest that RGBE can hold: 0 for negative values and what is not a number, the largest for
+/// infinity. Its channels share the exponent of the largest, with 8 bits each. The encoder cuts the rest off, which
+/// would darken the image by a quarter of a percent: adding half a step makes it round.
 void prepare_pixel(float* rgb) {
-  for (int i = 0; i < 3; ++i) rgb[i] = in_range(rgb[i]);
+  for (int i = 0; i < 3; ++i) rgb[i] = rgb[i] > 0 ? std::min(rgb[i], largest_rgbe) : 0.0f;
   int exponent = 0;
   if (std::frexp(std::max({rgb[0], rgb[1], rgb[2]}), &exponent) == 0) return;
   for (int i = 0; i < 3; ++i) rgb[i] += std::ldexp(1.0f, exponent - 9);
@@ -58,15 +56,16 @@ struct HdrReader {
       for (std::size_t i = 0; i < count; ++i, ++x) channel[4 * x] = values[code > 128 ? 0 : i];
     }
   }
-  /// A row of width pixels of 4 bytes, run by run or plain.
-  void take_row(std::vector<std::uint8_t>& row, std::size_t width) {
+  /// A row of pixels of 4 bytes, run by run or plain.
+  void take_row(std::vector<std::uint8_t>& row) {
+    const std::size_t width = row.size() / 4;
     const bool runs = width >= 8 && width < 32768 && bytes.size() >= 4 && bytes[0] == 2 && bytes[1] == 2 &&
                       bytes[2] == width >> 8 && bytes[3] == (width & 255);
     if (runs) {
       take(4);
       for (std::size_t channel = 0; channel < 4; ++channel) take_runs(row.data() + channel, width);
     } else {
-      const auto plain = take(4 * width);
+      const auto plain = take(row.size());
       // A pixel of 1, 1, 1 is none: it is the sign of the runs of the format's first version.
       for (std::size_t x = 0; x < plain.size(); x += 4)
         if (plain[x] == 1 && plain[x + 1] == 1 && plain[x + 2] == 1)
@@ -142,32 +141,18 @@ struct HdrHeader {
   }
 };
 
-/// The file's rows: how many, and of how many pixels, as the picture's size and their orientation say it.
-struct HdrRows {
-  int rows = 0, columns = 0;
-  Orientation orientation;
-};
-
 /// "-Y 480 +X 640": 480 rows from the top, each of 640 pixels from the left. With X first the rows are columns.
-HdrRows read_size_line(const std::filesystem::path& file, const std::string& line) {
-  HdrRows found;
+std::pair<LinearImage, Orientation> read_size_line(const std::filesystem::path& file, const std::string& line) {
+  int rows = 0, columns = 0;
   char signs[2] = {}, axes[2] = {}, rest = 0;
-  const int read = std::sscanf(line.c_str(), " %c%c %9d %c%c %9d %c", &signs[0], &axes[0], &found.rows, &signs[1],
-                               &axes[1], &found.columns, &rest);
+  const int read = std::sscanf(line.c_str(), " %c%c %9d %c%c %9d %c", &signs[0], &axes[0], &rows, &signs[1], &axes[1],
+                               &columns, &rest);
   const bool known = read == 6 && (signs[0] == '-' || signs[0] == '+') && (signs[1] == '-' || signs[1] == '+') &&
                      ((axes[0] == 'Y' && axes[1] == 'X') || (axes[0] == 'X' && axes[1] == 'Y'));
   if (!known) cannot_read(file, "found " + in_quotes(line) + ", expected the size of an HDR, such as -Y 480 +X 640");
-  found.orientation.columns = axes[0] == 'X';
-  const char x = signs[found.orientation.columns ? 0 : 1], y = signs[found.orientation.columns ? 1 : 0];
-  found.orientation.from_right = x == '-', found.orientation.from_bottom = y == '+';
-  check_readable(file, found.columns, found.rows);
-  return found;
-}
-
-void divide(std::vector<float>& rgb, const std::array<double, 3>& factors) {
-  if (factors == std::array<double, 3>{1, 1, 1}) return;
-  for (std::size_t i = 0; i < rgb.size(); ++i)
-    rgb[i] = static_cast<float>(static_cast<double>(rgb[i]) / factors[i % 3]);
+  check_readable(file, columns, rows);
+  const bool x_first = axes[0] == 'X';
+  return {{columns, rows, {}}, {x_first, signs[x_first ? 0 : 1] == '-', signs[x_first ? 1 : 0] == '+'}};
 }
 
 }  // namespace
@@ -178,7 +163,7 @@ void write_hdr(const std::filesystem::path& file, const LinearImage& image) {
   for (std::size_t i = 0; i < rgb.size(); i += 3) prepare_pixel(&rgb[i]);
   const std::vector<std::uint8_t> bytes = encode_hdr(image.width, image.height, rgb.data());
   WholeFile out(file);
-  out.write(bytes);
+  out.write(std::as_bytes(std::span(bytes)));
   out.commit();
 }
 
@@ -187,19 +172,20 @@ PictureFile read_hdr(const std::filesystem::path& file, std::span<const std::uin
   HdrHeader header{file};
   for (std::string line = reader.take_line(); !line.empty(); line = reader.take_line()) header.read(line);
   if (!header.rgbe) cannot_read(file, "found no line FORMAT=32-bit_rle_rgbe in the header of the HDR");
-  const HdrRows size = read_size_line(file, reader.take_line());
-  check_enough(file, reader.bytes.size(), min_hdr_bytes(size.columns, size.rows));
-  LinearImage stored{size.columns, size.rows, {}};
-  std::vector<std::uint8_t> row(4 * static_cast<std::size_t>(size.columns));
-  for (int y = 0; y < size.rows; ++y) {
-    reader.take_row(row, static_cast<std::size_t>(size.columns));
+  auto [stored, orientation] = read_size_line(file, reader.take_line());
+  check_enough(file, reader.bytes.size(), min_hdr_bytes(stored.width, stored.height));
+  std::vector<std::uint8_t> row(4 * static_cast<std::size_t>(stored.width));
+  for (int y = 0; y < stored.height; ++y) {
+    reader.take_row(row);
     for (std::size_t x = 0; x < row.size(); x += 4)
       for (std::size_t i = x; i < x + 3; ++i)
         stored.rgb.push_back(row[x + 3] == 0 ? 0 : std::ldexp(static_cast<float>(row[i]), row[x + 3] - 136));
   }
-  divide(stored.rgb, header.factors);
+  if (header.factors != std::array<double, 3>{1, 1, 1})
+    for (std::size_t i = 0; i < stored.rgb.size(); ++i)
+      stored.rgb[i] = static_cast<float>(static_cast<double>(stored.rgb[i]) / header.factors[i % 3]);
   PictureFile picture;
-  picture.image = oriented(std::move(stored), size.orientation);
+  picture.image = oriented(std::move(stored), orientation);
   return picture;
 }
 

@@ -86,8 +86,7 @@ Bytes png_bytes(const std::filesystem::path& name, const LinearImage& image, dou
   check_writable(name, image);
   const std::int64_t row = std::int64_t{3} * image.width;
   if ((row + 1) * image.height > std::numeric_limits<int>::max() / 2) cannot_write(name, "too many pixels for PNG");
-  const Bytes rgb = dither ? tone_map_dithered(image.rgb, exposure, curve, image.width, *dither)
-                           : tone_map(image.rgb, exposure, curve);
+  const Bytes rgb = tone_map(image.rgb, exposure, curve, image.width, dither);
   Bytes png = encode_png(image.width, image.height, rgb.data());
   if (png.size() < header_end) throw std::bad_alloc();
   Bytes extra;
@@ -103,12 +102,8 @@ void write_png(const std::filesystem::path& file, const LinearImage& image, doub
                const Embedded& embedded, std::optional<DitherOrigin> dither) {
   const Bytes png = png_bytes(file, image, exposure, curve, embedded, dither);
   WholeFile out(file);
-  out.write(png);
+  out.write(std::as_bytes(std::span(png)));
   out.commit();
-}
-
-void check_png(const std::filesystem::path& file, std::span<const std::uint8_t> png) {
-  if (!png_chunk(png, "IEND")) cannot_read(file, "damaged: the PNG ends in the middle");
 }
 
 std::optional<std::span<const std::uint8_t>> png_chunk(std::span<const std::uint8_t> png, std::string_view type) {

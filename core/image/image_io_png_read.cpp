@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <csetjmp>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <new>
@@ -21,8 +22,9 @@ struct PngDecoder {
   png_infop info = nullptr;
   std::span<const std::uint8_t> left;  ///< bytes that were not read yet
   std::jmp_buf stop{};
-  char problem[128] = "";
+  char problem[128] = "libpng cannot be used";
   bool out_of_memory = false;
+  int passes = 1;  ///< over the rows: more where these are interlaced
 
   PngDecoder() = default;
   ~PngDecoder() { png_destroy_read_struct(&png, &info, nullptr); }
@@ -30,13 +32,10 @@ struct PngDecoder {
   PngDecoder& operator=(const PngDecoder&) = delete;
 };
 
-[[noreturn]] void stop_decoding(PngDecoder& decoder, const char* problem) {
-  std::strncpy(decoder.problem, problem, sizeof decoder.problem - 1);
-  std::longjmp(decoder.stop, 1);
-}
-
 void on_error(png_structp png, png_const_charp problem) {
-  stop_decoding(*static_cast<PngDecoder*>(png_get_error_ptr(png)), problem);
+  auto& decoder = *static_cast<PngDecoder*>(png_get_error_ptr(png));
+  std::snprintf(decoder.problem, sizeof decoder.problem, "%s", problem);
+  std::longjmp(decoder.stop, 1);
 }
 
 /// The checksum behind the compressed pixels is the only one that libpng merely warns of.
@@ -50,11 +49,9 @@ void* take_memory(png_structp png, png_alloc_size_t size) {
   return memory;
 }
 
-void give_back_memory(png_structp, void* memory) { std::free(memory); }
-
 void take_bytes(png_structp png, png_bytep to, std::size_t size) {
   auto& decoder = *static_cast<PngDecoder*>(png_get_io_ptr(png));
-  if (size > decoder.left.size()) stop_decoding(decoder, "the PNG ends in the middle");
+  if (size > decoder.left.size()) png_error(png, "the PNG ends in the middle");
   std::memcpy(to, decoder.left.data(), size);
   decoder.left = decoder.left.subspan(size);
 }
@@ -62,10 +59,10 @@ void take_bytes(png_structp png, png_bytep to, std::size_t size) {
 /// Reads up to the pixels, which become RGB or RGBA of 8 or 16 bits. False: see `problem`.
 bool read_png_header(PngDecoder& decoder) {
   if (setjmp(decoder.stop) != 0) return false;
-  decoder.png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &decoder, on_error, on_warning, &decoder, take_memory,
-                                         give_back_memory);
+  decoder.png =
+      png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &decoder, on_error, on_warning, &decoder, take_memory, nullptr);
   if (decoder.png) decoder.info = png_create_info_struct(decoder.png);
-  if (!decoder.info) stop_decoding(decoder, "libpng cannot be used");
+  if (!decoder.info) return false;
   constexpr png_alloc_size_t usual_chunk = 4'000'000;
   const png_alloc_size_t size = decoder.left.size();
   png_set_user_limits(decoder.png, max_image_pixels, max_image_pixels);
@@ -77,28 +74,18 @@ bool read_png_header(PngDecoder& decoder) {
   png_read_info(decoder.png, decoder.info);
   png_set_expand(decoder.png);
   png_set_gray_to_rgb(decoder.png);
-  return true;
-}
-
-/// Where the pixels go: `row` bytes a row.
-struct PngRows {
-  std::uint8_t* bytes;
-  std::size_t row, height;
-};
-
-/// Makes libpng ready to give rows. False: see `problem`.
-bool start_rows(PngDecoder& decoder, int& passes) {
-  if (setjmp(decoder.stop) != 0) return false;
-  passes = png_set_interlace_handling(decoder.png);
+  decoder.passes = png_set_interlace_handling(decoder.png);
   png_read_update_info(decoder.png, decoder.info);
   return true;
 }
 
 /// Reads all rows, and what follows them, so that all checksums are looked at. False: see `problem`.
-bool read_png_rows(PngDecoder& decoder, int passes, const PngRows& rows) {
+bool read_png_rows(PngDecoder& decoder, Samples& samples) {
   if (setjmp(decoder.stop) != 0) return false;
-  for (int pass = 0; pass < passes; ++pass)
-    for (std::size_t y = 0; y < rows.height; ++y) png_read_row(decoder.png, rows.bytes + y * rows.row, nullptr);
+  const std::size_t row = samples.bytes.size() / static_cast<std::size_t>(samples.height);
+  for (int pass = 0; pass < decoder.passes; ++pass)
+    for (std::size_t at = 0; at < samples.bytes.size(); at += row)
+      png_read_row(decoder.png, samples.bytes.data() + at, nullptr);
   png_read_end(decoder.png, nullptr);
   return true;
 }
@@ -115,17 +102,14 @@ Samples read_samples(const std::filesystem::path& file, PngDecoder& decoder) {
     if (decoder.out_of_memory) throw std::bad_alloc();
     cannot_read(file, std::string("damaged: ") + decoder.problem);
   };
-  int passes = 1;
-  if (!read_png_header(decoder) || !start_rows(decoder, passes)) fail();
+  if (!read_png_header(decoder)) fail();
   Samples samples;
   samples.width = static_cast<int>(png_get_image_width(decoder.png, decoder.info));
   samples.height = static_cast<int>(png_get_image_height(decoder.png, decoder.info));
   samples.channels = png_get_channels(decoder.png, decoder.info);
   samples.largest = png_get_bit_depth(decoder.png, decoder.info) == 16 ? 65535 : 255;
-  const std::size_t row = png_get_rowbytes(decoder.png, decoder.info),
-                    height = static_cast<std::size_t>(samples.height);
-  samples.bytes.resize(row * height);
-  if (!read_png_rows(decoder, passes, {samples.bytes.data(), row, height})) fail();
+  samples.bytes.resize(png_get_rowbytes(decoder.png, decoder.info) * static_cast<std::size_t>(samples.height));
+  if (!read_png_rows(decoder, samples)) fail();
   return samples;
 }
 
@@ -206,7 +190,7 @@ PictureFile read_png(const std::filesystem::path& file, std::span<const std::uin
     check_readable(file, high_first(bytes, 16, 4), high_first(bytes, 20, 4));
     check_enough(file, bytes.size(), min_png_bytes(bytes));
   }
-  check_png(file, bytes);
+  if (!png_chunk(bytes, "IEND")) cannot_read(file, "damaged: the PNG ends in the middle");
   PngDecoder decoder;
   decoder.left = bytes;
   const Samples samples = read_samples(file, decoder);

@@ -6,63 +6,138 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
-#include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <string_view>
+#include <utility>
 
 namespace tyndall {
-namespace {
 
-/// Believes the size that a header says only where the file is long enough for it. left: bytes behind the header.
-void check_length(const std::filesystem::path& file, const PnmHeader& header, std::size_t left) {
-  const std::size_t needed = header.is_text() ? 2 * header.numbers() : 1 + header.numbers() * header.number_size();
-  if (left < needed)
-    cannot_read(file, "damaged: found " + std::to_string(left) + " bytes behind the header, expected at least " +
-                          std::to_string(needed) + " for " + std::to_string(header.width) + " x " +
-                          std::to_string(header.height) + " pixels");
+PnmReader::PnmReader(std::filesystem::path name, PpmCurve curve, std::optional<std::size_t> size)
+    : name_(std::move(name)), power_(curve == PpmCurve::gamma2 ? 2 : srgb_curve), size_(size) {}
+
+const char* PnmReader::expected() const {
+  constexpr const char* of_header[] = {"P3 or P6 (colours), or P2 or P5 (greys)", "the width", "the height",
+                                       "the largest number of a colour"};
+  return part_ <= Part::largest ? of_header[static_cast<int>(part_)] : "a colour";
 }
 
-struct PfmHeader {
-  int width = 0, height = 0;
-  std::size_t channels = 3;
-  double scale = -1;    ///< negative: little endian
-  std::size_t end = 0;  ///< behind the last word
-  std::size_t pixels() const {
-    return channels * sizeof(float) * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+void PnmReader::take_digit(char c) {
+  constexpr std::int64_t largest = 100'000'000'000'000'000;
+  constexpr std::size_t longest_shown = 24;  // characters of what was found in a number's place
+  const bool sign = digits_.text.empty() && (c == '-' || c == '+'), digit = c >= '0' && c <= '9';
+  digits_.negative = digits_.negative || (sign && c == '-');
+  digits_.any = digits_.any || digit;
+  digits_.damaged = digits_.damaged || !(sign || digit);
+  if (digit) digits_.value = std::min(10 * digits_.value + c - '0', largest);
+  if (digits_.text.size() < longest_shown)
+    digits_.text += c;
+  else if (digits_.damaged)
+    fail_number();
+}
+
+void PnmReader::fail_number() const {
+  cannot_read(name_, "damaged: found " + in_quotes(digits_.text) + ", expected " + expected() + ", a whole number");
+}
+
+void PnmReader::take_mark(char c) {
+  mark_ += c;
+  if (mark_.size() < 2) return;
+  if (mark_ != "P2" && mark_ != "P3" && mark_ != "P5" && mark_ != "P6")
+    cannot_read(name_, "found a picture of the kind " + mark_ + ", expected " + expected());
+  header_.kind = c;
+  part_ = Part::width;
+}
+
+void PnmReader::take_header_number(std::int64_t number) {
+  constexpr std::int64_t largest = std::int64_t{1} << 28;
+  if (number > largest || number < -largest)
+    cannot_read(name_, std::string("found a number beyond 2^28 as ") + expected() + ", expected a smaller one");
+  if (part_ == Part::width) {
+    header_.width = number;
+    part_ = Part::height;
+  } else if (part_ == Part::height) {
+    header_.height = number;
+    check_readable(name_, header_.width, header_.height);
+    part_ = Part::largest;
+  } else {
+    if (number < 1 || number > 65535)
+      cannot_read(name_, "found " + std::to_string(number) + " as the largest number of a colour, expected 1 to 65535");
+    header_.largest = static_cast<unsigned>(number);
+    light_ = light_table(header_.largest, power_);
+    part_ = header_.is_text() ? Part::pixels : Part::gap;
   }
-};
-
-/// The next word of a header.
-std::string_view next_word(std::string_view& text) {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  const auto end = std::find_if(text.begin(), text.end(), is_space);
-  const std::string_view word = text.substr(0, static_cast<std::size_t>(end - text.begin()));
-  text.remove_prefix(word.size());
-  return word;
 }
 
-bool parse(std::string_view word, int& value) {
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size();
+/// A number outside of the range becomes the nearest within, and is counted.
+void PnmReader::put(std::int64_t number, std::vector<float>& rgb) {
+  const std::int64_t nearest = std::clamp<std::int64_t>(number, 0, header_.largest);
+  if (nearest != number && outside_++ == 0) first_outside_ = taken_, first_value_ = number;
+  const float light = light_[static_cast<std::size_t>(nearest)];
+  rgb.push_back(light);
+  if (header_.channels() == 1) rgb.push_back(light), rgb.push_back(light);
+  if (++taken_ == header_.numbers()) part_ = Part::end;
 }
 
-bool parse(std::string_view word, double& value) { return number_from_text(word, value); }
-
-PfmHeader read_header(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
-  PfmHeader header;
-  std::string_view text(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 256));
-  const std::size_t start = text.size();
-  header.channels = next_word(text) == "PF" ? 3 : 1;
-  const bool good = parse(next_word(text), header.width) && parse(next_word(text), header.height) &&
-                    parse(next_word(text), header.scale);
-  if (!good || header.scale == 0 || !std::isfinite(header.scale))
-    cannot_read(file, "damaged: expected a PFM header: PF, width, height, scale");
-  check_readable(file, header.width, header.height);
-  header.end = start - text.size();
-  return header;
+/// Takes a byte that ends no number. False: it does not belong to the picture.
+bool PnmReader::take_byte(std::uint8_t byte, std::vector<float>& rgb) {
+  const char c = static_cast<char>(byte);
+  if (part_ == Part::line_feed) {
+    part_ = Part::pixels;
+    if (c == '\n' && (!size_ || *size_ - position_ > header_.number_size() * header_.numbers())) return true;
+  }
+  if (part_ == Part::mark) {
+    take_mark(c);
+  } else if (part_ > Part::gap && !header_.is_text()) {
+    if (part_ == Part::end) return false;
+    if (header_.number_size() == 2 && !high_byte_)
+      high_byte_ = byte;
+    else
+      put(std::exchange(high_byte_, std::nullopt).value_or(0) * 256 + byte, rgb);
+  } else if (in_remark_ || c == '#' || is_space(c)) {
+    in_remark_ = in_remark_ ? c != '\n' && c != '\r' : c == '#';
+    if (part_ == Part::gap && !in_remark_) part_ = c == '\r' ? Part::line_feed : Part::pixels;
+  } else if (part_ == Part::end) {
+    return false;
+  } else {
+    take_digit(c);
+  }
+  return true;
 }
+
+std::size_t PnmReader::take(std::span<const std::uint8_t> bytes, std::vector<float>& rgb, bool header_only) {
+  std::size_t at = 0;
+  while (at < bytes.size() && !(header_only && header())) {
+    const char c = static_cast<char>(bytes[at]);
+    if (!digits_.text.empty() && (is_space(c) || c == '#'))
+      end(rgb);
+    else if (take_byte(bytes[at], rgb))
+      ++at, ++position_;
+    else
+      break;
+  }
+  return at;
+}
+
+void PnmReader::end(std::vector<float>& rgb) {
+  if (digits_.text.empty()) return;
+  if (digits_.damaged || !digits_.any) fail_number();
+  const Digits done = std::exchange(digits_, {});
+  const std::int64_t number = done.negative ? -done.value : done.value;
+  part_ <= Part::largest ? take_header_number(number) : put(number, rgb);
+}
+
+std::optional<std::string> PnmReader::remark() const {
+  if (outside_ == 0) return {};
+  const std::size_t pixel = first_outside_ / header_.channels(), width = static_cast<std::size_t>(header_.width);
+  return std::to_string(outside_) + " of " + std::to_string(taken_) + " numbers are outside of 0 to " +
+         std::to_string(header_.largest) + " and are read as the nearest that is within; the first one, " +
+         std::to_string(first_value_) + ", is at x " + std::to_string(pixel % width) + ", y " +
+         std::to_string(pixel / width);
+}
+
+namespace {
 
 float read_float(const std::uint8_t* bytes, bool swap) {
   std::uint32_t word = 0;
@@ -95,13 +170,12 @@ void write_ppm(const std::filesystem::path& file, const LinearImage& image, doub
                PpmCurve ppm, std::optional<DitherOrigin> dither) {
   check_writable(file, image);
   const std::string header = "P6\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n255\n";
+  const std::vector<std::uint8_t> pixels = ppm == PpmCurve::gamma2
+                                               ? gamma2_bytes(image.rgb, exposure, curve)
+                                               : tone_map(image.rgb, exposure, curve, image.width, dither);
   WholeFile out(file);
-  out.write(std::span(reinterpret_cast<const std::uint8_t*>(header.data()), header.size()));
-  if (ppm == PpmCurve::gamma2)
-    out.write(gamma2_bytes(image.rgb, exposure, curve));
-  else
-    out.write(dither ? tone_map_dithered(image.rgb, exposure, curve, image.width, *dither)
-                     : tone_map(image.rgb, exposure, curve));
+  out.write(std::as_bytes(std::span(header)));
+  out.write(std::as_bytes(std::span(pixels)));
   out.commit();
 }
 
@@ -114,7 +188,13 @@ PictureFile read_ppm(const std::filesystem::path& file, std::span<const std::uin
   const std::string ends = std::string("damaged: the file ends where ") + reader.expected() + " is expected";
   if (!reader.header()) cannot_read(file, ends);
   const PnmHeader& header = *reader.header();
-  check_length(file, header, bytes.size() - at);
+  // The size that a header says is believed only where the file is long enough for it.
+  const std::size_t left = bytes.size() - at;
+  const std::size_t needed = header.is_text() ? 2 * header.numbers() : 1 + header.numbers() * header.number_size();
+  if (left < needed)
+    cannot_read(file, "damaged: found " + std::to_string(left) + " bytes behind the header, expected at least " +
+                          std::to_string(needed) + " for " + std::to_string(header.width) + " x " +
+                          std::to_string(header.height) + " pixels");
   picture.image.width = static_cast<int>(header.width), picture.image.height = static_cast<int>(header.height);
   picture.bits = header.largest > 255 ? 16 : 8;
   rgb.reserve(std::size_t{3} * static_cast<std::size_t>(header.width * header.height));
@@ -135,30 +215,36 @@ void write_pfm(const std::filesystem::path& file, const LinearImage& image) {
   const std::string header = "PF\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n-1.0\n";
   const auto row = 3 * static_cast<std::size_t>(image.width);
   WholeFile out(file);
-  out.write(std::span(reinterpret_cast<const std::uint8_t*>(header.data()), header.size()));
+  out.write(std::as_bytes(std::span(header)));
   for (std::size_t left = image.rgb.size(); left > 0; left -= row)
-    out.write(std::span<const float>(image.rgb).subspan(left - row, row));
+    out.write(std::as_bytes(std::span(image.rgb).subspan(left - row, row)));
   out.commit();
 }
 
 PictureFile read_pfm(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
-  const PfmHeader header = read_header(file, bytes);
-  const auto pixels = bytes.subspan(pixels_after(bytes, header.end, header.pixels()));
-  if (pixels.size() < header.pixels()) cannot_read(file, "damaged: the PFM ends in the middle");
-  check_end(file, pixels.subspan(header.pixels()), "P");
-  const auto width = static_cast<std::size_t>(header.width), height = static_cast<std::size_t>(header.height);
+  const auto begin = bytes.first(std::min<std::size_t>(bytes.size(), 256));
+  char kind = 0, word[256] = "";
+  int columns = 0, rows = 0, end = 0;
+  double scale = 0;  // negative: little endian
+  const int read = std::sscanf(std::string(begin.begin(), begin.end()).c_str(), "P%c %9d %9d %255s%n", &kind, &columns,
+                               &rows, word, &end);
+  if (read != 4 || !number_from_text(word, scale) || scale == 0 || !std::isfinite(scale))
+    cannot_read(file, "damaged: expected a PFM header: PF, width, height, scale");
+  check_readable(file, columns, rows);
+  const auto width = static_cast<std::size_t>(columns), height = static_cast<std::size_t>(rows);
+  const std::size_t channels = kind == 'F' ? 3 : 1, row_size = channels * sizeof(float) * width;
+  const auto pixels = bytes.subspan(pixels_after(bytes, static_cast<std::size_t>(end), row_size * height));
+  if (pixels.size() < row_size * height) cannot_read(file, "damaged: the PFM ends in the middle");
+  check_end(file, pixels.subspan(row_size * height), "P");
   PictureFile picture;
-  LinearImage& image = picture.image;
-  image.width = header.width, image.height = header.height;
-  image.rgb.reserve(width * height * 3);
-  const auto factor = static_cast<float>(std::abs(header.scale));
-  for (std::size_t y = height; y-- > 0;) {
-    const std::uint8_t* row = pixels.data() + y * width * header.channels * sizeof(float);
+  picture.image = {columns, rows, {}};
+  picture.image.rgb.reserve(width * height * 3);
+  const auto factor = static_cast<float>(std::abs(scale));
+  for (std::size_t y = height; y-- > 0;)
     for (std::size_t i = 0; i < width * 3; ++i) {
-      const std::size_t at = header.channels == 3 ? i : i / 3;
-      image.rgb.push_back(factor * read_float(row + at * sizeof(float), header.scale > 0));
+      const std::size_t at = y * row_size + (channels == 3 ? i : i / 3) * sizeof(float);
+      picture.image.rgb.push_back(factor * read_float(&pixels[at], scale > 0));
     }
-  }
   return picture;
 }
 

@@ -10,14 +10,6 @@
 #include <new>
 #include <string_view>
 
-#if defined(__GNUC__)
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#endif
-
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
 #define STBI_NO_STDIO
@@ -93,13 +85,6 @@ std::vector<std::uint8_t> encoded(Encode encode) {
   }
 }
 
-/// What stb_image says of its failure. Without memory it says so, or nothing at all.
-std::string why_it_failed() {
-  const char* reason = stbi_failure_reason();
-  if (!reason || reason == std::string_view("outofmem")) throw std::bad_alloc();
-  return reason;
-}
-
 }  // namespace
 
 Samples decode_stb(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
@@ -112,7 +97,11 @@ Samples decode_stb(const std::filesystem::path& file, std::span<const std::uint8
   if (known)
     pixels.reset(stbi_load_from_memory(bytes.data(), size, &samples.width, &samples.height, &channels,
                                        static_cast<int>(samples.channels)));
-  if (!pixels) cannot_read(file, "damaged: " + why_it_failed());
+  if (!pixels) {  // without memory stb says so, or nothing at all
+    const char* reason = stbi_failure_reason();
+    if (!reason || reason == std::string_view("outofmem")) throw std::bad_alloc();
+    cannot_read(file, std::string("damaged: ") + reason);
+  }
   const auto count = static_cast<std::size_t>(samples.width) * static_cast<std::size_t>(samples.height);
   samples.bytes.assign(pixels.get(), pixels.get() + samples.channels * count);
   return samples;

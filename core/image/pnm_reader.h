@@ -9,6 +9,7 @@
 #include <vector>
 
 /// The grammar of PNM pictures (PPM and PGM): the one for whole files and for pictures that come by a pipe, row by row.
+/// It is in image_io_pnm.cpp.
 namespace tyndall {
 
 /// What the header of a PNM says.
@@ -49,29 +50,27 @@ class PnmReader {
   std::optional<std::string> remark() const;
 
  private:
+  /// gap: the one character between a header and the bytes of pixels, before which a remark may stand; line_feed: what
+  /// may follow if that is a CR.
   enum class Part { mark, width, height, largest, gap, line_feed, pixels, end };
   /// A number that has begun.
   struct Digits {
-    std::string text;  ///< the beginning of what was found
-    std::int64_t value = 0;
+    std::string text;        ///< the beginning of what was found
+    std::int64_t value = 0;  ///< without its sign; at most 10^17
     bool negative = false, any = false, damaged = false;
   };
 
-  bool skip_gap(std::span<const std::uint8_t> bytes, std::size_t& at);
-  std::optional<std::int64_t> take_number(std::span<const std::uint8_t> bytes, std::size_t& at);
-  std::int64_t finish_number();
-  [[noreturn]] void fail_number() const;
+  bool take_byte(std::uint8_t byte, std::vector<float>& rgb);
   void take_mark(char c);
+  void take_digit(char c);
+  [[noreturn]] void fail_number() const;
   void take_header_number(std::int64_t number);
-  void take_gap(char c);
-  bool is_line_end(char c, std::size_t left) const;
-  void take_pixel_bytes(std::span<const std::uint8_t> bytes, std::size_t& at, std::vector<float>& rgb);
   void put(std::int64_t number, std::vector<float>& rgb);
 
   std::filesystem::path name_;
   double power_;  ///< see light_table
   std::optional<std::size_t> size_;
-  std::size_t before_ = 0;  ///< bytes that were taken before those of this call
+  std::size_t position_ = 0;  ///< bytes that were taken
   Part part_ = Part::mark;
   PnmHeader header_;
   std::string mark_;

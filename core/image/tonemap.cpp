@@ -56,74 +56,53 @@ class Pieces {
   std::vector<float> ends_;
 };
 
-/// Code values of 0 to 255, channel by channel.
-class ChannelCurve {
- public:
-  explicit ChannelCurve(ToneMap curve) : code_(curve == ToneMap::aces ? aces_code() : srgb_code()) {}
-  Rgb operator()(const Rgb& light) const { return {code_(light[0]), code_(light[1]), code_(light[2])}; }
+/// The pieces of a function, which are computed once.
+template <float (*exact)(float)>
+const Pieces& pieces_of() {
+  static const Pieces pieces(exact);
+  return pieces;
+}
 
- private:
-  static const Pieces& srgb_code() {
-    static const Pieces code([](float v) { return 255 * srgb_encode(std::min(v, 1.0f)); });
-    return code;
-  }
-  static const Pieces& aces_code() {
-    static const Pieces code([](float v) { return 255 * srgb_encode(std::min(aces(v), 1.0f)); });
-    return code;
-  }
-  const Pieces& code_;
+float srgb_code(float light) { return 255 * srgb_encode(std::min(light, 1.0f)); }
+float aces_code(float light) { return srgb_code(aces(light)); }
+float gamma22_code(float light) { return 255 * power(std::min(light, 1.0f), 1 / 2.2f); }
+/// What a screen shines for one channel of AgX.
+float agx_light(float light) {
+  constexpr float darkest = -12.473931f, stops = 16.5f;  // log2(0.18) - 10; up to log2(0.18) + 6.5
+  return power(agx_contrast(std::clamp((static_cast<float>(binary_logarithm(light)) - darkest) / stops, 0.0f, 1.0f)),
+               2.2f);
+}
+
+/// Code values of 0 to 255, channel by channel.
+struct ChannelCurve {
+  const Pieces& code;
+  Rgb operator()(const Rgb& light) const { return {code(light[0]), code(light[1]), code(light[2])}; }
 };
 
 /// Code values of 0 to 255 for a screen of gamma 2.2.
-class AgxCurve {
- public:
-  Rgb operator()(const Rgb& light) const {
-    Rgb code = shown(light);
-    for (float& v : code) v = code_(v);
-    return code;
-  }
+struct AgxCurve {
+  const Pieces &contrast = pieces_of<agx_light>(), &code = pieces_of<gamma22_code>();
+  Rgb operator()(const Rgb& light) const { return ChannelCurve{code}(shown(light)); }
   /// What the screen shines.
   Rgb shown(Rgb light) const {
     for (float& v : light) v = v > 0 ? std::min(v, 1e6f) : 0.0f;
-    Rgb shown = times(agx_inset, light);
-    for (float& v : shown) v = contrast_(v);
-    return times(agx_outset, shown);
+    return times(agx_outset, ChannelCurve{contrast}(times(agx_inset, light)));
   }
-
- private:
-  static float linear_contrast(float light) {
-    constexpr float darkest = -12.473931f, stops = 16.5f;  // log2(0.18) - 10; up to log2(0.18) + 6.5
-    return power(agx_contrast(std::clamp((static_cast<float>(binary_logarithm(light)) - darkest) / stops, 0.0f, 1.0f)),
-                 2.2f);
-  }
-  static const Pieces& contrast() {
-    static const Pieces values(linear_contrast);
-    return values;
-  }
-  static const Pieces& code() {
-    static const Pieces values([](float v) { return 255 * power(std::min(v, 1.0f), 1 / 2.2f); });
-    return values;
-  }
-  const Pieces &contrast_ = contrast(), &code_ = code();
 };
 
 /// Whole code values of 0 to 255 by the square root.
-class Gamma2Curve {
- public:
-  explicit Gamma2Curve(ToneMap curve) : curve_(curve) {}
+struct Gamma2Curve {
+  ToneMap curve;
+  AgxCurve agx{};
   Rgb operator()(const Rgb& light) const {
-    Rgb code = curve_ == ToneMap::agx ? agx_.shown(light) : light;
+    Rgb code = curve == ToneMap::agx ? agx.shown(light) : light;
     for (float& v : code) {
-      const float bent = curve_ == ToneMap::aces && v > 0 ? aces(v) : v;
+      const float bent = curve == ToneMap::aces && v > 0 ? aces(v) : v;
       const double root = bent > 0 ? std::min(std::sqrt(static_cast<double>(bent)), 0.999) : 0.0;
       v = static_cast<float>(std::floor(256 * root));
     }
     return code;
   }
-
- private:
-  ToneMap curve_;
-  AgxCurve agx_;
 };
 
 /// What is added before a value is cut to a whole number.
@@ -178,8 +157,9 @@ void map_pixels(const std::vector<float>& light, double exposure, const Curve& c
 
 void map_by(ToneMap curve, const std::vector<float>& light, double exposure, const Offsets& offsets,
             const Pixels& pixels, std::vector<std::uint8_t>& bytes) {
-  if (curve == ToneMap::agx) return map_pixels(light, exposure, AgxCurve(), offsets, pixels, bytes);
-  map_pixels(light, exposure, ChannelCurve(curve), offsets, pixels, bytes);
+  if (curve == ToneMap::agx) return map_pixels(light, exposure, AgxCurve{}, offsets, pixels, bytes);
+  const Pieces& code = curve == ToneMap::aces ? pieces_of<aces_code>() : pieces_of<srgb_code>();
+  map_pixels(light, exposure, ChannelCurve{code}, offsets, pixels, bytes);
 }
 
 }  // namespace
@@ -202,23 +182,18 @@ float agx_contrast(float x) {
   return 0.5f + 2 * offset * bend;
 }
 
-std::vector<std::uint8_t> tone_map(const std::vector<float>& rgb, double exposure, ToneMap curve) {
+std::vector<std::uint8_t> tone_map(const std::vector<float>& rgb, double exposure, ToneMap curve, int width,
+                                   std::optional<DitherOrigin> dither) {
+  const Pixels pixels{3, dither ? static_cast<std::size_t>(width) : rgb.size(), dither.value_or(DitherOrigin{})};
   std::vector<std::uint8_t> bytes;
-  map_by(curve, rgb, exposure, nearest, {3, rgb.size(), {}}, bytes);
-  return bytes;
-}
-
-std::vector<std::uint8_t> tone_map_dithered(const std::vector<float>& rgb, double exposure, ToneMap curve, int width,
-                                            DitherOrigin origin) {
-  std::vector<std::uint8_t> bytes;
-  map_by(curve, rgb, exposure, bayer, {3, static_cast<std::size_t>(width), origin}, bytes);
+  map_by(curve, rgb, exposure, dither ? bayer : nearest, pixels, bytes);
   return bytes;
 }
 
 std::vector<std::uint8_t> gamma2_bytes(const std::vector<float>& rgb, double exposure, ToneMap curve) {
   constexpr Offsets none{};
   std::vector<std::uint8_t> bytes;
-  map_pixels(rgb, exposure, Gamma2Curve(curve), none, {3, rgb.size(), {}}, bytes);
+  map_pixels(rgb, exposure, Gamma2Curve{curve}, none, {3, rgb.size(), {}}, bytes);
   return bytes;
 }
 

@@ -7,9 +7,8 @@
 #include "core/system/process.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
-#include <chrono>
+#include <random>
 #include <string>
 #include <system_error>
 
@@ -17,8 +16,6 @@ namespace tyndall {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
 /// Follows symbolic links to a name that is none, or to one that stands for an open file.
 fs::path end_of_links(const fs::path& file) {
@@ -45,13 +42,6 @@ std::string obstacle_of(const FilePlace& place) {
 constexpr std::size_t buffer_size = std::size_t{1} << 20;
 constexpr const char* temporary_mark = ".tmp-";
 constexpr std::size_t digits_of_number = 16;
-
-/// A number that another writer of the same file hardly has, too. If it has, O_EXCL tells, and the next one is taken.
-std::uint64_t likely_unique() {
-  static std::atomic<std::uint64_t> count{0};
-  const auto now = static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count());
-  return fnv1a(std::to_string(now) + ' ' + std::to_string(process_number()) + ' ' + std::to_string(++count));
-}
 
 /// What the names of all temporary files of a target begin with: its name, or if that would become too long, its
 /// beginning and the hash of all of it.
@@ -86,7 +76,7 @@ FilePlace find_place(const fs::path& file) {
   const bool there = !error;
   if (!there && error != std::errc::no_such_file_or_directory) cannot_write(file, error.message());
   place.target = end_of_links(file);
-  place.folder = folder_of(place.target);
+  place.folder = place.target.has_parent_path() ? place.target.parent_path() : fs::path(".");
   if (!place.target.has_filename()) cannot_write(file, error_text(EISDIR));
   if (const std::string only = protection_of(place.folder); !only.empty())
     place.folder_problem = "its folder may " + only;
@@ -105,12 +95,8 @@ FilePlace find_place(const fs::path& file) {
 }
 
 bool is_stream(const fs::path& file) {
-  if (file == "-") return true;
-  std::error_code error;
-  const fs::file_type type = fs::status(file, error).type();
-  if (type == fs::file_type::fifo || type == fs::file_type::character) return true;
   try {
-    return type == fs::file_type::regular && find_place(file).method == WriteMethod::stream;
+    return find_place(file).method == WriteMethod::stream;
   } catch (const ImageFileError&) {
     return false;  // writing it says why
   }
@@ -140,8 +126,9 @@ WholeFile::WholeFile(const fs::path& file) : file_(file), place_(find_place(file
 void WholeFile::open_beside() {
   const std::string prefix = temporary_prefix(place_.folder, place_.target.filename().string());
   remove_dead(place_.folder, prefix);
+  std::random_device random;  // where another writer has the same number, O_EXCL tells, and the next one is taken
   for (int attempt = 0; attempt < 1000; ++attempt)
-    if (create(place_.folder / (prefix + hash_text(likely_unique())))) return;
+    if (create(place_.folder / (prefix + hash_text(std::uint64_t{random()} << 32 | random())))) return;
   if (place_.method == WriteMethod::replace) fail(EEXIST);
 }
 
@@ -183,19 +170,15 @@ WholeFile::~WholeFile() {
   if (!temporary_.empty()) remove_file(temporary_);
 }
 
-void WholeFile::put(const void* data, std::size_t size) {
-  const auto* bytes = static_cast<const std::uint8_t*>(data);
-  position_ += size;
-  while (size > 0) {
-    const std::size_t part = std::min(size, buffer_size - buffer_.size());
-    buffer_.insert(buffer_.end(), bytes, bytes + part);
-    bytes += part, size -= part;
+void WholeFile::write(std::span<const std::byte> bytes) {
+  position_ += bytes.size();
+  while (!bytes.empty()) {
+    const auto part = bytes.first(std::min(bytes.size(), buffer_size - buffer_.size()));
+    buffer_.insert(buffer_.end(), part.begin(), part.end());
+    bytes = bytes.subspan(part.size());
     if (buffer_.size() == buffer_size) flush();
   }
 }
-
-void WholeFile::write(std::span<const std::uint8_t> bytes) { put(bytes.data(), bytes.size()); }
-void WholeFile::write(std::span<const float> values) { put(values.data(), values.size_bytes()); }
 
 void WholeFile::flush() {
   check(bytes_.write(buffer_.data(), buffer_.size()));
@@ -211,19 +194,11 @@ void WholeFile::seek(std::uint64_t position) {
 /// Copies all that was written to an open file.
 void WholeFile::copy_to(const OpenFile& to) const {
   check(bytes_.seek(0));
-  std::vector<std::uint8_t> part(std::size_t{1} << 16);
+  std::vector<std::byte> part(std::size_t{1} << 16);
   for (std::size_t got = 1; got > 0;) {
     check(bytes_.read(part.data(), part.size(), got));
     check(to.write(part.data(), got));
   }
-}
-
-/// Copies what was written to standard output, into a pipe or device, or to the end of a file that is open elsewhere.
-void WholeFile::send() const {
-  OpenFile to = file_ == "-" ? OpenFile(standard_output) : OpenFile(file_, OpenFor::appending);
-  check(to.error());
-  copy_to(to);
-  check(to.close());
 }
 
 /// Writes into the file that cannot be replaced.
@@ -245,7 +220,12 @@ void WholeFile::overwrite() const {
 
 void WholeFile::commit() {
   flush();
-  if (place_.method == WriteMethod::stream) return send();
+  if (place_.method == WriteMethod::stream) {  // standard output, a pipe or device, or the end of a file open elsewhere
+    OpenFile to = file_ == "-" ? OpenFile(standard_output) : OpenFile(file_, OpenFor::appending);
+    check(to.error());
+    copy_to(to);
+    return check(to.close());
+  }
   if (place_.method == WriteMethod::in_place) return overwrite();
   if (place_.exists) check(bytes_.set_owner(place_.mode, place_.owner.user, place_.owner.group));
   check(bytes_.synchronise());

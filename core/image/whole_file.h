@@ -3,6 +3,7 @@
 #include "core/system/files.h"
 #include "core/system/open_file.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -66,8 +67,7 @@ class WholeFile {
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
 
-  void write(std::span<const std::uint8_t> bytes);
-  void write(std::span<const float> values);  ///< as they are in memory
+  void write(std::span<const std::byte> bytes);
   void seek(std::uint64_t position);
   std::uint64_t position() const { return position_; }
   /// Where the file is, and how commit() will write it.
@@ -77,11 +77,9 @@ class WholeFile {
 
  private:
   bool create(const std::filesystem::path& temporary);
-  void put(const void* data, std::size_t size);
   void flush();
   void open_beside();
   void check_in_place();
-  void send() const;
   void overwrite() const;
   void copy_to(const OpenFile& to) const;
   void check(int error) const;
@@ -89,8 +87,8 @@ class WholeFile {
 
   std::filesystem::path file_, temporary_;
   FilePlace place_;
-  OpenFile bytes_;                    ///< the temporary file
-  std::vector<std::uint8_t> buffer_;  ///< what is to be written next; it ends at position_
+  OpenFile bytes_;                 ///< the temporary file
+  std::vector<std::byte> buffer_;  ///< what is to be written next; it ends at position_
   std::uint64_t position_ = 0;
 };
 

@@ -95,11 +95,9 @@ constexpr std::size_t count_scalars(const Kind*) {
       },
       fields_of<Kind>());
 }
-template <class... Kinds>
-constexpr std::size_t max_scalars(const std::variant<Kinds...>*) {
-  return std::max({count_scalars(static_cast<const Kinds*>(nullptr))...});
-}
 /// The most fields that a kind has.
-inline constexpr std::size_t max_material_fields = max_scalars(static_cast<const MaterialKinds<double>*>(nullptr));
+inline constexpr std::size_t max_material_fields = []<class... Kinds>(const std::variant<Kinds...>*) {
+  return std::max({count_scalars(static_cast<const Kinds*>(nullptr))...});
+}(static_cast<const MaterialKinds<double>*>(nullptr));
 
 }  // namespace tyndall

@@ -75,12 +75,4 @@ TYNDALL_INLINE BsdfSample<F> sample(const Metal<F>& metal, const Incident<F>& in
           {less_equal(dot(out, in.facing), F(0.0f)), less(F(1.0f), F(0.0f))}};
 }
 
-/// Fraction of the light that is not absorbed, at a cosine of incidence in [0, 1]: the fraction of the ball of random
-/// points that is above the surface, a plane at distance c = cosine / fuzz from its centre: 1/2 + 3/4 (c - c³/3).
-template <class F>
-TYNDALL_INLINE F metal_survival(F fuzz, F cosine) {
-  const F c = min(cosine / max(fuzz, F(1e-9f)), F(1.0f));
-  return F(0.5f) + F(0.75f) * (c - c * c * c * F(1.0f / 3.0f));
-}
-
 }  // namespace tyndall

@@ -217,7 +217,7 @@ template <class F>
 TYNDALL_INLINE F link_pdf(const auto& s, const ReusedPaths& p, int from, int to, MaskOf<F> lanes, TileCounts& counts) {
   const Vec3<F> start = load_vector<F>(p.first.point, from), to_second = load_vector<F>(p.second.point, to) - start;
   const F square = max(dot(to_second, to_second), F(1e-30f)), distance = sqrt(square);
-  const Ray<F> ray{start, (F(1.0f) / distance) * to_second, F(0.0f), load_int<F>(p.first.surface + from)};
+  const Ray<F> ray{start, (F(1.0f) / distance) * to_second, F(0.0f), load<F>(p.first.surface + from)};
   // At each end a cosine on a surface; in a medium 1/4 at the start and 1 at the end.
   F leaves = load<F>(p.first.even + from) + dot(load_vector<F>(p.first.facing, from), ray.direction);
   F arrives = load<F>(p.second.even + to) - dot(load_vector<F>(p.second.facing, to), ray.direction);
@@ -228,7 +228,7 @@ TYNDALL_INLINE F link_pdf(const auto& s, const ReusedPaths& p, int from, int to,
     if (!any(lanes)) return F(0.0f);
     const auto queries = static_cast<std::uint32_t>(__builtin_popcount(bits(lanes)));
     counts.rays += queries, counts.shadow_rays += queries;
-    lanes = mask_and_not(lanes, blocked_towards(s, ray, distance, load_int<F>(p.second.surface + to), -1, lanes));
+    lanes = mask_and_not(lanes, blocked_towards(s, ray, distance, load<F>(p.second.surface + to), -1, lanes));
   }
   F pdf = leaves * arrives / square;
   if (s.has_media()) pdf = pdf * pass_media(s, ray, distance, lanes);

@@ -1,6 +1,5 @@
 #include "core/scene/load.h"
 
-#include "core/base/checksum.h"
 #include "core/base/fnv1a.h"
 #include "core/base/text.h"
 #include "core/image/image_io.h"

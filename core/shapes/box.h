@@ -40,7 +40,6 @@ struct BoxSlabs {
 };
 
 /// The intersection of three slabs. T. Kay, J. Kajiya, Ray Tracing Complex Scenes, SIGGRAPH 1986.
-/// box: an Affine, or AffineLanes with a box for each lane.
 template <class F>
 TYNDALL_INLINE BoxSlabs<F> box_slabs(const auto& box, Vec3<F> origin, Vec3<F> direction) {
   const Vec3<F> slope{safe_reciprocal(affine_direction(box, 0, direction)),

@@ -28,38 +28,23 @@ constexpr auto fields(const Quad<F>*) {
 
 /// Three affine functions of a point: each row gives row·p + offset. For a quad, rows 0 and 1 run from -1 to 1 across
 /// it and row 2 is the distance from its plane; for a box all three run from -1 to 1.
-struct Affine {
-  Vec3f row[3];
-  float offset[3] = {0, 0, 0};
-};
-inline constexpr int affine_numbers = 12;
-
-template <class F>
-TYNDALL_INLINE F affine_point(const Affine& a, int row, Vec3<F> p) {
-  const Vec3f r = a.row[row];
-  return mul_add(splat<F>(r.x), p.x, mul_add(splat<F>(r.y), p.y, mul_add(splat<F>(r.z), p.z, splat<F>(a.offset[row]))));
-}
-template <class F>
-TYNDALL_INLINE F affine_direction(const Affine& a, int row, Vec3<F> d) {
-  const Vec3f r = a.row[row];
-  return mul_add(splat<F>(r.x), d.x, mul_add(splat<F>(r.y), d.y, splat<F>(r.z) * d.z));
-}
-
-/// Three affine functions for each lane.
 template <class F>
 struct AffineLanes {
   Vec3<F> row[3];
   F offset[3];
 };
-template <class F>
-TYNDALL_INLINE F affine_point(const AffineLanes<F>& a, int row, Vec3<F> p) {
-  const Vec3<F> r = a.row[row];
-  return mul_add(r.x, p.x, mul_add(r.y, p.y, mul_add(r.z, p.z, a.offset[row])));
+using Affine = AffineLanes<float>;  ///< the same ones for all lanes
+inline constexpr int affine_numbers = 12;
+
+template <class A, class F>
+TYNDALL_INLINE F affine_point(const AffineLanes<A>& a, int row, Vec3<F> p) {
+  const Vec3<A> r = a.row[row];
+  return mul_add(F(r.x), p.x, mul_add(F(r.y), p.y, mul_add(F(r.z), p.z, F(a.offset[row]))));
 }
-template <class F>
-TYNDALL_INLINE F affine_direction(const AffineLanes<F>& a, int row, Vec3<F> d) {
-  const Vec3<F> r = a.row[row];
-  return mul_add(r.x, d.x, mul_add(r.y, d.y, r.z * d.z));
+template <class A, class F>
+TYNDALL_INLINE F affine_direction(const AffineLanes<A>& a, int row, Vec3<F> d) {
+  const Vec3<A> r = a.row[row];
+  return mul_add(F(r.x), d.x, mul_add(F(r.y), d.y, F(r.z) * d.z));
 }
 
 template <class F>

@@ -30,8 +30,8 @@ TYNDALL_INLINE SpecularSphere<F> load_sphere(const SpecularPairs& c, IntOf<F> sp
   b.mirror = equal(index, F(0.0f));
   b.index = select(b.mirror, F(1.0f), index), b.inner_index = value(c.inner_index);
   b.hollow = less(F(0.0f), b.inner_radius);
-  b.outer = lookup_int<F>(c.outer, c.spheres(), sphere), b.inner = lookup_int<F>(c.inner, c.spheres(), sphere);
-  b.overlapped = equal(lookup_int<F>(c.overlapped, c.spheres(), sphere), IntOf<F>(1));
+  b.outer = lookup<F>(c.outer, c.spheres(), sphere), b.inner = lookup<F>(c.inner, c.spheres(), sphere);
+  b.overlapped = equal(lookup<F>(c.overlapped, c.spheres(), sphere), IntOf<F>(1));
   return b;
 }
 

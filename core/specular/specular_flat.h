@@ -33,7 +33,7 @@ TYNDALL_INLINE SpecularFlat<F> load_flat(const SpecularPairs& c, IntOf<F> flat) 
   for (int k = 0; k < 3; ++k)
     p.row[k] = its(&Record::row, k), p.offset[k] = its(&Record::offset, k), p.half[k] = its(&Record::size, k);
   p.index = its(&Record::index), p.medium_density = its(&Record::medium_density), p.closed = its(&Record::closed);
-  p.element = lookup_int<F>(c.outer, c.spheres(), flat + IntOf<F>(c.first_mirror));
+  p.element = lookup<F>(c.outer, c.spheres(), flat + IntOf<F>(c.first_mirror));
   return p;
 }
 

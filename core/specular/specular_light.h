@@ -1,5 +1,5 @@
 #pragma once
-#include "core/base/reservoir.h"
+#include "core/base/sampling.h"
 #include "core/specular/request.h"
 #include "core/specular/specular_trail.h"
 #include "core/specular/sun_window.h"
@@ -48,11 +48,11 @@ TYNDALL_INLINE SpecularQuery<F> specular_query(const auto& s, const SpecularRequ
   SpecularQuery<F> a{};
   const LightChoice<F> pair = choose_light(c, q.point, q.sampler.independent_1d(dimension::specular_pair));
   a.probability = connect_probability(s, q.point) * pair.probability;
-  const IntOf<F> sphere = lookup_int<F>(c.sphere, c.pairs(), pair.light);
+  const IntOf<F> sphere = lookup<F>(c.sphere, c.pairs(), pair.light);
   const IntOf<F> flat = sphere - IntOf<F>(c.first_mirror);
   const auto is_flat = less_equal(IntOf<F>(0), flat);
   a.sphere = load_sphere<F>(c, sphere, q.time);
-  a.light = lookup_int<F>(c.light, c.pairs(), pair.light);
+  a.light = lookup<F>(c.light, c.pairs(), pair.light);
   a.light_columns = load_light_or_sun<F>(s, a.light, a.sphere);
   a.by_slab = less_equal(IntOf<F>(c.first_slab), sphere);
   a.by_mirror = mask_and_not(is_flat, a.by_slab);
@@ -267,7 +267,7 @@ template <class F>
   auto arrives = less(F(0.0f), weight);
   if (!any(arrives)) return zero3<F>();
   const IntOf<F> light_element =
-      s.has_sun_paths() ? element_of_light<F>(s, a.light) : lookup_int<F>(s.lights.element, s.lights.count(), a.light);
+      s.has_sun_paths() ? element_of_light<F>(s, a.light) : lookup<F>(s.lights.element, s.lights.count(), a.light);
   const Ray<F> near{q.point, found.direction, q.time, q.from};
   const Ray<F> far{point_at(taken.light_point, -found.far_distance, found.arrive), found.arrive, q.time, found.from};
   for (int leg = 0; leg < 2; ++leg) {

@@ -75,7 +75,7 @@ TYNDALL_INLINE void extend_trail(const SceneView& s, SpecularTrail<F>& trail, co
   const auto goes_on = mask_and(at_surface, trail.met.goes_on());
   if (!any(goes_on)) return;
   const I code =
-      lookup_int<F>(s.specular.sphere_of, s.elements.count(), element);  // 2 · object, + 1 for an inner sphere; or -1
+      lookup<F>(s.specular.sphere_of, s.elements.count(), element);  // 2 · object, + 1 for an inner sphere; or -1
   const auto known = mask_and(goes_on, less_equal(I(0), code));
   const I safe = select(known, code, I(0)), object = as_int(shift_right<1>(as_uint(safe)));
   const Vec3<F> center = load_sphere<F>(s.specular, object, ray.time).center;
@@ -84,7 +84,7 @@ TYNDALL_INLINE void extend_trail(const SceneView& s, SpecularTrail<F>& trail, co
   I added = select(inner, select(reflected, I(0x110), I(0x10)), I(1));
   if (s.specular.has_slabs()) {
     const auto by_slab = less_equal(I(s.specular.first_slab), object);
-    const I face = element - lookup_int<F>(s.specular.outer, s.specular.spheres(), object);
+    const I face = element - lookup<F>(s.specular.outer, s.specular.spheres(), object);
     const I edge = as_int(shift_right<1>(as_uint(face)));
     const I one = select(equal(edge, I(0)), I(1), select(equal(edge, I(1)), I(0x10), I(0x100)));
     first = select(by_slab, edge, first), added = select(by_slab, one, added);
@@ -209,7 +209,7 @@ template <class F>
   const SpecularPairs& c = s.specular;
   const I sphere = select(could, trail.met.object(), I(0));
   const I safe_light = select(could, light, I(0));
-  const I pair = gather_int<F>(c.pair_of, sphere * I(s.lights.count()) + safe_light);
+  const I pair = gather<F>(c.pair_of, sphere * I(s.lights.count()) + safe_light);
   could = mask_and(could, less_equal(I(0), pair));
   if (!any(could)) return F(1.0f);
   const LightColumns<F> columns = load_light<F>(s.lights, safe_light);
@@ -238,7 +238,7 @@ template <class F>
   auto could = mask_and(escaped, trail.met.has_object());
   if (!any(could)) return F(1.0f);
   const I sphere = select(could, trail.met.object(), I(0));
-  const I pair = lookup_int<F>(c.sun_pair_of, c.spheres(), sphere);
+  const I pair = lookup<F>(c.sun_pair_of, c.spheres(), sphere);
   could = mask_and(could, less_equal(I(0), pair));
   if (!any(could)) return F(1.0f);
   const LightColumns<F> window = sun_window(s.sky, load_sphere<F>(c, sphere, ray.time));

@@ -1,10 +1,11 @@
 #include "core/system/child.h"
 
+#include "core/system/open_file.h"
+
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <fcntl.h>
-#include <poll.h>
 #include <unistd.h>
 #ifdef __linux__
 #include <sys/prctl.h>
@@ -26,26 +27,6 @@ namespace tyndall {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// Both ends of a pipe, closed at the end.
-struct Pipe {
-  int read = -1, write = -1, error = 0;
-  Pipe() {
-    int ends[2];
-    if (pipe(ends) != 0) {
-      error = errno;
-      return;
-    }
-    read = ends[0], write = ends[1];
-    for (const int end : ends) fcntl(end, F_SETFD, FD_CLOEXEC);
-  }
-  ~Pipe() { close_end(read), close_end(write); }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
-  static void close_end(int& end) {
-    if (end >= 0) close(std::exchange(end, -1));
-  }
-};
 
 /// What the new process needs, made before it begins: there only functions that are safe in handlers may be called.
 struct ProcessStart {
@@ -188,20 +169,20 @@ bool awaits_input(pid_t process) {
 }
 
 /// The next number that report() tells; false: none will come, as the program has begun, or cannot begin.
-bool next_number(int from, int& number) {
-  ssize_t size = -1;
-  do size = read(from, &number, sizeof number);
-  while (size < 0 && errno == EINTR);
-  return size == sizeof number;
+bool next_number(const OpenFile& from, int& number) {
+  std::size_t size = 0;
+  return from.read(&number, sizeof number, size) == 0 && size == sizeof number;
 }
 
 /// Appends what the pipe has; closes it at its end.
-void drain(int& from, std::string& text, std::size_t limit, bool keep_last) {
+void drain(OpenFile& from, std::string& text, std::size_t limit, bool keep_last) {
   char buffer[65536];
-  const ssize_t size = read(from, buffer, sizeof buffer);
-  if (size < 0 && (errno == EINTR || errno == EAGAIN)) return;
-  if (size <= 0) return Pipe::close_end(from);
-  text.append(buffer, static_cast<std::size_t>(size));
+  std::size_t size = 0;
+  if (from.read(buffer, sizeof buffer, size) != 0 || size == 0) {
+    from.close();
+    return;
+  }
+  text.append(buffer, size);
   if (text.size() <= limit) return;
   if (keep_last)
     text.erase(0, text.size() - limit);
@@ -211,7 +192,7 @@ void drain(int& from, std::string& text, std::size_t limit, bool keep_last) {
 
 class Child {
  public:
-  Child(const ChildPlan& plan, pid_t supervisor, pid_t program, Pipe& errors)
+  Child(const ChildPlan& plan, pid_t supervisor, pid_t program, OpenFile& errors)
       : plan_(plan), supervisor_(supervisor), program_(program), errors_(errors) {}
 
   /// Until it has ended, or is to be ended.
@@ -234,7 +215,7 @@ class Child {
     while (!ended_ && waitpid(supervisor_, &status, 0) < 0 && errno == EINTR) {
     }
     const Clock::time_point deadline = Clock::now() + std::chrono::milliseconds(500);
-    while (errors_.read >= 0 && Clock::now() < deadline) take(end, 50);
+    while (errors_ && Clock::now() < deadline) take(end, 50);
   }
 
  private:
@@ -247,14 +228,13 @@ class Child {
     return true;
   }
   void take(ChildEnd& end, int milliseconds) {
-    pollfd polled{errors_.read, POLLIN, 0};
-    if (poll(&polled, 1, errors_.read < 0 ? 1 : milliseconds) > 0)
-      drain(errors_.read, end.errors, plan_.max_errors, plan_.keep_last_errors);
+    if (has_bytes(errors_.descriptor(), errors_ ? milliseconds : 1))
+      drain(errors_, end.errors, plan_.max_errors, plan_.keep_last_errors);
   }
 
   const ChildPlan& plan_;
   pid_t supervisor_, program_;
-  Pipe& errors_;
+  OpenFile& errors_;
   bool ended_ = false;
 };
 
@@ -264,12 +244,11 @@ bool runs_children() { return true; }
 
 ChildEnd run_child(const ChildPlan& plan) {
   ChildEnd end;
-  Pipe input, errors, reports;
-  for (const Pipe* pipe : {&input, &errors, &reports})
-    if (pipe->read < 0) {
-      end.start_error = pipe->error;
-      return end;
-    }
+  auto [input, no_input] = OpenFile::pipe();
+  auto [errors, to_errors] = OpenFile::pipe();
+  auto [reports, to_reports] = OpenFile::pipe();
+  for (const OpenFile* file : {&input, &errors, &reports}) end.start_error = std::max(end.start_error, file->error());
+  if (end.start_error != 0) return end;
   std::vector<std::string> command = plan.command, additions = plan.environment;
   if (plan.channel >= 0) additions.push_back(plan.channel_variable + "=" + std::to_string(plan.channel));
   ProcessStart start{with(additions),
@@ -277,10 +256,10 @@ ChildEnd run_child(const ChildPlan& plan) {
                      {},
                      plan.folder.string(),
                      Guard(plan.guard, plan.own_folder.string()),
-                     input.read,
-                     errors.write,
+                     input.descriptor(),
+                     to_errors.descriptor(),
                      plan.channel,
-                     reports.write,
+                     to_reports.descriptor(),
                      plan.max_memory,
                      plan.max_file};
   start.variables = pointers(start.environment);
@@ -290,9 +269,9 @@ ChildEnd run_child(const ChildPlan& plan) {
     end.start_error = errno;
     return end;
   }
-  Pipe::close_end(errors.write), Pipe::close_end(reports.write);
+  to_errors.close(), to_reports.close();
   pid_t program = 0;
-  for (int number = 0; next_number(reports.read, number);) (number > 0 ? program : end.start_error) = std::abs(number);
+  for (int number = 0; next_number(reports, number);) (number > 0 ? program : end.start_error) = std::abs(number);
   Child child(plan, supervisor, program, errors);
   if (end.start_error == 0) child.follow(end);
   child.finish(end);

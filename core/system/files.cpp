@@ -123,8 +123,6 @@ fs::path folder_of_user(const std::string& below_home) {
   return home.empty() ? home : home / below_home;
 }
 
-std::uint64_t process_number() { return static_cast<std::uint64_t>(getpid()); }
-
 FileOwner owner_of(const fs::path& file) {
   struct stat status {};
   if (stat(file.c_str(), &status) != 0) return {};

@@ -40,8 +40,6 @@ std::filesystem::path own_file();
 std::filesystem::path home_folder();
 /// Where programs keep what is one user's: such as ".config" in the home folder, %APPDATA% on Windows; empty: nowhere.
 std::filesystem::path folder_of_user(const std::string& below_home);
-/// A number that no other process of this machine has at the same time.
-std::uint64_t process_number();
 
 struct FileOwner {
   unsigned user = 0, group = 0;

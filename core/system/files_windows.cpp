@@ -157,8 +157,6 @@ fs::path own_file() {
 fs::path home_folder() { return path_in(L"USERPROFILE"); }
 fs::path folder_of_user(const std::string&) { return path_in(L"APPDATA"); }
 
-std::uint64_t process_number() { return GetCurrentProcessId(); }
-
 FileOwner owner_of(const fs::path&) { return {}; }
 bool is_open_file(const fs::path&) { return false; }
 

@@ -1,7 +1,5 @@
 #include "core/system/guard.h"
 
-#include <unistd.h>
-
 #include <utility>
 
 #ifdef __linux__
@@ -17,6 +15,7 @@
 #include <sys/wait.h>
 #include <fcntl.h>
 #include <sched.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
@@ -32,11 +31,6 @@ namespace tyndall {
 std::string guard_text(const GuardLayers& layers) {
   if (layers.namespaces) return layers.landlock > 0 ? "namespaces and Landlock" : "namespaces";
   return layers.landlock > 0 ? "Landlock" : "none";
-}
-
-Guard::Guard(const GuardLayers& layers, std::string folder) : layers_(layers), folder_(std::move(folder)) {
-  const std::string user = std::to_string(geteuid()), group = std::to_string(getegid());
-  user_map_ = user + " " + user + " 1\n", group_map_ = group + " " + group + " 1\n";
 }
 
 #ifdef __linux__
@@ -264,6 +258,11 @@ const GuardLayers& available_guard() {
   return layers;
 }
 
+Guard::Guard(const GuardLayers& layers, std::string folder) : layers_(layers), folder_(std::move(folder)) {
+  const std::string user = std::to_string(geteuid()), group = std::to_string(getegid());
+  user_map_ = user + " " + user + " 1\n", group_map_ = group + " " + group + " 1\n";
+}
+
 int Guard::enter_namespaces(int& life) const {
   if (!layers_.namespaces) return 0;
   int ends[2];
@@ -297,8 +296,8 @@ const GuardLayers& available_guard() {
   return none;
 }
 
+Guard::Guard(const GuardLayers& layers, std::string) : layers_(layers) {}
 int Guard::enter_namespaces(int&) const { return 0; }
-
 int Guard::restrict_self() const { return 0; }
 
 #endif

@@ -15,25 +15,17 @@ namespace tyndall {
 namespace {
 
 int flags_of(OpenFor purpose) {
-  switch (purpose) {
-    case OpenFor::reading:
-      return O_RDONLY;
-    case OpenFor::writing:
-      return O_WRONLY | O_NOCTTY;
-    case OpenFor::appending:
-      return O_WRONLY | O_APPEND | O_NOCTTY;
-    case OpenFor::adding:
-      return O_WRONLY | O_APPEND | O_CREAT;
-    case OpenFor::changing:
-      return O_RDWR | O_CREAT;
-    case OpenFor::creating:
-      return O_RDWR | O_CREAT | O_EXCL;
-    case OpenFor::looking:
-      return O_RDWR | O_NOFOLLOW | O_NONBLOCK;
-    case OpenFor::folder:
-      return O_RDONLY | O_DIRECTORY;
-  }
-  return O_RDONLY;
+  constexpr int flags[] = {
+      O_RDONLY,                          // reading
+      O_WRONLY | O_NOCTTY,               // writing
+      O_WRONLY | O_APPEND | O_NOCTTY,    // appending
+      O_WRONLY | O_APPEND | O_CREAT,     // adding
+      O_RDWR | O_CREAT,                  // changing
+      O_RDWR | O_CREAT | O_EXCL,         // creating
+      O_RDWR | O_NOFOLLOW | O_NONBLOCK,  // looking
+      O_RDONLY | O_DIRECTORY,            // folder
+  };
+  return flags[static_cast<int>(purpose)];
 }
 
 int result(long value) { return value < 0 ? errno : 0; }
@@ -65,6 +57,17 @@ OpenFile OpenFile::unnamed() {
   if (!file) file.error_ = errno;
   if (stream) std::fclose(stream);
   return file;
+}
+
+std::pair<OpenFile, OpenFile> OpenFile::pipe() {
+  std::pair<OpenFile, OpenFile> made;
+  int ends[2];
+  if (::pipe(ends) != 0) {
+    made.first.error_ = made.second.error_ = errno;
+    return made;
+  }
+  for (const int end : ends) fcntl(end, F_SETFD, FD_CLOEXEC);
+  return {OpenFile(ends[0]), OpenFile(ends[1])};
 }
 
 int OpenFile::close() { return descriptor_ > STDERR_FILENO ? result(::close(std::exchange(descriptor_, -1))) : 0; }
@@ -142,13 +145,6 @@ int OpenFile::set_owner(unsigned mode, unsigned user, unsigned group) const {
   if (!same_user || !same_group) mode &= 0777u;  // nobody becomes what the old owner was by running the file
   if ((now.st_mode & 07777u) == mode || fchmod(descriptor_, mode) == 0) return 0;
   return errno == EPERM || errno == ENOTSUP ? 0 : errno;  // these two: the file system has no modes
-}
-
-Bell::Bell() {
-  int ends[2];
-  if (pipe(ends) != 0) return;
-  for (const int end : ends) fcntl(end, F_SETFD, FD_CLOEXEC);
-  heard_ = OpenFile(ends[0]), rung_ = OpenFile(ends[1]);
 }
 
 void Bell::ring() const {

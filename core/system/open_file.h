@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace tyndall {
@@ -45,6 +46,8 @@ class OpenFile {
   /// Standard output under a number of its own, and a temporary file without a name.
   static OpenFile copy_of_standard_output();
   static OpenFile unnamed();
+  /// The ends of a pipe, to read from and to write to.
+  static std::pair<OpenFile, OpenFile> pipe();
 
   explicit operator bool() const { return descriptor_ >= 0; }
   int descriptor() const { return descriptor_; }
@@ -79,7 +82,7 @@ class OpenFile {
 class Bell {
  public:
   /// ready(): whether the system had what it takes.
-  Bell();
+  Bell() { std::tie(heard_, rung_) = OpenFile::pipe(); }
   bool ready() const { return static_cast<bool>(heard_); }
   void ring() const;
   /// Until it rings.

@@ -110,6 +110,12 @@ OpenFile OpenFile::unnamed() {
   return file;
 }
 
+std::pair<OpenFile, OpenFile> OpenFile::pipe() {
+  int ends[2];
+  if (_pipe(ends, 64, _O_BINARY | _O_NOINHERIT) != 0) return {};
+  return {OpenFile(ends[0]), OpenFile(ends[1])};
+}
+
 int OpenFile::close() { return descriptor_ > 2 ? result(_close(std::exchange(descriptor_, -1))) : 0; }
 
 int read_some(int file, void* to, std::size_t size, std::size_t& got) {
@@ -171,12 +177,6 @@ bool OpenFile::has_name() const {
 
 /// A file gets what its folder says; it has no mode.
 int OpenFile::set_owner(unsigned, unsigned, unsigned) const { return 0; }
-
-Bell::Bell() {
-  int ends[2];
-  if (_pipe(ends, 64, _O_BINARY | _O_NOINHERIT) != 0) return;
-  heard_ = OpenFile(ends[0]), rung_ = OpenFile(ends[1]);
-}
 
 void Bell::ring() const {
   constexpr char byte = 0;

@@ -102,10 +102,6 @@ bool has_display() {
 #ifdef __APPLE__
   return true;
 #else
-  const auto is_set = [](const char* variable) {
-    const char* value = std::getenv(variable);
-    return value && *value;
-  };
   return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
 #endif
 }

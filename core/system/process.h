@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -18,6 +19,12 @@ void begin_process();
 
 /// What main() got, without the program's name, in UTF-8.
 std::vector<std::string> program_arguments(int argc, char** argv);
+
+/// Whether a variable of the environment is there and not empty, such as NO_COLOR and DISPLAY.
+inline bool is_set(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value && *value;
+}
 
 bool is_terminal(int descriptor);
 /// Whether standard error is a terminal that has colours and can draw a line again.

@@ -51,21 +51,16 @@ void ask_for_save(int) { save_request = true; }
 using Handler = void (*)(int);
 struct Watched {
   int number;
-  Handler end, window, render;  ///< null: the signal is left alone
+  Handler handlers[3];  ///< of WatchedSignals end, window and render; null: the signal is left alone
 };
-const Watched watched[] = {{SIGINT, ask_for_end, ask_for_end_or_end, ask_for_end_or_end},
-                           {SIGTERM, ask_for_end, ask_for_end_or_end, ask_for_end_or_end},
-                           {SIGHUP, ask_for_end, ask_for_end_or_end, ask_for_end},
-                           {SIGXCPU, nullptr, nullptr, ask_for_end},
-                           {SIGUSR2, nullptr, nullptr, ask_for_end},
-                           {SIGALRM, nullptr, nullptr, ask_for_end},
-                           {SIGUSR1, nullptr, nullptr, ask_for_save},
-                           {SIGPIPE, nullptr, nullptr, SIG_IGN}};
-
-Handler handler_of(const Watched& one, WatchedSignals signals) {
-  if (signals == WatchedSignals::render) return one.render;
-  return signals == WatchedSignals::window ? one.window : one.end;
-}
+const Watched watched[] = {{SIGINT, {ask_for_end, ask_for_end_or_end, ask_for_end_or_end}},
+                           {SIGTERM, {ask_for_end, ask_for_end_or_end, ask_for_end_or_end}},
+                           {SIGHUP, {ask_for_end, ask_for_end_or_end, ask_for_end}},
+                           {SIGXCPU, {nullptr, nullptr, ask_for_end}},
+                           {SIGUSR2, {nullptr, nullptr, ask_for_end}},
+                           {SIGALRM, {nullptr, nullptr, ask_for_end}},
+                           {SIGUSR1, {nullptr, nullptr, ask_for_save}},
+                           {SIGPIPE, {nullptr, nullptr, SIG_IGN}}};
 
 }  // namespace
 
@@ -87,7 +82,7 @@ SignalWatch::SignalWatch(WatchedSignals signals, std::function<void()> on_end)
   }
   for (std::size_t k = 0; k < std::size(watched); ++k) {
     struct sigaction action {};
-    action.sa_handler = handler_of(watched[k], signals_);
+    action.sa_handler = watched[k].handlers[static_cast<int>(signals_) - static_cast<int>(WatchedSignals::end)];
     action.sa_flags = SA_RESTART;
     sigaction(watched[k].number, nullptr, &before_->actions[k]);
     const bool stays = before_->actions[k].sa_handler == SIG_IGN && watched[k].number != SIGINT;

@@ -24,7 +24,7 @@ TYNDALL_INLINE void trace_rays(const SceneView& s, const TraceRay* rays, TraceHi
     const Ray<F> ray{{load<F>(column[0]), load<F>(column[1]), load<F>(column[2])},
                      {load<F>(column[3]), load<F>(column[4]), load<F>(column[5])},
                      load<F>(column[6]),
-                     load_int<F>(from)};
+                     load<F>(from)};
     const auto mask = mask_from_bits<F>(active);
     const Hit<F> hit = brute_force ? closest_of_all(s, ray, mask) : call_closest(s, ray, mask);
     store(column[0], hit.t);

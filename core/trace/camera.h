@@ -148,9 +148,9 @@ template <class F>
   constexpr int lanes = lanes_of<F>;
   CameraSamples<lanes> next;
   samples.take(next);
-  const IntOf<F> column = load_int<F>(next.x), row = load_int<F>(next.y);
+  const IntOf<F> column = load<F>(next.x), row = load<F>(next.y);
   const F x = from_int<F>(column), y = from_int<F>(row);
-  const Sampler<F> sampler = Sampler<F>::of(s.seed, as_uint(column), as_uint(row), load_uint<F>(next.index), s.sampler);
+  const Sampler<F> sampler = Sampler<F>::of(s.seed, as_uint(column), as_uint(row), load<F>(next.index), s.sampler);
   NewSamples<F> taken;
   Pair<F> in_pixel = sampler.next_2d(dimension::pixel);
   taken.subpixel_lights = {F(1.0f), {IntOf<F>(0)}};
@@ -159,7 +159,7 @@ template <class F>
     taken.subpixel_lights = aim_at_subpixel_lights(subpixel_lights, x, y, in_pixel);
   taken.ray = ray_through(s, x + in_pixel.x, y + in_pixel.y, sampler);
   taken.low = sampler.low, taken.high = sampler.high;
-  taken.slot = load_int<F>(next.slot), taken.count = next.count;
+  taken.slot = load<F>(next.slot), taken.count = next.count;
   return taken;
 }
 

@@ -41,7 +41,7 @@ TYNDALL_INLINE void load_lanes(const auto& s, const LanePool<F, numbers, integer
                                auto& thing) {
   each_part(
       s, thing, [&](int row, F& x) __attribute__((always_inline)) { x = load<F>(pool.number[row] + first); },
-      [&](int row, IntOf<F>& x) __attribute__((always_inline)) { x = load_int<F>(pool.integer[row] + first); });
+      [&](int row, IntOf<F>& x) __attribute__((always_inline)) { x = load<F>(pool.integer[row] + first); });
 }
 
 }  // namespace tyndall

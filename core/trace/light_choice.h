@@ -27,7 +27,7 @@ TYNDALL_INLINE Vec3<F> light_value(const Lights& l, const VectorColumn& column, 
 
 template <class F>
 TYNDALL_INLINE LightColumns<F> load_light(const Lights& l, IntOf<F> k) {
-  return {l.count() == 1 ? IntOf<F>(l.kind[0]) : lookup_int<F>(l.kind, l.count(), k),
+  return {l.count() == 1 ? IntOf<F>(l.kind[0]) : lookup<F>(l.kind, l.count(), k),
           light_value<F>(l, l.corner, k),
           light_value<F>(l, l.edge_u, k),
           light_value<F>(l, l.edge_v, k),
@@ -94,7 +94,7 @@ TYNDALL_INLINE LightChoice<F> choose_in_tree(const LightTree& t, Vec3<F> point, 
   I node = I(0);
   F probability = F(1.0f);
   for (;;) {
-    const I child = gather_int<F>(t.child, node);
+    const I child = gather<F>(t.child, node);
     const auto inner = less_equal(I(0), child);
     if (!any(inner)) return {I(-1) - child, probability};
     const I pair = select(inner, child, I(0));
@@ -112,7 +112,7 @@ TYNDALL_INLINE LightChoice<F> choose_in_tree(const LightTree& t, Vec3<F> point, 
 template <class F>
 TYNDALL_INLINE F probability_in_tree(const LightTree& t, Vec3<F> point, IntOf<F> light) {
   using I = IntOf<F>;
-  I node = gather_int<F>(t.leaf, light);
+  I node = gather<F>(t.leaf, light);
   F probability = F(1.0f);
   for (;;) {
     const auto below = less(I(0), node);
@@ -120,7 +120,7 @@ TYNDALL_INLINE F probability_in_tree(const LightTree& t, Vec3<F> point, IntOf<F>
     const I side = node & I(1), pair = select(below, node - side, I(0));
     const Pair<F> probabilities = probabilities_of_pair(t, pair, point);
     probability = select(below, probability * select(equal(side, I(0)), probabilities.x, probabilities.y), probability);
-    node = select(below, gather_int<F>(t.parent, node), I(0));
+    node = select(below, gather<F>(t.parent, node), I(0));
   }
 }
 

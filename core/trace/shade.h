@@ -38,7 +38,7 @@ TYNDALL_INLINE SurfacePoint<F> surface_at(const SceneView& s, const Ray<F>& ray,
   SurfacePoint<F> p;
   p.element = select(less(element, IntOf<F>(0)), IntOf<F>(0), element);
   p.point = point_at(ray.origin, safe_t, ray.direction);
-  p.material = lookup_int<F>(s.elements.material, s.elements.count(), p.element);
+  p.material = lookup<F>(s.elements.material, s.elements.count(), p.element);
   Vec3<F> column = lookup<F>(s.elements.center_or_normal, s.elements.count(), p.element);
   p.normal = column;
   p.inverted = less(F(1.0f), F(0.0f));
@@ -64,7 +64,7 @@ TYNDALL_INLINE TextureUv<F> surface_uv(const auto& s, const SurfacePoint<F>& p) 
   F u = mul_add(column[0], p.point.x, mul_add(column[1], p.point.y, mul_add(column[2], p.point.z, column[3])));
   F v = mul_add(column[4], p.point.x, mul_add(column[5], p.point.y, mul_add(column[6], p.point.z, column[7])));
   if (s.has_outlined() && s.features.disks) {
-    const auto disk = equal(lookup_int<F>(s.elements.disk, s.elements.count(), p.element), IntOf<F>(1));
+    const auto disk = equal(lookup<F>(s.elements.disk, s.elements.count(), p.element), IntOf<F>(1));
     const Pair<F> on_disk = disk_uv(u, v);
     u = select(disk, on_disk.x, u), v = select(disk, on_disk.y, v);
   }
@@ -133,7 +133,7 @@ template <class F>
 TYNDALL_INLINE Vec3<F> surface_colour(const auto& s, const SurfacePoint<F>& p, MaskOf<F> lanes) {
   const Vec3<F> colour = lookup<F>(s.materials.colour, s.materials.count(), p.material);
   if (!s.has_textures()) return colour;
-  const IntOf<F> texture = lookup_int<F>(s.materials.texture, s.materials.count(), p.material);
+  const IntOf<F> texture = lookup<F>(s.materials.texture, s.materials.count(), p.material);
   if (!any(mask_and(lanes, less_equal(IntOf<F>(0), texture)))) return colour;
   return textured(s, colour, texture, lanes, texture_point<F>(s, p), &p);
 }
@@ -143,7 +143,7 @@ template <class F>
 TYNDALL_INLINE Vec3<F> light_radiance(const auto& s, IntOf<F> element, Vec3<F> point, MaskOf<F> lanes) {
   SurfacePoint<F> p;
   p.element = element;
-  p.material = lookup_int<F>(s.elements.material, s.elements.count(), element);
+  p.material = lookup<F>(s.elements.material, s.elements.count(), element);
   p.point = point;
   p.inverted = less(F(1.0f), F(0.0f));
   p.normal = zero3<F>();

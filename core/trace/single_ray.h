@@ -126,7 +126,7 @@ struct SingleRay {
       Vec3<R> center = vector(s.center);
       if constexpr (moving) center = point_at(center, ray.time, vector(s.move));
       Hit<R> each = best;
-      test_sphere(center, column(s.radius), load_some_int<R>(s.element + i, count), ray, query, each);
+      test_sphere(center, column(s.radius), load_some<R>(s.element + i, count), ray, query, each);
       take_best(each, (1u << count) - 1u);
     }
   }
@@ -139,7 +139,7 @@ struct SingleRay {
       AffineLanes<R> map;
       for (int k = 0; k < 3; ++k)
         map.row[k] = {column(3 * k), column(3 * k + 1), column(3 * k + 2)}, map.offset[k] = column(9 + k);
-      const I element = load_some_int<R>(b.element + i, count), side = ray.from - I(4) * element;
+      const I element = load_some<R>(b.element + i, count), side = ray.from - I(4) * element;
       const auto here = mask_and(less(I(-1), side), less(side, I(24)));
       Hit<R> each = best;
       test_box(map, element, Start<R>{here, mask_and(here, equal(ray.from & I(3), I(0)))}, ray, query, each);
@@ -226,7 +226,7 @@ TYNDALL_INLINE void test_single_rays(const auto& s, SingleRays<F>& rays, std::in
                                      Hit<F>& best) {
   store(rays.t, best.t), store(rays.element, best.element);
   for (; live; live &= live - 1) test_single_ray<F, Q>(shared_view(s), rays, __builtin_ctz(live), node);
-  best = {load<F>(rays.t), load_int<F>(rays.element)};
+  best = {load<F>(rays.t), load<F>(rays.element)};
 }
 
 }  // namespace tyndall

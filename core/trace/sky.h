@@ -61,7 +61,7 @@ TYNDALL_INLINE SkySample<F> sky_in_cell(const SkyColumns& sky, const SkyCell<F>&
   out.pdf = F(0.0f);
   if (!sky.is_sampled()) return out;
   const auto part = [](const std::int32_t* ends, I at) __attribute__((always_inline)) {
-    return from_int<F>(gather_int<F>(ends, at + I(1)) - gather_int<F>(ends, at)) * F(1.0f / SkyDistribution::draws);
+    return from_int<F>(gather<F>(ends, at + I(1)) - gather<F>(ends, at)) * F(1.0f / SkyDistribution::draws);
   };
   const F probability = part(sky.distribution.row_ends, cell.row) *
                         part(sky.distribution.column_ends, cell.row * I(sky.width + 1) + cell.column);
@@ -105,10 +105,10 @@ TYNDALL_INLINE void choose_cell(const std::int32_t* ends, IntOf<F> base, int cou
   cell = I(0);
   for (; step > 0; step /= 2) {
     const I further = cell + I(step), probe = select(less(further, I(count)), further, I(count));
-    cell = select(less_equal(gather_int<F>(ends, base + probe), k), probe, cell);
+    cell = select(less_equal(gather<F>(ends, base + probe), k), probe, cell);
   }
   cell = select(less(cell, I(count)), cell, I(count - 1));
-  const I begin = gather_int<F>(ends, base + cell), end = gather_int<F>(ends, base + cell + I(1));
+  const I begin = gather<F>(ends, base + cell), end = gather<F>(ends, base + cell + I(1));
   place = (from_int<F>(k - begin) + jitter) / max(from_int<F>(end - begin), F(1.0f));
 }
 
@@ -209,10 +209,10 @@ template <class F>
 TYNDALL_INLINE IntOf<F> element_of_light(const auto& s, IntOf<F> light) {
   using I = IntOf<F>;
   if (!s.samples_sky())
-    return s.lights.count() == 1 ? I(s.lights.element[0]) : lookup_int<F>(s.lights.element, s.lights.count(), light);
+    return s.lights.count() == 1 ? I(s.lights.element[0]) : lookup<F>(s.lights.element, s.lights.count(), light);
   if (s.lights.count() == 0) return I(-1);
   const auto far = is_sky<F>(light);
-  return select(far, I(-1), lookup_int<F>(s.lights.element, s.lights.count(), select(far, I(0), light)));
+  return select(far, I(-1), lookup<F>(s.lights.element, s.lights.count(), select(far, I(0), light)));
 }
 
 }  // namespace tyndall

@@ -122,7 +122,7 @@ TYNDALL_INLINE F found_light_weight(const auto& s, const Paths<F>& p, IntOf<F> e
   const auto could = mask_and(lit, less(F(0.0f), p.pdf));
   if (!s.light_sampling || !any(could)) return F(1.0f);
   if (s.integrator != Integrator::mis) return select(could, F(0.0f), F(1.0f));
-  const IntOf<F> light = lookup_int<F>(s.elements.light, s.elements.count(), element);
+  const IntOf<F> light = lookup<F>(s.elements.light, s.elements.count(), element);
   const IntOf<F> safe = select(less(light, IntOf<F>(0)), IntOf<F>(0), light);
   const F chosen = beside_sky(s, p.ray.origin, light_pdf(s, safe, p.ray.origin, p.ray.time, p.ray.direction, distance));
   const F ratio = p.pdf / max(chosen, F(1e-30f));
@@ -159,7 +159,7 @@ TYNDALL_INLINE Vec3<F> found_background(const auto& s, const Paths<F>& p, MaskOf
 template <class F>
 TYNDALL_INLINE void meet_surfaces(const auto& s, const Ray<F>& ray, const Hit<F>& hit, Event<F>& e) {
   e.at = surface_at(s, ray, hit.t, hit.element);
-  e.kind = lookup_int<F>(s.materials.kind, s.materials.count(), e.at.material);
+  e.kind = lookup<F>(s.materials.kind, s.materials.count(), e.at.material);
   e.colour = surface_colour(s, e.at, e.surface);
 }
 
@@ -171,7 +171,7 @@ TYNDALL_INLINE void add_emission(const auto& s, Paths<F>& p, const Hit<F>& hit, 
   if (any(lit)) {
     F weight = found_light_weight(s, p, e.at.element, hit.t, lit);
     if (s.has_specular_paths()) {
-      const IntOf<F> light = lookup_int<F>(s.elements.light, s.elements.count(), e.at.element);
+      const IntOf<F> light = lookup<F>(s.elements.light, s.elements.count(), e.at.element);
       const F by_chance = mis_weight_of_bsdf_hit(s, p.trail, p.ray, light, e.at.point, lit);
       recorder.on_weight_against_specular_paths(by_chance);
       weight = weight * by_chance;

@@ -66,7 +66,7 @@ TYNDALL_INLINE MaskOf<F> step_guided(const auto& s, GuidedPath<F>& g, MaskOf<F> 
     const F weight = found_light_weight(s, p, e.at.element, hit.t, lit);
     p.radiance = select(lit, p.radiance + weight * (p.throughput * e.colour), p.radiance);
   }
-  const I thing = lookup_int<F>(s.guide.thing_of, s.elements.count(), e.at.element);
+  const I thing = lookup<F>(s.guide.thing_of, s.elements.count(), e.at.element);
   active = mask_and(active, mask_and(less_equal(I(0), thing), equal(g.left.lowest_thing(), thing)));
   if (!any(active)) return active;
   e.surface = active;

@@ -22,8 +22,8 @@ TYNDALL_INLINE NearEvent<F> fly_by_angle(const SceneView& s, const Paths<F>& p, 
   const IntOf<F> pair = to_int(min(p.sampler.next_1d(dimension::near_pair) * count, count - F(1.0f)));
   const Ray<F>& ray = p.ray;
   MediumEvent<F> found = no_event<F>();
-  const IntOf<F> light = lookup_int<F>(s.near.light, s.near.medium.count(), pair),
-                 medium = lookup_int<F>(s.near.medium, s.near.medium.count(), pair);
+  const IntOf<F> light = lookup<F>(s.near.light, s.near.medium.count(), pair),
+                 medium = lookup<F>(s.near.medium, s.near.medium.count(), pair);
   MediumFlight<F> flight{medium, ray.origin, ray.direction, zero, F(1.0f), zero, zero};
   for (int k = 0; k < s.media.count(); ++k) {
     const MediumColumns& m = s.media[k];

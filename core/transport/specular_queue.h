@@ -87,7 +87,7 @@ TYNDALL_INLINE void answer_queue(const auto& s, SpecularQueue<F>& waiting, TileC
   waiting.count -= count;
   if (waiting.count == 0) return;
   for (auto& column : waiting.number) store(column, load<F>(column + lanes));
-  for (auto& column : waiting.integer) store(column, load_int<F>(column + lanes));
+  for (auto& column : waiting.integer) store(column, load<F>(column + lanes));
 }
 
 /// Answers the queues that fill all lanes. rest: those that do not, too.

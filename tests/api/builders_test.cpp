@@ -1,4 +1,4 @@
-#include "core/base/environment.h"
+#include "core/system/process.h"
 #include "tests/api/builders_text.h"
 #include "tests/scene/files.h"
 #include "tests/support/paths.h"
@@ -12,7 +12,7 @@ namespace tyndall::test::builders_test {
 TEST_CASE("builders: the library's structs are what the lists of fields say") {
   const std::filesystem::path file = tests_folder().parent_path() / "core/api/tyndall/builders.h";
   const std::string made = test::builders_text();
-  if (is_on("TYNDALL_WRITE_BUILDERS")) std::ofstream(file, std::ios::binary) << made;
+  if (is_set("TYNDALL_WRITE_BUILDERS")) std::ofstream(file, std::ios::binary) << made;
   CHECK_MESSAGE(test::read_text(file) == made, "tests/api/builders_text.h says how to write it anew");
 }
 

@@ -24,7 +24,7 @@ void check_floats(Differences& d, const Inputs& in, F f) {
 template <class F>
 void check_ints(Differences& d, const Inputs& in, F f) {
   std::int32_t got[width], expected[width];
-  store(got, f(load_int<Wide>(in.i), load_int<Wide>(in.j)));
+  store(got, f(load<Wide>(in.i), load<Wide>(in.j)));
   for (int k = 0; k < width; ++k) expected[k] = f(in.i[k], in.j[k]);
   d.expect(got, expected);
 }
@@ -32,7 +32,7 @@ template <class F>
 void check_masks(Differences& d, const Inputs& in, F f) {
   bool expected[width];
   for (int k = 0; k < width; ++k) expected[k] = f(in.a[k], in.b[k], in.i[k], in.j[k]);
-  d.expect(bits(f(load<Wide>(in.a), load<Wide>(in.b), load_int<Wide>(in.i), load_int<Wide>(in.j))), expected);
+  d.expect(bits(f(load<Wide>(in.a), load<Wide>(in.b), load<Wide>(in.i), load<Wide>(in.j))), expected);
 }
 
 [[maybe_unused]] std::uint32_t bits_of(const bool* m) {
@@ -91,7 +91,7 @@ void check_masks(Differences& d, const Inputs& in, F f) {
       check_ints(d, in, [](auto i, auto j) { return i * j; });
     }
     float got[width], expected[width];
-    store(got, from_int<Wide>(load_int<Wide>(in.i)));
+    store(got, from_int<Wide>(load<Wide>(in.i)));
     for (int k = 0; k < width; ++k) expected[k] = from_int<float>(in.i[k]);
     d.expect(got, expected);
     std::int32_t whole[width], plain[width];
@@ -106,7 +106,7 @@ void check_masks(Differences& d, const Inputs& in, F f) {
     store(got, float_from_bits(float_bits(load<Wide>(in.a))));
     d.expect(got, in.a);
     std::uint32_t words[width];
-    store(words, load_uint<Wide>(reinterpret_cast<const std::uint32_t*>(in.i)));
+    store(words, load<Wide>(reinterpret_cast<const std::uint32_t*>(in.i)));
     for (int k = 0; k < width; ++k) whole[k] = as_int(words[k]);
     d.expect(whole, in.i);
   }
@@ -135,9 +135,9 @@ void check_masks(Differences& d, const Inputs& in, F f) {
     d.expect(got, expected);
     std::int32_t whole[width], plain[width];
     for (int k = 0; k < width; ++k) plain[k] = in.m[k] ? in.i[k] : in.j[k];
-    store(whole, select(m, load_int<Wide>(in.i), load_int<Wide>(in.j)));
+    store(whole, select(m, load<Wide>(in.i), load<Wide>(in.j)));
     d.expect(whole, plain);
-    store(whole, as_int(select(m, as_uint(load_int<Wide>(in.i)), as_uint(load_int<Wide>(in.j)))));
+    store(whole, as_int(select(m, as_uint(load<Wide>(in.i)), as_uint(load<Wide>(in.j)))));
     d.expect(whole, plain);
   }
   constexpr std::uint32_t full = width == 32 ? 0xffffffffu : (1u << width % 32) - 1u;
@@ -159,24 +159,19 @@ void check_append(Differences& d, const Inputs& in, const T* table) {
   for (int k = 0; k < width; ++k)
     if (in.m[k]) expected[count++] = table[k];
   const auto lanes = mask_from_bits<Wide>(bits_of(in.m));
-  if constexpr (std::is_same_v<T, float>)
-    d.count += append(got + before, load<Wide>(table), lanes) != count - before;
-  else
-    d.count += append(got + before, load_int<Wide>(table), lanes) != count - before;
+  d.count += append(got + before, load<Wide>(table), lanes) != count - before;
   for (int k = 0; k < count; ++k) d.count += got[k] != expected[k];
 }
 
 /// Entries of tables of all lengths: what lies beyond is never read.
-void check_lookup(Differences& d, const Inputs& in, const float* table, const std::int32_t* whole_table, int count) {
-  table += 256 - count, whole_table += 256 - count;
-  std::int32_t at[width], whole[width], plain[width];
-  float got[width], expected[width];
-  for (int k = 0; k < width; ++k) at[k] = (in.i[k] & 0xffff) % count;
-  for (int k = 0; k < width; ++k) expected[k] = table[at[k]], plain[k] = whole_table[at[k]];
-  store(got, lookup<Wide>(table, count, load_int<Wide>(at)));
+template <class T>
+void check_lookup(Differences& d, const Inputs& in, const T* table, int count) {
+  table += 256 - count;
+  std::int32_t at[width];
+  T got[width], expected[width];
+  for (int k = 0; k < width; ++k) at[k] = (in.i[k] & 0xffff) % count, expected[k] = table[at[k]];
+  store(got, lookup<Wide>(table, count, load<Wide>(at)));
   d.expect(got, expected);
-  store(whole, lookup_int<Wide>(whole_table, count, load_int<Wide>(at)));
-  d.expect(whole, plain);
 }
 
 [[maybe_unused]] int differences_in_memory(int rounds) {
@@ -189,12 +184,13 @@ void check_lookup(Differences& d, const Inputs& in, const float* table, const st
     std::int32_t at[width], whole[width], plain[width];
     float got[width], expected[width];
     for (int k = 0; k < width; ++k) at[k] = in.i[k] & 255, expected[k] = table[at[k]], plain[k] = whole_table[at[k]];
-    store(got, gather<Wide>(table, load_int<Wide>(at)));
+    store(got, gather<Wide>(table, load<Wide>(at)));
     d.expect(got, expected);
-    store(whole, gather_int<Wide>(whole_table, load_int<Wide>(at)));
+    store(whole, gather<Wide>(whole_table, load<Wide>(at)));
     d.expect(whole, plain);
     check_append(d, in, table), check_append(d, in, whole_table);
-    for (const int count : {1, 7, 16, 31, 32, 33, 48, 64, 65, 256}) check_lookup(d, in, table, whole_table, count);
+    for (const int count : {1, 7, 16, 31, 32, 33, 48, 64, 65, 256})
+      check_lookup(d, in, table, count), check_lookup(d, in, whole_table, count);
     float minimum = expected[0];
     for (const float e : expected) minimum = e < minimum ? e : minimum;
     d.count += min_lane(load<Wide>(expected)) != minimum;

@@ -71,7 +71,7 @@ TEST_CASE("lanes of float: conversions of numbers and bits, and reading from tab
   const float table[] = {1, 2, 4};
   const std::int32_t whole[] = {5, 6, 7};
   CHECK(gather<float>(table, 2) == 4.0f);
-  CHECK(gather_int<float>(whole, 1) == 6);
+  CHECK(gather<float>(whole, 1) == 6);
   CHECK(load<float>(table + 1) == 2.0f);
   CHECK(mul_add(2.0f, 3.0f, 4.0f) == 10.0f);
   CHECK(neg_mul_add(2.0f, 3.0f, 4.0f) == -2.0f);

@@ -67,7 +67,7 @@ TEST_CASE("tone map: a texture has the bytes of a picture, and an alpha of 255")
   }
   for (const ToneMap curve : {ToneMap::srgb, ToneMap::aces, ToneMap::agx})
     for (const bool dither : {false, true}) {
-      const auto picture = dither ? tone_map_dithered(rgb, 1, curve, 13, {}) : tone_map(rgb, 1, curve);
+      const auto picture = tone_map(rgb, 1, curve, 13, dither ? std::optional(DitherOrigin{}) : std::nullopt);
       std::vector<std::uint8_t> texture;
       tone_map_rgba(rgba, 1, curve, 13, dither, texture);
       REQUIRE(texture.size() == rgba.size());
@@ -120,16 +120,16 @@ TEST_CASE("dithering: what 8 bits can show stays exact, everything else is one o
   std::vector<float> rgb;
   for (int step = 0; step < 256; ++step)
     for (int i = 0; i < 3 * 64; ++i) rgb.push_back(srgb_decode(static_cast<float>(step) / 255));
-  const auto bytes = tone_map_dithered(rgb, 0, ToneMap::srgb, 64, {});
+  const auto bytes = tone_map(rgb, 0, ToneMap::srgb, 64, DitherOrigin{});
   for (std::size_t i = 0; i < bytes.size(); ++i) REQUIRE(bytes[i] == i / 192);
-  CHECK(tone_map_dithered({-1, std::nanf(""), 2}, 0, ToneMap::srgb, 1, {}) == std::vector<std::uint8_t>{0, 0, 255});
+  CHECK(tone_map({-1, std::nanf(""), 2}, 0, ToneMap::srgb, 1, DitherOrigin{}) == std::vector<std::uint8_t>{0, 0, 255});
 }
 
 TEST_CASE("dithering: the mean of a flat area is right to 1/128 of a step") {
   for (const float level : {10.3f, 100.02f, 200.5f, 254.9f}) {
     const std::vector<float> rgb(3 * 64, srgb_decode(level / 255));
     double sum = 0;
-    for (const std::uint8_t byte : tone_map_dithered(rgb, 0, ToneMap::srgb, 8, {3, 5})) sum += byte;
+    for (const std::uint8_t byte : tone_map(rgb, 0, ToneMap::srgb, 8, DitherOrigin{3, 5})) sum += byte;
     CHECK(std::abs(sum / 192 - static_cast<double>(level)) <= 1.01 / 128);
   }
 }
@@ -149,10 +149,10 @@ TEST_CASE("dithering: a sky of 512 rows has no bands, and a region is dithered l
     return means.size();
   };
   CHECK(row_means(tone_map(sky, 0, ToneMap::srgb)) < 20);
-  const auto whole = tone_map_dithered(sky, 0, ToneMap::srgb, width, {});
+  const auto whole = tone_map(sky, 0, ToneMap::srgb, width, DitherOrigin{});
   CHECK(row_means(whole) > 55);
   const std::vector<float> part(sky.begin() + 100 * 3 * width, sky.begin() + 120 * 3 * width);
-  const auto region = tone_map_dithered(part, 0, ToneMap::srgb, width, {0, 100});
+  const auto region = tone_map(part, 0, ToneMap::srgb, width, DitherOrigin{0, 100});
   CHECK(std::equal(region.begin(), region.end(), whole.begin() + 100 * 3 * width));
 }
 

@@ -14,9 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void put(WholeFile& file, const std::string& text) {
-  file.write(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
-}
+void put(WholeFile& file, const std::string& text) { file.write(std::as_bytes(std::span(text))); }
 
 void save(const fs::path& file, const std::string& text) {
   WholeFile out(file);

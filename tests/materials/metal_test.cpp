@@ -2,6 +2,7 @@
 
 #include "core/materials/light.h"
 #include "tests/support/event.h"
+#include "tests/support/metal_survival.h"
 #include "tests/support/statistics.h"
 
 #include <doctest/doctest.h>

@@ -2,6 +2,7 @@
 #include "core/materials/metal.h"
 #include "tests/support/directions.h"
 #include "tests/support/event.h"
+#include "tests/support/metal_survival.h"
 
 #include <doctest/doctest.h>
 

@@ -151,7 +151,7 @@ CORE = [
      "p.throughput = select(second, «Vec3<F>{grey, grey, grey} → p.throughput», p.throughput);", "render/sharing"),
     ("rays between vertices cost nothing in the probe", "core/reuse/probe.cpp", "1 + «between → 0.0» / rays_alone / 2", "render/sharing"),
     ("links pass through walls", "core/reuse/reuse_tile.h", "lanes = «mask_and_not(lanes, blocked_towards(s, ray, distance, "
-     "load_int<F>(p.second.surface + to), -1, lanes)) → lanes»;", "render/sharing"),
+     "load<F>(p.second.surface + to), -1, lanes)) → lanes»;", "render/sharing"),
 
     ("coarse passes share paths, too", "core/targets/choose.cpp", "scene.reuses_paths && «job.step > 1 → false») {", "render/sharing targets/kernel_sets"),
     ("branches begin at the vertex before", "core/targets/recorder.h",

@@ -1,4 +1,4 @@
-#include "core/base/environment.h"
+#include "core/system/process.h"
 #include "tests/scene/files.h"
 #include "tests/scene/scene_schema.h"
 #include "tests/support/paths.h"
@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 TEST_CASE("schema: the file for editors is what the lists of fields say") {
   const std::filesystem::path file = assets_folder() / "scene.schema.json";
   const std::string made = test::scene_schema();
-  if (is_on("TYNDALL_WRITE_SCHEMA")) std::ofstream(file, std::ios::binary) << made;
+  if (is_set("TYNDALL_WRITE_SCHEMA")) std::ofstream(file, std::ios::binary) << made;
   CHECK_MESSAGE(test::read_text(file) == made, "tests/scene/scene_schema.h says how to write it anew");
 }
 

@@ -14,7 +14,7 @@ namespace tyndall {
 // What a value means, in words: the grey line beneath a slider. Pure.
 
 /// Fraction of white light, spread over directions as from a bright sky, that a fuzzy metal loses below its surface:
-/// 1 - metal_survival averaged over the cosine, which is fuzz² / 10. In [0, 0.1].
+/// fuzz² / 10, which is what it loses at each cosine of incidence, averaged. In [0, 0.1].
 double fuzz_loss(double fuzz);
 /// Share that Henyey and Greenstein's law sends into the forward half, in [0, 1]; g in (-1, 1).
 double forward_fraction(double g);

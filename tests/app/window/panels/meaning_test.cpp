@@ -1,6 +1,7 @@
 #include "app/window/panels/rows.h"
 
 #include "core/base/math.h"
+#include "tests/support/metal_survival.h"
 
 #include <doctest/doctest.h>
 

@@ -33,7 +33,7 @@ TEST_CASE("a look: what the screen shows is what a PNG would hold") {
     rgb.insert(rgb.end(), {light, 0.5f * light, 0.3f});
   }
   const Look look{.exposure = 0.7, .tone_map = ToneMap::aces, .dither = true};
-  const Bytes screen = shown(rgba, look, 16), png = tone_map_dithered(rgb, 0.7, ToneMap::aces, 16, {});
+  const Bytes screen = shown(rgba, look, 16), png = tone_map(rgb, 0.7, ToneMap::aces, 16, DitherOrigin{});
   for (std::size_t i = 0; i < 64; ++i)
     for (std::size_t c = 0; c < 3; ++c) REQUIRE(screen[4 * i + c] == png[3 * i + c]);
 }
