@@ -35,6 +35,22 @@ std::vector<Object> read_object(const Scene::Data& data, const std::string& text
   return objects;
 }
 
+/// A value as JSON, for a place of the scene of that name.
+std::string json_of(const std::string& name, const std::string& place, double value) {
+  if (!std::isfinite(value)) throw inner::error_of(name, {place, number_text(value), "a finite number"});
+  return number_text(value);
+}
+
+std::string json_of(const std::string& name, const std::string& place, const Vec3& v) {
+  const auto number = [&](double value) { return json_of(name, place, value); };
+  return "[" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + "]";
+}
+
+std::string json_of(const std::string& name, const std::string& place, const std::string& text) {
+  if (!is_utf8(text)) throw inner::error_of(name, {place, in_quotes(printable(text)), "text in UTF-8"});
+  return in_quotes(text);
+}
+
 }  // namespace
 
 const std::shared_ptr<const PreparedScene>& Scene::Data::prepared() const {
@@ -93,22 +109,16 @@ void Scene::set_json(const std::string& pointer, const std::string& json) {
   });
 }
 
-void Scene::set(const std::string& pointer, double value) {
-  if (!std::isfinite(value)) throw inner::error_of(data_->name, {pointer, number_text(value), "a finite number"});
-  set_json(pointer, number_text(value));
-}
+void Scene::set(const std::string& pointer, double value) { set_json(pointer, json_of(data_->name, pointer, value)); }
 
 void Scene::set(const std::string& pointer, const Vec3& value) {
-  for (const double number : {value.x, value.y, value.z})
-    if (!std::isfinite(number)) throw inner::error_of(data_->name, {pointer, number_text(number), "finite numbers"});
-  set_json(pointer, "[" + number_text(value.x) + ", " + number_text(value.y) + ", " + number_text(value.z) + "]");
+  set_json(pointer, json_of(data_->name, pointer, value));
 }
 
 void Scene::set(const std::string& pointer, bool value) { set_json(pointer, value ? "true" : "false"); }
 
 void Scene::set(const std::string& pointer, const std::string& text) {
-  if (!is_utf8(text)) throw inner::error_of(data_->name, {pointer, in_quotes(printable(text)), "text in UTF-8"});
-  set_json(pointer, in_quotes(text));
+  set_json(pointer, json_of(data_->name, pointer, text));
 }
 
 void Scene::remove(const std::string& pointer) {
@@ -180,41 +190,28 @@ namespace detail {
 
 void fail_moved_from() { throw Error("found an object that was moved from, expected one that holds something"); }
 
-Members::Members(const char* type) : text_("{\"type\": " + in_quotes(type)) {}
-
-void Members::put(const char* key, const std::string& json) { text_ += ", " + in_quotes(key) + ": " + json; }
-
-void Members::operator()(const char* key, double value) {
-  if (!std::isfinite(value)) throw inner::error_of("scene", {key, number_text(value), "a finite number"});
-  put(key, number_text(value));
+Members& Members::put(const char* key, const std::string& json) {
+  text_ += (text_.empty() ? "" : ", ") + in_quotes(key) + ": " + json;
+  return *this;
 }
 
-void Members::operator()(const char* key, const Vec3& value) {
-  std::string text;
-  for (const double number : {value.x, value.y, value.z}) {
-    if (!std::isfinite(number)) throw inner::error_of("scene", {key, number_text(number), "finite numbers"});
-    text += (text.empty() ? "[" : ", ") + number_text(number);
-  }
-  put(key, text + "]");
+Members& Members::operator()(const char* key, double value) { return put(key, json_of("scene", key, value)); }
+
+Members& Members::operator()(const char* key, const Vec3& value) { return put(key, json_of("scene", key, value)); }
+
+Members& Members::operator()(const char* key, const Colour& value) {
+  return value.texture.empty() ? (*this)(key, value.rgb) : (*this)(key, value.texture);
 }
 
-void Members::operator()(const char* key, const Colour& value) {
-  if (value.texture.empty())
-    (*this)(key, value.rgb);
-  else
-    (*this)(key, value.texture);
+Members& Members::operator()(const char* key, const std::string& value) {
+  const std::string json = json_of("scene", key, value);
+  return value.empty() ? *this : put(key, json);
 }
 
-void Members::operator()(const char* key, const std::string& value) {
-  if (!is_utf8(value)) throw inner::error_of("scene", {key, in_quotes(printable(value)), "text in UTF-8"});
-  if (!value.empty()) put(key, in_quotes(value));
-}
-
-void Members::operator()(const char* key, const Transform& value) {
+Members& Members::operator()(const char* key, const Transform& value) {
   std::string text;
   for (const auto& step : value) {
-    Members members("");
-    members.text_ = "{";
+    Members members;
     std::visit(
         [&]<class Step>(const Step& one) {
           if constexpr (std::is_same_v<Step, RotateY>)
@@ -223,9 +220,9 @@ void Members::operator()(const char* key, const Transform& value) {
             members("translate", one.offset);
         },
         step);
-    text += (text.empty() ? "[{" : ", {") + members.text_.substr(3) + "}";
+    text += (text.empty() ? "[" : ", ") + members.text();
   }
-  if (!text.empty()) put(key, text + "]");
+  return text.empty() ? *this : put(key, text + "]");
 }
 
 std::string pointer_step(const std::string& name) { return tyndall::pointer_step(std::string_view(name)); }

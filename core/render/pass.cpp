@@ -100,9 +100,6 @@ Pass::Pass(Region region, std::uint32_t first, std::uint32_t last, int step, int
   cut(tiling, last - first);
 }
 
-Pass::Pass(const Film& film, std::vector<std::uint32_t> wanted, Tiling tiling)
-    : Pass(film, std::move(wanted), film.region, tiling) {}
-
 Pass::Pass(const Film& film, std::vector<std::uint32_t> wanted, const Region& part, Tiling tiling)
     : region_(part), wanted_(std::move(wanted)) {
   cut(tiling, mean_lack(film, wanted_, part));

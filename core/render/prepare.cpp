@@ -5,7 +5,7 @@
 #include "core/guide/camera_images.h"
 #include "core/guide/find_guide.h"
 #include "core/specular/find_subpixel_lights.h"
-#include "core/targets/scalar.h"
+#include "core/targets/kernels.h"
 
 #include <algorithm>
 #include <cmath>

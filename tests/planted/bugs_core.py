@@ -154,12 +154,12 @@ CORE = [
      "load_int<F>(p.second.surface + to), -1, lanes)) → lanes»;", "render/sharing"),
 
     ("coarse passes share paths, too", "core/targets/choose.cpp", "scene.reuses_paths && «job.step == 1 → true»;", "render/sharing targets/kernel_sets"),
-    ("branches begin at the vertex before", "core/targets/recorder.h",
+    ("branches begin at the vertex before", "core/targets/scalar.cpp",
      "branches_.push_back(static_cast<std::int32_t>(path_.vertices.size()) - «1 → 2»)", "targets/replay"),
-    ("replayed paths forget what fog has left", "core/targets/recorder.cpp",
+    ("replayed paths forget what fog has left", "core/targets/scalar.cpp",
      "«if (s.has_media()) v.kept = transmitted_by_absorbers(s, p.ray, p.sampler, hit.t, true); → »", "targets/replay"),
     ("distances in place of the red of what is seen first", "core/targets/entry.h", "h.albedo = {column[«0 → 6»][k]", "targets/first_hits"),
-    ("light of earlier branches is left out of a replay", "core/targets/recorder.cpp",
+    ("light of earlier branches is left out of a replay", "core/targets/scalar.cpp",
      "path_.radiance = «ended_ + v.radiance → v.radiance»;", "targets/replay"),
 
     ("a lost column at a tile's edge", "core/render/pass.cpp", "std::min(x + tile_, «region_.x1 → region_.x1 - 1»)", "render/same_picture"),

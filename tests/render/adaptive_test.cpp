@@ -85,7 +85,7 @@ TEST_CASE("adaptive: a pass that is given up leaves prefixes, and goes on to the
   for (RenderTile& quantum : stopping.render) quantum = stopping_tile;
   ThreadPool thread_pool(2);
   const std::vector<std::uint32_t> wanted = counts_at(film, 128);
-  Pass pass(film, wanted);
+  Pass pass(film, wanted, film.region);
   int abandoned = 0;
   for (bool done = false; !done; ++abandoned) {
     stop.tiles_left = 3;
