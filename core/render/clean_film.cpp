@@ -4,7 +4,6 @@
 #include "core/render/preview.h"
 
 #include <new>
-#include <stdexcept>
 
 namespace tyndall {
 
@@ -65,13 +64,12 @@ bool CoarseCleaner::run(int step, const RenderEngine& engine, double quantum, co
 }
 
 CleanPicture clean_film(const Film& film, const PreparedScene& scene, int threads, const std::string& isa) {
-  const auto kernels = choose_kernels(isa);
-  if (!kernels) throw std::invalid_argument("no filter for instruction set \"" + isa + "\"");
+  const Kernels kernels = kernels_of(isa);
   ThreadPool thread_pool(threads);
   CleanPicture picture;
   PixelLevels levels;
   const std::atomic<bool> never = false;
-  FilmCleaner(*kernels).run(film, {thread_pool, *kernels, scene.view()}, &levels, never, picture);
+  FilmCleaner(kernels).run(film, {thread_pool, kernels, scene.view()}, &levels, never, picture);
   return picture;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-#include "core/render/prepare.h"
 #include "core/render/frame.h"
+#include "core/render/prepare.h"
 #include "core/system/locks.h"
 
 #include <atomic>

@@ -87,7 +87,7 @@ std::unique_ptr<Pass> Progression::full_pass(const RenderEngine& engine, std::op
   const Tiling tiling = tiling_for(engine);
   s.end = s.taken + pass_samples(options_.length, s.taken, film_.pixels.size(), tally_.last_paths_per_second);
   if (limit) s.end = std::min(s.end, *limit);
-  if (options_.adaptive) s.end = std::min(s.end, end_of_round(film_, s.taken, &engine.thread_pool));
+  if (options_.adaptive) s.end = std::min(s.end, end_of_round(film_, s.taken, engine.thread_pool));
   if (planned_unevenly(film_)) return std::make_unique<Pass>(film_, counts_at(film_, s.end), film_.region, tiling);
   if (s.max > s.taken) return pass_to(s.end, film_.region, tiling);
   // The pixels of a coarse pass keep their first sample, unless it was taken without its group.
