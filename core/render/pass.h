@@ -74,10 +74,8 @@ class Pass {
  private:
   void cut(Tiling tiling, std::uint32_t samples);
   Region tile(int index) const;
-  bool run_tile(int index, const RenderEngine& engine, Film& film);
   bool fill_tile(int index, const RenderEngine& engine, Film& film, const std::atomic<bool>& give_up);
-  void add_tile(const Region& where, int step, bool replace, Film& film);
-  void add_counts(const TileCounts& counts);
+  bool run_job(const TileJob& job, const RenderEngine& engine, Film& film);
 
   Region region_;
   std::uint32_t first_ = 0, last_ = 0;
