@@ -126,7 +126,6 @@ struct TYNDALL_HIDDEN Picture::Data {
   /// Layers of an EXR: albedo, normal, depth, variance.
   const std::vector<Layer>& layers() const;
   const CleanPicture& clean() const;
-  void save(const std::filesystem::path& file) const;
 
  private:
   mutable std::once_flag error_made_{}, layers_made_{};

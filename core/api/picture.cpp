@@ -116,17 +116,6 @@ const CleanPicture& Picture::Data::clean() const {
   throw SceneError("picture", "clean", "no clean view", "RenderOptions::clean, and 2 samples in each pixel");
 }
 
-void Picture::Data::save(const std::filesystem::path& file) const {
-  const Scene::Data& of = Access::of(scene);
-  const auto embedded = [&](const std::filesystem::path& to) {
-    const RunFigures figures{of.name, *of.prepared(), result, picture, 0, 0, 0};
-    return Embedded{embedded_scene(of.scene, of.folder, result.film, to), embedded_stats_text(figures),
-                    label_of(*this)};
-  };
-  const CleanPicture* clean = result.clean ? &*result.clean : nullptr;
-  write_picture({result.film, picture.image, of.scene.display, embedded, [this] { return layers(); }, clean}, file);
-}
-
 Picture render(const Scene& scene, const RenderOptions& options) {
   std::exception_ptr thrown;
   Picture picture = guarded([&] {
@@ -181,7 +170,18 @@ Film Picture::film() const {
 }
 
 void Picture::save(const std::string& file) const {
-  guarded([&] { data_->save(file); });
+  guarded([&] {
+    const RenderResult& result = data_->result;
+    const Scene::Data& of = Access::of(data_->scene);
+    const auto embedded = [&](const std::filesystem::path& to) {
+      const RunFigures figures{of.name, *of.prepared(), result, data_->picture, 0, 0, 0};
+      return Embedded{embedded_scene(of.scene, of.folder, result.film, to), embedded_stats_text(figures),
+                      label_of(*data_)};
+    };
+    const auto layers = [&] { return data_->layers(); };
+    const CleanPicture* clean = result.clean ? &*result.clean : nullptr;
+    write_picture({result.film, data_->picture.image, of.scene.display, embedded, layers, clean}, file);
+  });
 }
 
 std::vector<unsigned char> Picture::png() const {

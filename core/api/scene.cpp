@@ -19,6 +19,11 @@ std::shared_ptr<const Scene::Data> data_of(LoadedScene loaded, std::shared_ptr<c
   return data;
 }
 
+std::vector<std::string> steps_of(const Scene::Data& data, const std::string& pointer) {
+  if (auto steps = pointer_steps(pointer)) return *steps;
+  throw SceneError(data.name, "pointer " + in_quotes(pointer), "a JSON pointer, which begins with /");
+}
+
 /// The object that a text describes, as one of the scene's.
 std::vector<Object> read_object(const Scene::Data& data, const std::string& text) {
   const JsonDocument document = parse_json(text);
@@ -97,8 +102,7 @@ std::vector<std::string> Scene::built_in() {
 void Scene::set_json(const std::string& pointer, const std::string& json) {
   data_ = guarded([&] {
     JsonValue root = scene_json(data_->scene);
-    const auto steps = pointer_steps(pointer);
-    if (!steps) throw SceneError(data_->name, "pointer " + in_quotes(pointer), "a JSON pointer, which begins with /");
+    steps_of(*data_, pointer);
     add_sections(root);
     try {
       apply_override(root, {pointer, json});
@@ -124,14 +128,14 @@ void Scene::set(const std::string& pointer, const std::string& text) {
 void Scene::remove(const std::string& pointer) {
   data_ = guarded([&] {
     JsonValue root = scene_json(data_->scene);
-    const auto steps = pointer_steps(pointer);
-    if (!steps || steps->empty() || !find_value(root, *steps))
+    const std::vector<std::string> steps = steps_of(*data_, pointer);
+    if (steps.empty() || !find_value(root, steps))
       throw SceneError(data_->name, pointer, "nothing", "a value that the scene file writes");
-    JsonValue* holder = find_value(root, {steps->begin(), steps->end() - 1});
+    JsonValue* holder = find_value(root, {steps.begin(), steps.end() - 1});
     if (auto* object = std::get_if<JsonObject>(&holder->value))
-      std::erase_if(*object, [&](const JsonMember& member) { return member.key == steps->back(); });
+      std::erase_if(*object, [&](const JsonMember& member) { return member.key == steps.back(); });
     if (auto* array = std::get_if<JsonArray>(&holder->value))
-      array->erase(array->begin() + static_cast<std::ptrdiff_t>(std::stoull(steps->back())));
+      array->erase(array->begin() + static_cast<std::ptrdiff_t>(std::stoull(steps.back())));
     return data_of(load_scene_text(print_json(root), data_->name, data_->folder), data_->prepared_already());
   });
 }
@@ -139,10 +143,9 @@ void Scene::remove(const std::string& pointer) {
 std::string Scene::get_json(const std::string& pointer) const {
   return guarded([&] {
     JsonValue root = scene_json(data_->scene);
-    const auto steps = pointer_steps(pointer);
-    if (!steps) throw SceneError(data_->name, "pointer " + in_quotes(pointer), "a JSON pointer, which begins with /");
-    const JsonValue* written = find_value(root, *steps);
-    const std::optional<JsonValue> value = written ? *written : unwritten_value(data_->scene, root, *steps);
+    const std::vector<std::string> steps = steps_of(*data_, pointer);
+    const JsonValue* written = find_value(root, steps);
+    const std::optional<JsonValue> value = written ? *written : unwritten_value(data_->scene, root, steps);
     if (!value) throw SceneError(data_->name, pointer, "nothing", "a value of the scene");
     std::string text = print_json(*value);
     while (text.ends_with('\n')) text.pop_back();

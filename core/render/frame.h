@@ -77,9 +77,9 @@ struct CleanFrame {
   std::vector<float> rgba;         ///< like Frame's
   std::vector<float> pixel_error;  ///< estimated relative error of each pixel, from its neighbourhood
   double relative_error = 0;       ///< estimated; infinite for a coarse one
-  std::uint32_t spp = 0;           ///< samples a pixel that it was made from; 0: it is coarse, see CoarseCleaner
-  bool doubtful = false;           ///< see is_doubtful
-  double seconds = 0;              ///< rendering and filtering since the edit
+  std::uint32_t spp = 0;  ///< samples a pixel that it was made from; 0: it is coarse, see FilmCleaner::run_coarse
+  bool doubtful = false;  ///< see is_doubtful
+  double seconds = 0;     ///< rendering and filtering since the edit
 };
 
 /// What is known about one pixel of the beauty image, whatever view is shown.
