@@ -89,28 +89,6 @@ TEST_CASE("a thousand small lights, and a light around the eye") {
   z.add("inside", measure(inside, Integrator::nee, SamplerKind::random, 512), 0.5, 3e-3);
 }
 
-TEST_CASE("image_hash is equal for any threads and tiles with light sampling, on every instruction set") {
-  Scene scene = floor_room();
-  scene.width = 61, scene.height = 47;
-  scene.camera = {.look_from = {0, 2, 6}, .look_at = {0, 0, 0}, .vfov = 60};
-  scene.render.max_depth = 20;
-  scene.render.integrator = Integrator::mis;
-  scene.render.sampler = SamplerKind::sobol;
-  add(scene, Quad<>{{-1, 3, -1}, {2, 0, 0}, {0, 0, 2}}, lamp(2));
-  add(scene, sphere({1, 1, 0}, 1), metal(0.9, 0.4));
-  add_medium(scene, Sphere<>{{-1, 1, 0}, 1.0, {}}, {1, 0}, 0.9);
-  const RenderScene compiled = compile(scene);
-  for (const Kernels& kernels : available_kernels()) {
-    const auto hash = [&](int threads, int tile) {
-      return image_hash(
-          61, 47, resolve(render(compiled, {.threads = threads, .isa = kernels.isa, .spp = 9, .tile = tile}).film));
-    };
-    const std::uint64_t first = hash(1, 0);
-    CHECK(hash(2, 8) == first);
-    CHECK(hash(7, 13) == first);
-  }
-}
-
 TEST_CASE("light sampling without weights: no sample is out of a film's range, and the mean is right") {
   // Media with a sharp forward peak under 16 lights and a bright sphere around it all: samples of thousands of times
   // the brightest light's radiance are rare, and a fifth of the mean.
