@@ -20,10 +20,6 @@ void check_limit(const char* name, double value) {
   if (!(value >= 0) || !std::isfinite(value)) refuse(name, number_text(value), "a finite number >= 0; 0: no limit");
 }
 
-void check_isa(const std::string& isa) {
-  if (!choose_kernels(isa)) refuse("isa", in_quotes(isa), expected_targets(isa));
-}
-
 std::string text_of(const inner::CoreRegion& r) {
   std::string text;
   for (const int number : {r.x0, r.y0, r.x1, r.y1}) text += (text.empty() ? "" : ",") + std::to_string(number);
@@ -43,7 +39,8 @@ inner::CoreRegion region_of(const inner::CoreScene& scene, const RenderOptions& 
 
 /// The core's options for a scene, after looking at each.
 inner::CoreOptions core_options(const inner::CoreScene& scene, const RenderOptions& options) {
-  check_limit("time", options.time), check_limit("target_error", options.target_error), check_isa(options.isa);
+  check_limit("time", options.time), check_limit("target_error", options.target_error);
+  if (!choose_kernels(options.isa)) refuse("isa", in_quotes(options.isa), expected_targets(options.isa));
   if (options.threads < 0) refuse("threads", std::to_string(options.threads), "a whole number >= 0");
   inner::CoreOptions core;
   core.region = region_of(scene, options);
