@@ -43,13 +43,13 @@ bool is_found(const SceneView& s, std::int32_t first, std::int32_t last, int lig
 /// The chance of caustics by way of one shape, whose elements are first … last - 1.
 double chance_by(const SceneView& s, Vec3d middle, double radius, std::int32_t first, std::int32_t last) {
   const double fuzz = lobe_width_of(s, s.material[first]);
-  const bool is_ball = s.inverse_radius[first] != 0, outside = length(to_double(s.camera.center) - middle) > radius;
+  const bool is_sphere = s.inverse_radius[first] != 0, outside = length(to_double(s.camera.center) - middle) > radius;
   double chance = 1;
   for (int k = 0; k < s.lights.count; ++k) {
     if (is_found(s, first, last, k)) continue;
     const Vec3d light{at(s.lights.center[0], k), at(s.lights.center[1], k), at(s.lights.center[2], k)};
     double distance = length(light - middle);
-    if (is_ball && outside) distance = std::max(distance, radius);
+    if (is_sphere && outside) distance = std::max(distance, radius);
     if (fraction_of_directions(radius, distance) < min_catch) continue;
     chance = std::min(chance, fraction_of_directions(std::sqrt(at(s.lights.reach2, k)) + fuzz * distance, distance));
   }
@@ -57,8 +57,8 @@ double chance_by(const SceneView& s, Vec3d middle, double radius, std::int32_t f
 }
 
 double chance_of_caustics(const Scene& scene, const RenderScene& columns, const SceneView& s) {
-  const bool smooth =
-      needs_trait<&BsdfTraits::glossy>(s.features) || needs_trait<&BsdfTraits::smooth_boundary>(s.features);
+  bool smooth = false;
+  for (std::int32_t m = 0; m < s.material_count; ++m) smooth = smooth || lobe_width_of(s, m) < max_fuzz;
   const bool shown = needs_trait<&BsdfTraits::diffuse>(s.features) || s.has_media();
   if (!smooth || !shown || !(s.has_lights() || s.samples_sky())) return 1;  // at once, also with a million spheres
   const Flattened flat = flatten(scene);

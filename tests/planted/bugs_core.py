@@ -165,7 +165,7 @@ CORE = [
     ("a lost column at a tile's edge", "core/render/pass.cpp", "std::min(x + tile_, «region_.x1 → region_.x1 - 1»)", "render/same_picture"),
     ("cells have a say in their own samples", "core/render/plan.cpp", "«if (u == column && v == row) continue; → »", "render/plan"),
     ("rejected samples of one half are not counted", "core/render/pass.cpp",
-     "rejected += from.rejected[0] + «from.rejected[1] → 0»;", "render/losses"),
+     "rejected += from.rejected[0] + «from.rejected[1] → 0», truncated", "render/losses"),
     ("rounds spend more than they may", "core/render/plan.cpp",
      "const double mean = «2.0 → 2.5» * round_mean(film, &PlannedSamples::from);", "render/plan"),
     ("a problem stays after it was solved", "core/render/mailbox.cpp", "prepared_ = std::move(scene);\n  «reply_.problem = nullptr; → »", "render/renderer_edits"),
@@ -184,7 +184,7 @@ CORE = [
     ("what a progress function throws is lost", "core/api/picture.cpp", "«if (thrown) std::rethrow_exception(thrown); → »", "library/library"),
     ("an edit forgets the scene's folder", "core/api/scene.cpp", "«data->folder = std::move(loaded.folder); → »", "library/library python"),
     ("the wrong value is taken out of a list", "core/api/scene.cpp",
-     "array->begin() + «static_cast<std::ptrdiff_t>(std::stoull(steps->back())) → 0»);", "library/library python"),
+     "array->begin() + «static_cast<std::ptrdiff_t>(std::stoull(steps.back())) → 0»);", "library/library python"),
     ("normals in place of colours", "core/api/picture.cpp", "data_->layers()[«0 → 1»].values; });\n}\nconst std::vector<float>& Picture::normal()", "library/library python"),
 
     ("a variable of a child stands there twice", "core/system/child.cpp", "if («!replaced → true») all.push_back(variable);", "system/child"),
