@@ -61,8 +61,8 @@ std::vector<float> pixel_relative_error(const Film& film, ThreadPool* thread_poo
 inline constexpr std::uint32_t min_rare_spp = 2;
 
 /// Whether a picture is not converged, whatever its estimated error: few pixels, or none yet, have met light that only
-/// rare paths carry. estimate: of the film; spp: samples that every pixel has; chance: see chance_of_caustics. False
-/// below min_rare_spp, when there is no estimate.
+/// rare paths carry. estimate: of the film; spp: samples that every pixel has; chance: see
+/// PreparedScene::caustic_chance. False below min_rare_spp, when there is no estimate.
 bool has_rare_bright_paths(const ErrorEstimate& estimate, std::uint32_t spp, double chance);
 
 /// The warning for users in that case.

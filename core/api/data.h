@@ -1,12 +1,46 @@
 #pragma once
-#include "core/api/inside.h"
+#include "core/accuracy/error.h"
+#include "core/accuracy/noise_test.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/files/film_files.h"
+#include "core/film/film.h"
+#include "core/image/whole_file.h"
+#include "core/render/clean_film.h"
+#include "core/render/plan.h"
+#include "core/render/render.h"
+#include "core/scene/check.h"
+#include "core/scene/json_read.h"
+#include "core/scene/json_tree.h"
+#include "core/scene/load.h"
 #include "core/system/locks.h"
-
-#include <tyndall/tyndall.h>
+#include "core/system/processors.h"
 
 #include <cfenv>
 #include <mutex>
 #include <new>
+
+/// The core's own types, under names that the library's header does not use: both have a Scene, a Film and a render().
+/// That header comes after these names, so that a file of this room includes this one first.
+namespace tyndall::inner {
+
+using CoreFilm = tyndall::Film;
+using CoreRegion = tyndall::Region;
+using CoreScene = tyndall::Scene;
+using CoreOptions = tyndall::RenderOptions;
+
+inline RenderResult render_film(const PreparedScene& scene, const CoreOptions& options,
+                                const ProgressCallback& progress, CoreFilm film) {
+  return tyndall::render(scene, options, progress, std::move(film));
+}
+inline CoreFilm merge_films(const std::vector<FilmPart>& frames,
+                            const std::function<CoreFilm(std::size_t index)>& read) {
+  return tyndall::merge(frames, read);
+}
+
+}  // namespace tyndall::inner
+
+#include <tyndall/tyndall.h>
 
 /// What every call of the library does first and last.
 namespace tyndall::inner {
@@ -88,7 +122,6 @@ struct TYNDALL_HIDDEN Picture::Data {
   /// Layers of an EXR: albedo, normal, depth, variance.
   const std::vector<Layer>& layers() const;
   const CleanPicture& clean() const;
-  void save(const std::filesystem::path& file) const;
 
  private:
   mutable std::once_flag error_made_{}, layers_made_{};

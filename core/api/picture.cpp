@@ -20,10 +20,6 @@ void check_limit(const char* name, double value) {
   if (!(value >= 0) || !std::isfinite(value)) refuse(name, number_text(value), "a finite number >= 0; 0: no limit");
 }
 
-void check_isa(const std::string& isa) {
-  if (!choose_kernels(isa)) refuse("isa", in_quotes(isa), expected_targets(isa));
-}
-
 std::string text_of(const inner::CoreRegion& r) {
   std::string text;
   for (const int number : {r.x0, r.y0, r.x1, r.y1}) text += (text.empty() ? "" : ",") + std::to_string(number);
@@ -43,7 +39,8 @@ inner::CoreRegion region_of(const inner::CoreScene& scene, const RenderOptions& 
 
 /// The core's options for a scene, after looking at each.
 inner::CoreOptions core_options(const inner::CoreScene& scene, const RenderOptions& options) {
-  check_limit("time", options.time), check_limit("target_error", options.target_error), check_isa(options.isa);
+  check_limit("time", options.time), check_limit("target_error", options.target_error);
+  if (!choose_kernels(options.isa)) refuse("isa", in_quotes(options.isa), expected_targets(options.isa));
   if (options.threads < 0) refuse("threads", std::to_string(options.threads), "a whole number >= 0");
   inner::CoreOptions core;
   core.region = region_of(scene, options);
@@ -116,17 +113,6 @@ const CleanPicture& Picture::Data::clean() const {
   throw SceneError("picture", "clean", "no clean view", "RenderOptions::clean, and 2 samples in each pixel");
 }
 
-void Picture::Data::save(const std::filesystem::path& file) const {
-  const Scene::Data& of = Access::of(scene);
-  const auto embedded = [&](const std::filesystem::path& to) {
-    const RunFigures figures{of.name, *of.prepared(), result, picture, 0, 0, 0};
-    return Embedded{embedded_scene(of.scene, of.folder, result.film, to), embedded_stats_text(figures),
-                    label_of(*this)};
-  };
-  const CleanPicture* clean = result.clean ? &*result.clean : nullptr;
-  write_picture({result.film, picture.image, of.scene.display, embedded, [this] { return layers(); }, clean}, file);
-}
-
 Picture render(const Scene& scene, const RenderOptions& options) {
   std::exception_ptr thrown;
   Picture picture = guarded([&] {
@@ -181,7 +167,18 @@ Film Picture::film() const {
 }
 
 void Picture::save(const std::string& file) const {
-  guarded([&] { data_->save(file); });
+  guarded([&] {
+    const RenderResult& result = data_->result;
+    const Scene::Data& of = Access::of(data_->scene);
+    const auto embedded = [&](const std::filesystem::path& to) {
+      const RunFigures figures{of.name, *of.prepared(), result, data_->picture, 0, 0, 0};
+      return Embedded{embedded_scene(of.scene, of.folder, result.film, to), embedded_stats_text(figures),
+                      label_of(*data_)};
+    };
+    const auto layers = [&] { return data_->layers(); };
+    const CleanPicture* clean = result.clean ? &*result.clean : nullptr;
+    write_picture({result.film, data_->picture.image, of.scene.display, embedded, layers, clean}, file);
+  });
 }
 
 std::vector<unsigned char> Picture::png() const {

@@ -19,6 +19,11 @@ std::shared_ptr<const Scene::Data> data_of(LoadedScene loaded, std::shared_ptr<c
   return data;
 }
 
+std::vector<std::string> steps_of(const Scene::Data& data, const std::string& pointer) {
+  if (auto steps = pointer_steps(pointer)) return *steps;
+  throw SceneError(data.name, "pointer " + in_quotes(pointer), "a JSON pointer, which begins with /");
+}
+
 /// The object that a text describes, as one of the scene's.
 std::vector<Object> read_object(const Scene::Data& data, const std::string& text) {
   const JsonDocument document = parse_json(text);
@@ -33,6 +38,22 @@ std::vector<Object> read_object(const Scene::Data& data, const std::string& text
   alone.objects = objects;
   if (const auto fault = check(alone)) throw *fault;
   return objects;
+}
+
+/// A value as JSON, for a place of the scene of that name.
+std::string json_of(const std::string& name, const std::string& place, double value) {
+  if (!std::isfinite(value)) throw inner::error_of(name, {place, number_text(value), "a finite number"});
+  return number_text(value);
+}
+
+std::string json_of(const std::string& name, const std::string& place, const Vec3& v) {
+  const auto number = [&](double value) { return json_of(name, place, value); };
+  return "[" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + "]";
+}
+
+std::string json_of(const std::string& name, const std::string& place, const std::string& text) {
+  if (!is_utf8(text)) throw inner::error_of(name, {place, in_quotes(printable(text)), "text in UTF-8"});
+  return in_quotes(text);
 }
 
 }  // namespace
@@ -81,8 +102,7 @@ std::vector<std::string> Scene::built_in() {
 void Scene::set_json(const std::string& pointer, const std::string& json) {
   data_ = guarded([&] {
     JsonValue root = scene_json(data_->scene);
-    const auto steps = pointer_steps(pointer);
-    if (!steps) throw SceneError(data_->name, "pointer " + in_quotes(pointer), "a JSON pointer, which begins with /");
+    steps_of(*data_, pointer);
     add_sections(root);
     try {
       apply_override(root, {pointer, json});
@@ -93,43 +113,36 @@ void Scene::set_json(const std::string& pointer, const std::string& json) {
   });
 }
 
-void Scene::set(const std::string& pointer, double value) {
-  if (!std::isfinite(value)) throw inner::error_of(data_->name, {pointer, number_text(value), "a finite number"});
-  set_json(pointer, number_text(value));
-}
+void Scene::set(const std::string& pointer, double value) { set_json(pointer, json_of(data_->name, pointer, value)); }
 
 void Scene::set(const std::string& pointer, const Vec3& value) {
-  for (const double number : {value.x, value.y, value.z})
-    if (!std::isfinite(number)) throw inner::error_of(data_->name, {pointer, number_text(number), "finite numbers"});
-  set_json(pointer, "[" + number_text(value.x) + ", " + number_text(value.y) + ", " + number_text(value.z) + "]");
+  set_json(pointer, json_of(data_->name, pointer, value));
 }
 
 void Scene::set(const std::string& pointer, bool value) { set_json(pointer, value ? "true" : "false"); }
 
 void Scene::set(const std::string& pointer, const std::string& text) {
-  if (!is_utf8(text)) throw inner::error_of(data_->name, {pointer, in_quotes(printable(text)), "text in UTF-8"});
-  set_json(pointer, in_quotes(text));
+  set_json(pointer, json_of(data_->name, pointer, text));
 }
 
 void Scene::remove(const std::string& pointer) {
   data_ = guarded([&] {
     JsonValue root = scene_json(data_->scene);
-    const auto steps = pointer_steps(pointer);
-    if (!steps || steps->empty() || !find_value(root, *steps))
+    const std::vector<std::string> steps = steps_of(*data_, pointer);
+    if (steps.empty() || !find_value(root, steps))
       throw SceneError(data_->name, pointer, "nothing", "a value that the scene file writes");
-    JsonValue* holder = find_value(root, {steps->begin(), steps->end() - 1});
+    JsonValue* holder = find_value(root, {steps.begin(), steps.end() - 1});
     if (auto* object = std::get_if<JsonObject>(&holder->value))
-      std::erase_if(*object, [&](const JsonMember& member) { return member.key == steps->back(); });
+      std::erase_if(*object, [&](const JsonMember& member) { return member.key == steps.back(); });
     if (auto* array = std::get_if<JsonArray>(&holder->value))
-      array->erase(array->begin() + static_cast<std::ptrdiff_t>(std::stoull(steps->back())));
+      array->erase(array->begin() + static_cast<std::ptrdiff_t>(std::stoull(steps.back())));
     return data_of(load_scene_text(print_json(root), data_->name, data_->folder), data_->prepared_already());
   });
 }
 
 std::string Scene::get_json(const std::string& pointer) const {
   return guarded([&] {
-    if (!pointer_steps(pointer))
-      throw SceneError(data_->name, "pointer " + in_quotes(pointer), "a JSON pointer, which begins with /");
+    steps_of(*data_, pointer);
     const std::optional<JsonValue> value = value_at_pointer(data_->scene, pointer);
     if (!value) throw SceneError(data_->name, pointer, "nothing", "a value of the scene");
     std::string text = print_json(*value);
@@ -178,41 +191,28 @@ namespace detail {
 
 void fail_moved_from() { throw Error("found an object that was moved from, expected one that holds something"); }
 
-Members::Members(const char* type) : text_("{\"type\": " + in_quotes(type)) {}
-
-void Members::put(const char* key, const std::string& json) { text_ += ", " + in_quotes(key) + ": " + json; }
-
-void Members::operator()(const char* key, double value) {
-  if (!std::isfinite(value)) throw inner::error_of("scene", {key, number_text(value), "a finite number"});
-  put(key, number_text(value));
+Members& Members::put(const char* key, const std::string& json) {
+  text_ += (text_.empty() ? "" : ", ") + in_quotes(key) + ": " + json;
+  return *this;
 }
 
-void Members::operator()(const char* key, const Vec3& value) {
-  std::string text;
-  for (const double number : {value.x, value.y, value.z}) {
-    if (!std::isfinite(number)) throw inner::error_of("scene", {key, number_text(number), "finite numbers"});
-    text += (text.empty() ? "[" : ", ") + number_text(number);
-  }
-  put(key, text + "]");
+Members& Members::operator()(const char* key, double value) { return put(key, json_of("scene", key, value)); }
+
+Members& Members::operator()(const char* key, const Vec3& value) { return put(key, json_of("scene", key, value)); }
+
+Members& Members::operator()(const char* key, const Colour& value) {
+  return value.texture.empty() ? (*this)(key, value.rgb) : (*this)(key, value.texture);
 }
 
-void Members::operator()(const char* key, const Colour& value) {
-  if (value.texture.empty())
-    (*this)(key, value.rgb);
-  else
-    (*this)(key, value.texture);
+Members& Members::operator()(const char* key, const std::string& value) {
+  const std::string json = json_of("scene", key, value);
+  return value.empty() ? *this : put(key, json);
 }
 
-void Members::operator()(const char* key, const std::string& value) {
-  if (!is_utf8(value)) throw inner::error_of("scene", {key, in_quotes(printable(value)), "text in UTF-8"});
-  if (!value.empty()) put(key, in_quotes(value));
-}
-
-void Members::operator()(const char* key, const Transform& value) {
+Members& Members::operator()(const char* key, const Transform& value) {
   std::string text;
   for (const auto& step : value) {
-    Members members("");
-    members.text_ = "{";
+    Members members;
     std::visit(
         [&]<class Step>(const Step& one) {
           if constexpr (std::is_same_v<Step, RotateY>)
@@ -221,9 +221,9 @@ void Members::operator()(const char* key, const Transform& value) {
             members("translate", one.offset);
         },
         step);
-    text += (text.empty() ? "[{" : ", {") + members.text_.substr(3) + "}";
+    text += (text.empty() ? "[" : ", ") + members.text();
   }
-  if (!text.empty()) put(key, text + "]");
+  return text.empty() ? *this : put(key, text + "]");
 }
 
 std::string pointer_step(const std::string& name) { return tyndall::pointer_step(std::string_view(name)); }

@@ -4,7 +4,6 @@
 #include "core/render/preview.h"
 
 #include <new>
-#include <stdexcept>
 
 namespace tyndall {
 
@@ -51,27 +50,27 @@ void put_rgba(const CleanPicture& picture, ThreadPool& thread_pool, std::vector<
 
 }  // namespace
 
-bool CoarseCleaner::run(int step, const RenderEngine& engine, double quantum, const std::atomic<bool>& give_up,
-                        CleanPicture& out) {
+bool FilmCleaner::run_coarse(int step, const RenderEngine& engine, double quantum, const std::atomic<bool>& give_up,
+                             CleanPicture& out) {
   const SceneView scene = with_larger_pixels(engine.scene, step);
   const RenderEngine coarse{engine.thread_pool, engine.kernels, scene};
   const Region whole{0, 0, scene.width, scene.height};
-  if (!(film_.region == whole) || film_.emission.empty() == scene.has_lights())
-    film_ = make_film(scene.width, scene.height, whole, 0, quantum, scene.has_lights());
-  film_.quantum = quantum;
-  cleaner_.change_scene();
-  return Pass(whole, 0, min_clean_spp, 1, 0, {.reuses_paths = scene.reuses_paths}).run(coarse, film_, give_up) &&
-         cleaner_.run(film_, coarse, nullptr, give_up, out);
+  Film& film = coarse_film_;
+  if (!(film.region == whole) || film.emission.empty() == scene.has_lights())
+    film = make_film(scene.width, scene.height, whole, 0, quantum, scene.has_lights());
+  film.quantum = quantum;
+  change_scene();
+  return Pass(whole, 0, min_clean_spp, 1, 0, {.reuses_paths = scene.reuses_paths}).run(coarse, film, give_up) &&
+         run(film, coarse, nullptr, give_up, out);
 }
 
 CleanPicture clean_film(const Film& film, const PreparedScene& scene, int threads, const std::string& isa) {
-  const auto kernels = choose_kernels(isa);
-  if (!kernels) throw std::invalid_argument("no filter for instruction set \"" + isa + "\"");
+  const Kernels kernels = kernels_of(isa);
   ThreadPool thread_pool(threads);
   CleanPicture picture;
   PixelLevels levels;
   const std::atomic<bool> never = false;
-  FilmCleaner(*kernels).run(film, {thread_pool, *kernels, scene.view()}, &levels, never, picture);
+  FilmCleaner(kernels).run(film, {thread_pool, kernels, scene.view()}, &levels, never, picture);
   return picture;
 }
 
@@ -114,7 +113,7 @@ bool LiveClean::make_coarse(const Film& film, double paths_per_second, const Ren
       coarse_clean_step(static_cast<std::int64_t>(film.pixels.size()), paths_per_second, seconds_per_pixel_);
   if (!wanted_ || step == 1) return false;
   try {
-    if (!coarse_.run(step, engine, film.quantum, give_up, picture_)) return false;
+    if (!coarse_.run_coarse(step, engine, film.quantum, give_up, picture_)) return false;
     const std::shared_ptr<CleanFrame> frame =
         take_frame({picture_.width, picture_.height, static_cast<float>(step)}, engine.thread_pool);
     frame->relative_error = std::numeric_limits<double>::infinity();

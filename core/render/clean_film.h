@@ -48,27 +48,17 @@ class FilmCleaner {
   /// the error of the picture is not needed.
   bool run(const Film& film, const RenderEngine& engine, PixelLevels* levels, const std::atomic<bool>& give_up,
            CleanPicture& out);
+  /// The first clean view after an edit, ready long before every pixel of the whole picture has the two samples that
+  /// the filter needs: of a picture in which each pixel covers step x step pixels of the scene's picture and has two
+  /// samples of its own, which go into no film. quantum: see Film.
+  bool run_coarse(int step, const RenderEngine& engine, double quantum, const std::atomic<bool>& give_up,
+                  CleanPicture& out);
 
  private:
   Cleaner cleaner_;
   CleanInput input_;
   FirstSeenParts seen_;  ///< how input_.seen was made; no parts: not yet
-};
-
-/// The first clean view after an edit: a picture with fewer pixels, ready long before every pixel of the whole picture
-/// has the two samples that the filter needs. Keeps its memory for the next one.
-class CoarseCleaner {
- public:
-  explicit CoarseCleaner(const Kernels& kernels) : cleaner_(kernels) {}
-
-  /// Fills `out` with the clean view of a picture in which each pixel covers step x step pixels of the scene's picture
-  /// and has two samples of its own, which go into no film. quantum: see Film. Returns false if `give_up` was set
-  /// before the end.
-  bool run(int step, const RenderEngine& engine, double quantum, const std::atomic<bool>& give_up, CleanPicture& out);
-
- private:
-  FilmCleaner cleaner_;
-  Film film_;
+  Film coarse_film_;
 };
 
 /// The clean view of a finished film of the scene. threads: 0: see thread_count(); isa: "": the best.
@@ -101,8 +91,7 @@ class LiveClean {
  private:
   std::shared_ptr<CleanFrame> take_frame(const PictureGrid& grid, ThreadPool& thread_pool);
 
-  FilmCleaner cleaner_;
-  CoarseCleaner coarse_;
+  FilmCleaner cleaner_, coarse_;
   CleanPicture picture_;
   CleanFrameMemory frames_, coarse_frames_;
   std::shared_ptr<const CleanFrame> latest_;

@@ -25,10 +25,9 @@ constexpr int group = 4;
 /// Adjacent parts that are traced together, so that they fill the lanes.
 constexpr int together = group * max_parts;
 
-/// Counts of a row: pixels that see a surface, their sum of 1 / depth, and unlike pixels.
+/// Counts of a row: pixels that see a surface, and their sum of 1 / depth.
 struct RowCount {
   double seen = 0, per_depth = 0;
-  std::int64_t unlike = 0;
 };
 
 /// is_sharp() of the elements that rays hit; it remembers the last element, because most rays hit the same one.
@@ -70,7 +69,7 @@ struct FirstSeenFinder {
   std::vector<RowCount> rows;
   std::vector<std::uint8_t> marks;   ///< of each pixel: differs_from_right, differs_from_below
   std::vector<std::uint8_t> unlike;  ///< of each group, row by row
-  float per_depth = 0;               ///< 1 / mean depth
+  float per_depth = 0;  ///< 1 / harmonic mean of the depths of all pixels that see a surface; 1 if none does
 
   int width() const { return region.width(); }
   std::size_t groups() const { return static_cast<std::size_t>((width() + group - 1) / group); }
@@ -93,12 +92,6 @@ struct FirstSeenFinder {
       if (depth > 0) count.per_depth += 1 / static_cast<double>(depth), ++count.seen;
     }
   }
-  /// 1 / harmonic mean of the depths of all pixels that see a surface; 1 if none does.
-  float per_mean_depth() const {
-    RowCount all;
-    for (const RowCount& row : rows) all.seen += row.seen, all.per_depth += row.per_depth;
-    return static_cast<float>(all.seen > 0 ? all.per_depth / all.seen : 1);
-  }
   void convert_to_nearness(int y) const {
     float* depth = row(depth_plane, y);
     for (int x = 0; x < width(); ++x) depth[x] = depth[x] > 0 ? 1 / (1 + depth[x] * per_depth) : 0;
@@ -119,8 +112,6 @@ struct FirstSeenFinder {
       if (own[x] != 0 || (x > 0 && (own[x - 1] & differs_from_right) != 0) ||
           (y > 0 && (above[x] & differs_from_below) != 0))
         found[x / group] = 1;
-    rows[static_cast<std::size_t>(y)].unlike =
-        group * std::count(found, found + static_cast<std::ptrdiff_t>(groups()), std::uint8_t{1});
   }
   /// Sets `count` pixels from x0 on to the means over their parts. scene: a view whose pixels are the parts.
   void divide(const SceneView& scene, int parts, int x0, int y, int count) const {
@@ -190,12 +181,13 @@ bool find_first_seen(const Region& region, const RenderEngine& engine, const std
     return !give_up;
   };
   if (!each_row([&](int y) { finder.look_at_centres(y); })) return false;
-  finder.per_depth = finder.per_mean_depth();
+  RowCount all;
+  for (const RowCount& row : finder.rows) all.seen += row.seen, all.per_depth += row.per_depth;
+  finder.per_depth = static_cast<float>(all.seen > 0 ? all.per_depth / all.seen : 1);
   if (!each_row([&](int y) { finder.convert_to_nearness(y); }) ||
       !each_row([&](int y) { finder.compare_neighbours(y); }) || !each_row([&](int y) { finder.find_unlike(y); }))
     return false;
-  made = {region, 0, 1};
-  for (const RowCount& row : finder.rows) made.unlike += row.unlike;
+  made = {region, group * std::count(finder.unlike.begin(), finder.unlike.end(), std::uint8_t{1}), 1};
   made.parts = parts_of_pixels(made, input.spp);
   if (made.parts == 1) return true;
   const SceneView scene = divided(engine.scene, made.parts);

@@ -1,14 +1,17 @@
 #pragma once
 #include "core/base/choice.h"
-#include "core/base/vec.h"
+#include "core/film/film.h"
+#include "core/render/sample_source.h"
+#include "core/scene/scene.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-/// What the renderer hands out after a pass.
+/// What is asked of a Renderer, and what it hands out after a pass.
 namespace tyndall {
 
 /// What a frame shows besides the beauty image.
@@ -36,6 +39,31 @@ constexpr Label label(View view) {
   return {};
 }
 
+/// All that a caller wants of a Renderer, as one value: a newer request replaces it whole.
+struct RenderRequest {
+  std::shared_ptr<const Scene> scene{};  ///< null: no more is rendered; what was, stays
+  /// Earlier samples of this scene, by the same version and instruction set: the picture continues them, and the film
+  /// is moved from. Null: none; a film that is not of the scene's size counts as none.
+  std::shared_ptr<Film> film{};
+  /// Where the picture's samples come from; null: the kernels take them from the scene. With a source, what the scene
+  /// has to say is the size, the number of samples, seed and sampler; best it has no objects. When what the source
+  /// returns has changed, `restarts` has to.
+  std::shared_ptr<const SampleSource> samples{};
+  View view = View::beauty;
+  bool clean = false;             ///< frames carry a clean view
+  int threads = 0;                ///< number of threads; 0: as many as before
+  bool paused = false;            ///< no pixel gets more than one sample; the current pass is completed
+  std::uint64_t restarts = 0;     ///< another number than before discards the samples
+  std::int64_t shown_pixels = 0;  ///< screen pixels that the picture covers: a first picture samples no more; <= 0: all
+  /// This part of the picture gets all further samples once each pixel has one, until it has the scene's number of
+  /// samples; then the rest follows. The samples of a pixel never change, so that the final picture is the same. No
+  /// effect with adaptive sampling. Empty: none.
+  Region refine_first{};
+  std::optional<std::pair<int, int>> watched_pixel{};  ///< is reported now and after each pass
+
+  bool operator==(const RenderRequest&) const = default;
+};
+
 /// Positions of the pixels of a picture that has fewer pixels than its film: its pixel (x, y) shows the middle of the
 /// film's pixel (spacing x, spacing y).
 struct PictureGrid {
@@ -49,9 +77,9 @@ struct CleanFrame {
   std::vector<float> rgba;         ///< like Frame's
   std::vector<float> pixel_error;  ///< estimated relative error of each pixel, from its neighbourhood
   double relative_error = 0;       ///< estimated; infinite for a coarse one
-  std::uint32_t spp = 0;           ///< samples a pixel that it was made from; 0: it is coarse, see CoarseCleaner
-  bool doubtful = false;           ///< see is_doubtful
-  double seconds = 0;              ///< rendering and filtering since the edit
+  std::uint32_t spp = 0;  ///< samples a pixel that it was made from; 0: it is coarse, see FilmCleaner::run_coarse
+  bool doubtful = false;  ///< see is_doubtful
+  double seconds = 0;     ///< rendering and filtering since the edit
 };
 
 /// What is known about one pixel of the beauty image, whatever view is shown.

@@ -1,6 +1,6 @@
 #pragma once
+#include "core/render/frame.h"
 #include "core/render/prepare.h"
-#include "core/render/render_request.h"
 #include "core/system/locks.h"
 
 #include <atomic>

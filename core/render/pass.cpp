@@ -46,11 +46,10 @@ struct TileBuffer {
       if (with_emission) emission[i] = {};
     });
   }
-  EmissionSums* emission_or_null() { return emission.empty() ? nullptr : emission.data(); }
 };
 
 /// The buffer of a thread, kept from job to job: after its first job a thread allocates nothing.
-TileBuffer& buffer() {
+TileBuffer& own_buffer() {
   std::shared_ptr<void>& memory = thread_pool_memory();
   if (!memory) memory = std::make_shared<TileBuffer>();
   return *static_cast<TileBuffer*>(memory.get());
@@ -100,9 +99,6 @@ Pass::Pass(Region region, std::uint32_t first, std::uint32_t last, int step, int
   cut(tiling, last - first);
 }
 
-Pass::Pass(const Film& film, std::vector<std::uint32_t> wanted, Tiling tiling)
-    : Pass(film, std::move(wanted), film.region, tiling) {}
-
 Pass::Pass(const Film& film, std::vector<std::uint32_t> wanted, const Region& part, Tiling tiling)
     : region_(part), wanted_(std::move(wanted)) {
   cut(tiling, mean_lack(film, wanted_, part));
@@ -131,78 +127,56 @@ bool Pass::run(const RenderEngine& engine, Film& film, const std::atomic<bool>& 
   const auto job = [&](int index) {
     auto& done = done_[static_cast<std::size_t>(index)];
     if (done || give_up.load(std::memory_order_relaxed)) return;
-    done = wanted_.empty() ? run_tile(index, engine, film) : fill_tile(index, engine, film, give_up);
+    done = wanted_.empty() ? run_job({tile(index), step_, skip_step_, first_, last_}, engine, film)
+                           : fill_tile(index, engine, film, give_up);
   };
   engine.thread_pool.for_each(columns_ * rows_, job, poll);
   film.cut_throughput.add(ExactSum{cut_high_.exchange(0), cut_low_.exchange(0)});
   return std::all_of(done_.begin(), done_.end(), [](std::uint8_t d) { return d != 0; });
 }
 
-/// False if a source of samples has left the tile job.
-bool Pass::run_tile(int index, const RenderEngine& engine, Film& film) {
-  const Region where = tile(index);
-  TileBuffer& tile_film = buffer();
-  tile_film.clear(where, step_, !film.emission.empty());
-  TileCounts counts;
-  if (!engine.render_tile({where, step_, skip_step_, first_, last_}, film.quantum, tile_film.pixels.data(), counts,
-                          tile_film.emission_or_null()))
-    return false;
-  add_tile(where, step_, first_ == film.first_sample, film);
-  add_counts(counts);
-  return true;
-}
-
 /// Runs units until the tile's pixels have what is wanted. False if `give_up` was set before.
 bool Pass::fill_tile(int index, const RenderEngine& engine, Film& film, const std::atomic<bool>& give_up) {
+  TileBuffer& buffer = own_buffer();
   const Region where = tile(index);
-  TileBuffer& tile_film = buffer();
   for (;;) {
-    if (!list_lacking(film, wanted_, where, paths_per_tile_, tile_film.first, tile_film.last)) return true;
+    if (!list_lacking(film, wanted_, where, paths_per_tile_, buffer.first, buffer.last)) return true;
     if (give_up.load(std::memory_order_relaxed)) return false;
-    tile_film.clear(where, 1, !film.emission.empty());
-    TileCounts counts;
-    const TileJob lacking{where, 1, 0, 0, 0, tile_film.first.data(), tile_film.last.data()};
-    if (!engine.render_tile(lacking, film.quantum, tile_film.pixels.data(), counts, tile_film.emission_or_null()))
-      return false;
-    add_tile(where, 1, false, film);
-    add_counts(counts);
+    if (!run_job({where, 1, 0, 0, 0, buffer.first.data(), buffer.last.data()}, engine, film)) return false;
   }
 }
 
-/// Adds the samples of the thread's tile job to the film, or replaces what its pixels held by them.
-void Pass::add_tile(const Region& where, int step, bool replace, Film& film) {
+/// Adds the samples of a tile job to the film; its first ones replace what the pixels held. False if a source of
+/// samples has left the job.
+bool Pass::run_job(const TileJob& job, const RenderEngine& engine, Film& film) {
+  TileBuffer& buffer = own_buffer();
+  buffer.clear(job.tile, job.step, !film.emission.empty());
+  TileCounts counts;
+  EmissionSums* const emission = buffer.emission.empty() ? nullptr : buffer.emission.data();
+  if (!engine.render_tile(job, film.quantum, buffer.pixels.data(), counts, emission)) return false;
+  const bool replace = !job.first_of && job.first == film.first_sample;
   std::uint64_t paths = 0, rejected = 0, truncated = 0;
-  const TileBuffer& tile = buffer();
-  for_each_pixel(where, step, [&](int x, int y, std::size_t i) {
-    const FilmPixel& from = tile.pixels[i];
+  for_each_pixel(job.tile, job.step, [&](int x, int y, std::size_t i) {
+    const FilmPixel& from = buffer.pixels[i];
     if (!from.taken) return;
+    paths += from.taken, rejected += from.rejected[0] + from.rejected[1], truncated += from.truncated;
     FilmPixel& to = film.at(x, y);
-    if (!tile.emission.empty()) {
-      EmissionSums& emission = film.emission[film.index(x, y)];
-      if (replace)
-        emission = tile.emission[i];
-      else
-        add_emission(emission, tile.emission[i]);
-    }
-    paths += from.taken;
-    rejected += from.rejected[0] + from.rejected[1];
-    truncated += from.truncated;
-    if (replace)
-      to = from;
-    else
-      add_pixel(to, from);
+    if (replace) to = {};
+    add_pixel(to, from);
+    if (!emission) return;
+    EmissionSums& sums = film.emission[film.index(x, y)];
+    if (replace) sums = {};
+    add_emission(sums, emission[i]);
   });
   paths_.fetch_add(paths, std::memory_order_relaxed);
   rejected_.fetch_add(rejected, std::memory_order_relaxed);
   truncated_.fetch_add(truncated, std::memory_order_relaxed);
-}
-
-void Pass::add_counts(const TileCounts& counts) {
   rays_.fetch_add(counts.rays, std::memory_order_relaxed);
   shadow_rays_.fetch_add(counts.shadow_rays, std::memory_order_relaxed);
   splits_.fetch_add(counts.splits, std::memory_order_relaxed);
   cut_high_.fetch_add(counts.cut_throughput.high, std::memory_order_relaxed);
   cut_low_.fetch_add(counts.cut_throughput.low, std::memory_order_relaxed);
+  return true;
 }
 
 }  // namespace tyndall

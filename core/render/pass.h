@@ -52,9 +52,8 @@ class Pass {
   /// Samples first … last - 1 of the region's pixels. step, skip_step: see TileJob.
   Pass(Region region, std::uint32_t first, std::uint32_t last, int step = 1, int skip_step = 0, Tiling tiling = {});
 
-  /// Brings each pixel of the film's region to `wanted` samples (row by row); pixels that have more keep them.
-  Pass(const Film& film, std::vector<std::uint32_t> wanted, Tiling tiling = {});
-  /// The same for the pixels of a part of the film's region; `wanted` is as long as before.
+  /// Brings each pixel of a part of the film's region to `wanted` samples, which has a number for each pixel of the
+  /// region (row by row). Pixels that have more keep them.
   Pass(const Film& film, std::vector<std::uint32_t> wanted, const Region& part, Tiling tiling = {});
 
   /// Runs the units that are left and adds them to `film`, until all are done or `give_up` is set: then it returns
@@ -75,10 +74,8 @@ class Pass {
  private:
   void cut(Tiling tiling, std::uint32_t samples);
   Region tile(int index) const;
-  bool run_tile(int index, const RenderEngine& engine, Film& film);
   bool fill_tile(int index, const RenderEngine& engine, Film& film, const std::atomic<bool>& give_up);
-  void add_tile(const Region& where, int step, bool replace, Film& film);
-  void add_counts(const TileCounts& counts);
+  bool run_job(const TileJob& job, const RenderEngine& engine, Film& film);
 
   Region region_;
   std::uint32_t first_ = 0, last_ = 0;

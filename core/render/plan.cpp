@@ -45,11 +45,6 @@ struct Cells {
 
 constexpr double max_taken = 1 << 24;  // more samples would overflow a film's sums
 
-void for_rows(ThreadPool* thread_pool, int rows, const std::function<void(int)>& job) {
-  if (thread_pool) return thread_pool->for_each(rows, job);
-  for (int row = 0; row < rows; ++row) job(row);
-}
-
 /// The noise of some pixels, as sums over those with samples in both halves.
 struct Variance {
   double sum = 0;  ///< sum of squared relative error times count²
@@ -84,15 +79,15 @@ double demand_of(const std::vector<Variance>& variances, const Cells& cells, int
 }
 
 /// The demand of each cell, relative to the mean over all cells; above 0, so that a round can reach its mean.
-std::vector<double> demands_of(const Film& film, const Cells& cells, ThreadPool* thread_pool) {
-  const std::vector<double> errors = squared_relative_errors(film, thread_pool);
+std::vector<double> demands_of(const Film& film, const Cells& cells, ThreadPool& thread_pool) {
+  const std::vector<double> errors = squared_relative_errors(film, &thread_pool);
   std::vector<Variance> variances(cells.count());
-  for_rows(thread_pool, cells.rows, [&](int row) {
+  thread_pool.for_each(cells.rows, [&](int row) {
     for (int column = 0; column < cells.columns; ++column)
       variances[cells.index(column, row)] = variance_in(film, errors, cells.pixels(column, row));
   });
   std::vector<double> demands(cells.count());
-  for_rows(thread_pool, cells.rows, [&](int row) {
+  thread_pool.for_each(cells.rows, [&](int row) {
     for (int column = 0; column < cells.columns; ++column)
       demands[cells.index(column, row)] = demand_of(variances, cells, column, row);
   });
@@ -182,7 +177,7 @@ std::uint32_t round_mean(const Film& film, std::uint32_t PlannedSamples::*count)
 
 }  // namespace
 
-void plan_round(Film& film, ThreadPool* thread_pool) {
+void plan_round(Film& film, ThreadPool& thread_pool) {
   const Cells cells(film.region);
   std::vector<PlannedSamples> planned(cells.count());
   for (std::size_t i = 0; i < planned.size(); ++i) {
@@ -209,7 +204,7 @@ std::uint32_t planned_mean(const Film& film) {
   return film.planned.empty() ? 0 : round_mean(film, &PlannedSamples::to);
 }
 
-std::uint32_t end_of_round(Film& film, std::uint32_t taken, ThreadPool* thread_pool) {
+std::uint32_t end_of_round(Film& film, std::uint32_t taken, ThreadPool& thread_pool) {
   if (taken < warm_up) return warm_up;
   if (taken >= planned_mean(film)) plan_round(film, thread_pool);
   return planned_mean(film);

@@ -34,15 +34,15 @@ inline constexpr double max_of_mean = 16;     ///< greatest multiple of the mean
 inline constexpr double min_gain = 1.1;       ///< factor by which uneven counts must promise to lower relMSE to be used
 
 /// Starts a round: sets film.planned for a mean of twice the film's samples, made a power of two. All pixels of a cell
-/// must have the same count. thread_pool: does the work; null: the caller's thread does, with the same result.
-void plan_round(Film& film, ThreadPool* thread_pool = nullptr);
+/// must have the same count.
+void plan_round(Film& film, ThreadPool& thread_pool);
 
 /// The mean number of samples at the end of the planned round; 0 if no round is planned.
 std::uint32_t planned_mean(const Film& film);
 
 /// The mean number of samples at which a pass that starts at a mean of `taken` must end at the latest: warm_up, later
 /// the end of the round. Plans the next round if the last one is over.
-std::uint32_t end_of_round(Film& film, std::uint32_t taken, ThreadPool* thread_pool = nullptr);
+std::uint32_t end_of_round(Film& film, std::uint32_t taken, ThreadPool& thread_pool);
 
 /// Whether a round is planned in which cells get different counts.
 bool planned_unevenly(const Film& film);

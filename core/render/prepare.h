@@ -4,36 +4,12 @@
 #include "core/scene/scene.h"
 #include "core/trace/scene_view.h"
 
-#include <cstddef>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
 
 /// The stage between compiling a scene and rendering it.
 namespace tyndall {
-
-/// Whether specular paths compute the light that comes from a light by way of a shape. Both are indices into
-/// Flattened::shapes of the scene.
-using IsFound = std::function<bool(std::size_t light, std::size_t shape)>;
-
-/// Glass and polished metal throw light on other surfaces. Shadow rays do not find that light: a path has to hit the
-/// light by BSDF sampling, by way of the smooth shape. Returns the smallest probability of that in a scene, in (0, 1]:
-/// for each pair of a light and a smooth shape that catches at least a hundredth of its light, the fraction of all
-/// directions that the light fills as seen from the shape. 1 if there is no such pair, or no matt surface that would
-/// show such light.
-/// - A light seen in metal with a little fuzz counts as larger, by the width of the metal's lobe. Shadow rays are sent
-/// from such metal, but a path from a wall reaches it by BSDF sampling only. Above a fuzz of 0.05 metal is not smooth.
-/// - A light within glass, such as a bulb, shines on everything through it. It counts as seen from the nearest matt
-/// surface, or from the glass if that is farther from the light.
-/// With fewer than about 2 / chance samples a pixel, most pixels have not met such light at all. Then their two halves
-/// agree on a wrong value, and the estimated error is too small.
-/// is_found: pairs to leave out; empty: none.
-double chance_of_caustics(const Scene& scene, const IsFound& is_found = {});
-
-/// The same without pairs whose light specular paths compute, or whose shape the scene's guide knows. compiled: made
-/// from this scene. guide: null: none.
-double chance_of_caustics(const Scene& scene, const RenderScene& compiled, const Guide* guide = nullptr);
 
 /// All that is known about a scene before its first sample: its compiled columns, the subpixel lights that the camera
 /// sees, whether second vertices are reused between pixels, and how likely paths are to meet caustics. It never
@@ -54,7 +30,17 @@ class PreparedScene {
   const ReuseGain& reuse_gain() const { return reuse_gain_; }
   /// Directions from which light comes by way of several near-specular surfaces or off metal of little fuzz.
   const Guide& guide() const { return view_.guide; }
-  /// See chance_of_caustics(). Computed at the first call, as only pictures of many samples need it.
+  /// Glass and polished metal throw light on other surfaces. Shadow rays do not find that light: unless specular paths
+  /// or the guide do, a path has to hit the light by BSDF sampling, by way of the smooth shape. Returns the smallest
+  /// probability of that, in (0, 1]: for each pair of a light and a smooth shape that catches at least a hundredth of
+  /// its light, the fraction of all directions that the light fills as seen from the shape. 1 if there is no such pair,
+  /// or no matt surface or medium that would show such light. With fewer than about 2 / chance samples a pixel, most
+  /// pixels have not met such light at all. Then their halves agree on a wrong value: the estimated error is too small.
+  /// - A light seen in metal with a little fuzz counts as larger, by the width of the metal's lobe. Shadow rays are
+  /// sent from such metal, but a path from a wall reaches it by BSDF sampling only.
+  /// - A light within a ball, such as a bulb, counts as seen from its surface, unless the camera is in the ball, too.
+  /// - The light of a picture of the sky counts as one light as wide as its spread, see SkyDistribution.
+  /// Computed at the first call, as only pictures of many samples need it.
   double caustic_chance() const;
 
  private:

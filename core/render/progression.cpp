@@ -38,103 +38,78 @@ std::uint32_t pass_samples(const PassLength& length, std::uint32_t taken, std::s
   return std::max(static_cast<std::uint32_t>(std::min(wish, maximum)), 1u);
 }
 
-PassSchedule::PassSchedule(const ProgressionOptions& options, const Film& film) : options_(options) {
-  const FilmTotals sum = totals(film);
-  if (planned_unevenly(film)) {  // the next pass gives each pixel what it lacks
-    taken_ = static_cast<std::uint32_t>(sum.samples / film.pixels.size());
-    return;
-  }
-  taken_ = sum.min_taken;
-  // No pass more than doubles the samples, except those that refine a part first.
-  if (sum.max_taken > 4 * std::max(sum.min_taken, options.length.maximum))
-    max_ = sum.max_taken;
-  else if (sum.max_taken > sum.min_taken)
-    level_to_ = sum.max_taken;
-}
-
-Pass& PassSchedule::next(Film& film, std::optional<std::uint32_t> limit, double paths_per_second,
-                         const RenderEngine& engine) {
-  if (pass_) return *pass_;
-  const int step = next_step(film, paths_per_second, engine);
-  coarse_ = step > 1 ? step : 0;
-  if (level_to_ == 0 && taken_ > 0) pass_ = refining_pass(film, limit, paths_per_second, engine);
-  refining_ = pass_ != nullptr;
-  if (refining_) return *pass_;
-  end_ = 1;
-  if (level_to_ > 0) {
-    end_ = level_to_;
-    pass_ = std::make_unique<Pass>(film, std::vector<std::uint32_t>(film.pixels.size(), end_),
-                                   tiling_for(engine, paths_per_second));
-  } else if (coarse_ > 0) {
-    Tiling tiling = tiling_for(engine, paths_per_second);
+/// The interrupted pass goes on, if there is one.
+void Progression::start_pass(const RenderEngine& engine, std::optional<std::uint32_t> limit) {
+  Schedule& s = schedule_;
+  if (s.pass) return;
+  const int step = next_step(engine);
+  s.coarse = step > 1 ? step : 0;
+  if (s.level_to == 0 && s.taken > 0) s.pass = refining_pass(engine, limit);
+  s.refining = s.pass != nullptr;
+  if (s.refining) return;
+  s.end = std::max(s.level_to, 1u);
+  Tiling tiling = tiling_for(engine);
+  if (s.level_to > 0) {
+    s.pass = pass_to(s.end, film_.region, tiling);
+  } else if (s.coarse > 0) {
     tiling.reuses_paths = false;
-    pass_ =
-        std::make_unique<Pass>(film.region, film.first_sample, film.first_sample + 1, coarse_, coarse_done_, tiling);
+    s.pass = std::make_unique<Pass>(film_.region, film_.first_sample, film_.first_sample + 1, s.coarse, s.coarse_done,
+                                    tiling);
   } else {
-    pass_ = full_pass(film, limit, paths_per_second, engine);
+    s.pass = full_pass(engine, limit);
   }
-  return *pass_;
 }
 
 /// Step of the next pass: above 1, it is a coarse one.
-int PassSchedule::next_step(const Film& film, double paths_per_second, const RenderEngine& engine) const {
-  if (level_to_ > 0 || taken_ > 0) return 1;
-  if (coarse_done_ == 0) return options_.coarse_step;
-  const auto pixels = static_cast<std::int64_t>(film.pixels.size());
-  return engine.samples && is_slow_source(pixels, paths_per_second) ? coarse_done_ / 2 : 1;
+int Progression::next_step(const RenderEngine& engine) const {
+  if (schedule_.level_to > 0 || taken() > 0) return 1;
+  if (schedule_.coarse_done == 0) return options_.coarse_step;
+  const auto pixels = static_cast<std::int64_t>(film_.pixels.size());
+  return engine.samples && is_slow_source(pixels, tally_.last_paths_per_second) ? schedule_.coarse_done / 2 : 1;
 }
 
 /// Tiles of passes. A source of samples may be slow: its tile jobs have as many paths as take about 2 ms.
-Tiling PassSchedule::tiling_for(const RenderEngine& engine, double paths_per_second) const {
+Tiling Progression::tiling_for(const RenderEngine& engine) const {
   Tiling tiling{options_.tile, engine.scene.reuses_paths};
   if (!engine.samples) return tiling;
-  tiling.paths = source_paths_per_tile(paths_per_second, engine.thread_pool.size());
+  tiling.paths = source_paths_per_tile(tally_.last_paths_per_second, engine.thread_pool.size());
   tiling.any_edge = true;
   return tiling;
 }
 
-std::unique_ptr<Pass> PassSchedule::full_pass(Film& film, std::optional<std::uint32_t> limit, double paths_per_second,
-                                              const RenderEngine& engine) {
-  const Tiling tiling = tiling_for(engine, paths_per_second);
-  end_ = taken_ + pass_samples(options_.length, taken_, film.pixels.size(), paths_per_second);
-  if (limit) end_ = std::min(end_, *limit);
-  if (options_.adaptive) end_ = std::min(end_, end_of_round(film, taken_, &engine.thread_pool));
-  if (planned_unevenly(film)) return std::make_unique<Pass>(film, counts_at(film, end_), tiling);
-  if (max_ > taken_) return std::make_unique<Pass>(film, std::vector<std::uint32_t>(film.pixels.size(), end_), tiling);
+/// Brings the pixels of a part to so many samples.
+std::unique_ptr<Pass> Progression::pass_to(std::uint32_t samples, const Region& part, const Tiling& tiling) const {
+  return std::make_unique<Pass>(film_, std::vector<std::uint32_t>(film_.pixels.size(), samples), part, tiling);
+}
+
+std::unique_ptr<Pass> Progression::full_pass(const RenderEngine& engine, std::optional<std::uint32_t> limit) {
+  Schedule& s = schedule_;
+  const Tiling tiling = tiling_for(engine);
+  s.end = s.taken + pass_samples(options_.length, s.taken, film_.pixels.size(), tally_.last_paths_per_second);
+  if (limit) s.end = std::min(s.end, *limit);
+  if (options_.adaptive) s.end = std::min(s.end, end_of_round(film_, s.taken, engine.thread_pool));
+  if (planned_unevenly(film_)) return std::make_unique<Pass>(film_, counts_at(film_, s.end), film_.region, tiling);
+  if (s.max > s.taken) return pass_to(s.end, film_.region, tiling);
   // The pixels of a coarse pass keep their first sample, unless it was taken without its group.
-  const bool after_coarse = taken_ == 0 && coarse_done_ > 0;
-  replaces_ = after_coarse && tiling.reuses_paths;
-  if (replaces_) film.cut_throughput = {};
-  const int skip_step = after_coarse && !replaces_ ? coarse_done_ : 0;
-  return std::make_unique<Pass>(film.region, film.first_sample + taken_, film.first_sample + end_, 1, skip_step,
+  const bool after_coarse = s.taken == 0 && s.coarse_done > 0;
+  s.replaces = after_coarse && tiling.reuses_paths;
+  if (s.replaces) film_.cut_throughput = {};
+  const int skip_step = after_coarse && !s.replaces ? s.coarse_done : 0;
+  return std::make_unique<Pass>(film_.region, film_.first_sample + s.taken, film_.first_sample + s.end, 1, skip_step,
                                 tiling);
 }
 
-std::unique_ptr<Pass> PassSchedule::refining_pass(const Film& film, std::optional<std::uint32_t> limit,
-                                                  double paths_per_second, const RenderEngine& engine) {
-  const Region part = part_of(film, options_.first, engine.scene.reuses_paths);
+/// Null if no part is to be refined first, or if it has its samples.
+std::unique_ptr<Pass> Progression::refining_pass(const RenderEngine& engine, std::optional<std::uint32_t> limit) {
+  const Region part = part_of(film_, options_.first, engine.scene.reuses_paths);
   if (options_.adaptive || part.width() <= 0 || part.height() <= 0) return nullptr;
   const auto pixels = static_cast<std::size_t>(part.width()) * static_cast<std::size_t>(part.height());
-  const std::uint32_t minimum = min_taken(film, part);
+  const std::uint32_t minimum = min_taken(film_, part);
   PassLength length = options_.length;
   length.maximum = 1024;  // a small part takes little time
-  end_ = minimum + pass_samples(length, minimum, pixels, paths_per_second);
-  if (limit) end_ = std::min(end_, *limit);
-  if (end_ <= minimum) return nullptr;
-  return std::make_unique<Pass>(film, std::vector<std::uint32_t>(film.pixels.size(), end_), part,
-                                tiling_for(engine, paths_per_second));
-}
-
-void PassSchedule::finish() {
-  if (coarse_ > 0)
-    coarse_done_ = coarse_;
-  else if (refining_)
-    max_ = std::max(max_, end_);
-  else
-    taken_ = end_;
-  level_to_ = 0;
-  replaces_ = false;
-  pass_.reset();
+  schedule_.end = minimum + pass_samples(length, minimum, pixels, tally_.last_paths_per_second);
+  if (limit) schedule_.end = std::min(schedule_.end, *limit);
+  return schedule_.end > minimum ? pass_to(schedule_.end, part, tiling_for(engine)) : nullptr;
 }
 
 void Progression::start(const RenderScene& scene, const Region& region, std::uint32_t first_sample,
@@ -154,19 +129,29 @@ void Progression::start(const RenderScene& scene, const Region& region, std::uin
     film_.cut_throughput = {};
     film_.planned.clear();
   }
-  begin(PassSchedule(options), options);
+  begin(options);
 }
 
 void Progression::go_on(Film film, const ProgressionOptions& options) {
   film_ = std::move(film);
-  begin(PassSchedule(options, film_), options);
+  begin(options);
   const FilmTotals sum = totals(film_);
   tally_.samples = sum.samples, tally_.rejected = sum.rejected, tally_.truncated = sum.truncated;
+  if (planned_unevenly(film_)) {  // the next pass gives each pixel what it lacks
+    schedule_.taken = static_cast<std::uint32_t>(sum.samples / film_.pixels.size());
+    return;
+  }
+  schedule_.taken = sum.min_taken;
+  // No pass more than doubles the samples, except those that refine a part first.
+  if (sum.max_taken > 4 * std::max(sum.min_taken, options.length.maximum))
+    schedule_.max = sum.max_taken;
+  else if (sum.max_taken > sum.min_taken)
+    schedule_.level_to = sum.max_taken;
 }
 
-void Progression::begin(PassSchedule schedule, const ProgressionOptions& options) {
+void Progression::begin(const ProgressionOptions& options) {
   options_ = options;
-  schedule_ = std::move(schedule);
+  schedule_ = {};
   tally_ = {};
   last_write_ = Clock::now();
   pass_seconds_ = 0;
@@ -190,10 +175,10 @@ bool Progression::reached(const Limits& limits) const {
 
 bool Progression::run_pass(const RenderEngine& engine, const Limits& limits, const std::atomic<bool>& give_up,
                            const std::function<void()>& poll) {
-  Pass& pass = schedule_.next(film_, limits.spp, tally_.last_paths_per_second, engine);
+  start_pass(engine, limits.spp);
   const Clock::time_point start = Clock::now();
   running_from_ = options_.count_breaks ? last_write_ : start;
-  const bool whole = pass.run(engine, film_, give_up, poll);
+  const bool whole = schedule_.pass->run(engine, film_, give_up, poll);
   last_write_ = Clock::now();
   pass_seconds_ += seconds_between(start, last_write_);
   tally_.seconds += seconds_between(*running_from_, last_write_);
@@ -207,14 +192,23 @@ bool Progression::run_pass(const RenderEngine& engine, const Limits& limits, con
 }
 
 void Progression::finish_pass() {
-  const Pass& pass = *schedule_.pass();
+  Schedule& s = schedule_;
+  const Pass& pass = *s.pass;
   tally_.rays += pass.rays(), tally_.shadow_rays += pass.shadow_rays(), tally_.splits += pass.splits();
-  if (schedule_.replaces()) tally_.samples = tally_.rejected = tally_.truncated = 0;
+  if (s.replaces) tally_.samples = tally_.rejected = tally_.truncated = 0;
   tally_.samples += pass.paths(), tally_.rejected += pass.rejected(), tally_.truncated += pass.truncated();
   tally_.last_mrays_per_s = static_cast<double>(pass.rays()) / pass_seconds_ * 1e-6;
   tally_.last_paths_per_second = static_cast<double>(pass.paths()) / pass_seconds_;
   pass_seconds_ = 0;
-  schedule_.finish();
+  if (s.coarse > 0)
+    s.coarse_done = s.coarse;
+  else if (s.refining)
+    s.max = std::max(s.max, s.end);
+  else
+    s.taken = s.end;
+  s.level_to = 0;
+  s.replaces = false;
+  s.pass.reset();
 }
 
 bool Progression::estimate_is_due(const Limits& limits) const {
@@ -226,15 +220,15 @@ bool Progression::estimate_is_due(const Limits& limits) const {
 
 PassTally Progression::tally() const {
   PassTally all = tally_;
-  if (const Pass* pass = schedule_.pass())
+  if (const Pass* pass = schedule_.pass.get())
     all.rays += pass->rays(), all.shadow_rays += pass->shadow_rays(), all.splits += pass->splits();
   if (running_from_) all.seconds += seconds_between(*running_from_, Clock::now());
   return all;
 }
 
 double Progression::cut_throughput() const {
-  const Pass* pass = schedule_.pass();
-  const std::uint64_t samples = (schedule_.replaces() ? 0 : tally_.samples) + (pass ? pass->paths() : 0);
+  const Pass* pass = schedule_.pass.get();
+  const std::uint64_t samples = (schedule_.replaces ? 0 : tally_.samples) + (pass ? pass->paths() : 0);
   return samples > 0 ? film_.cut_throughput.value() / static_cast<double>(samples) : 0;
 }
 

@@ -64,49 +64,6 @@ struct ProgressionOptions {
   EstimateTimes estimates{};
 };
 
-/// Decides which samples of a film come next, in this order: the rest of an interrupted pass; a coarse pass; the pixels
-/// that it left out; the part to refine first; then passes that grow, but never beyond the end of a round of adaptive
-/// sampling.
-class PassSchedule {
- public:
-  /// For a film that has no samples, or whose samples are replaced by the first pass.
-  explicit PassSchedule(const ProgressionOptions& options = {}) : options_(options) {}
-  /// Continues a film. Pixels that an interrupted pass left uneven are made even first.
-  PassSchedule(const ProgressionOptions& options, const Film& film);
-
-  /// Returns the interrupted pass, or starts a new one. limit: see Limits::spp; paths_per_second: see pass_samples().
-  Pass& next(Film& film, std::optional<std::uint32_t> limit, double paths_per_second, const RenderEngine& engine);
-  /// To be called when all tile jobs of the pass are done.
-  void finish();
-  /// See ProgressionOptions; from the next pass on.
-  void set_first(const Region& first) { options_.first = first; }
-
-  const Pass* pass() const { return pass_.get(); }  ///< null between passes
-  bool replaces() const { return replaces_; }       ///< whether the pass replaces the samples of the coarse one
-  std::uint32_t taken() const { return taken_; }    ///< samples of every pixel; after adaptive rounds their mean
-  std::uint32_t maximum() const { return std::max(taken_, max_); }  ///< samples of the part refined first
-  /// Step of the finest coarse pass that is complete; 0: there was none.
-  int coarse_done() const { return coarse_done_; }
-  /// Step of the present pass, if it is a coarse one; else 0.
-  int coarse() const { return coarse_; }
-
- private:
-  int next_step(const Film& film, double paths_per_second, const RenderEngine& engine) const;
-  Tiling tiling_for(const RenderEngine& engine, double paths_per_second) const;
-  std::unique_ptr<Pass> full_pass(Film& film, std::optional<std::uint32_t> limit, double paths_per_second,
-                                  const RenderEngine& engine);
-  std::unique_ptr<Pass> refining_pass(const Film& film, std::optional<std::uint32_t> limit, double paths_per_second,
-                                      const RenderEngine& engine);
-
-  ProgressionOptions options_;
-  std::unique_ptr<Pass> pass_;
-  int coarse_ = 0, coarse_done_ = 0;
-  bool refining_ = false, replaces_ = false;
-  std::uint32_t taken_ = 0, end_ = 0;
-  std::uint32_t max_ = 0;       ///< if above taken_: samples of the pixels that were refined first
-  std::uint32_t level_to_ = 0;  ///< samples that an interrupted pass gave to some pixels: all get these first; 0: none
-};
-
 /// Counts and times since the start.
 struct PassTally {
   std::uint64_t rays = 0, shadow_rays = 0, splits = 0;     ///< up to now
@@ -115,14 +72,17 @@ struct PassTally {
   double last_mrays_per_s = 0, last_paths_per_second = 0;  ///< of the last whole pass; 0: there was none
 };
 
-/// A film and the passes that fill it.
+/// A film and the passes that fill it, in this order: the rest of an interrupted pass; a coarse pass; the pixels that
+/// it left out; the part to refine first; then passes that grow, but never beyond the end of a round of adaptive
+/// sampling.
 class Progression {
  public:
   /// Starts a picture of the scene, without samples. Reuses the film's memory if the size is the same. Changes nothing
   /// if it throws std::bad_alloc.
   void start(const RenderScene& scene, const Region& region, std::uint32_t first_sample,
              const ProgressionOptions& options);
-  /// Continues a film that was rendered from the same scene with the same `adaptive`.
+  /// Continues a film that was rendered from the same scene with the same `adaptive`. Pixels that an interrupted pass
+  /// left uneven are made even first.
   void go_on(Film film, const ProgressionOptions& options);
 
   /// Estimates the error of the present film, if it has two samples a pixel. If `give_up` is set meanwhile, the
@@ -144,23 +104,23 @@ class Progression {
   /// Gives back the film that take_film() returned, unchanged.
   void put_back(Film film) { film_ = std::move(film); }
   /// Samples that every pixel has; with adaptive sampling their mean. 0 while only a coarse pass exists.
-  std::uint32_t taken() const { return schedule_.taken(); }
+  std::uint32_t taken() const { return schedule_.taken; }
   /// Samples of the pixels that were refined first; taken() where there are none.
-  std::uint32_t max_taken() const { return schedule_.maximum(); }
+  std::uint32_t max_taken() const { return std::max(schedule_.taken, schedule_.max); }
   /// See ProgressionOptions; from the next pass on.
-  void set_first(const Region& first) { schedule_.set_first(first); }
+  void set_first(const Region& first) { options_.first = first; }
   /// Whether there is a picture to show.
-  bool has_picture() const { return taken() > 0 || schedule_.coarse_done() > 0; }
+  bool has_picture() const { return taken() > 0 || schedule_.coarse_done > 0; }
   /// 1, or larger after a coarse pass and before the first one: only every step-th pixel in x and y has samples then.
   int step() const {
     if (taken() > 0) return 1;
-    return schedule_.coarse_done() > 0 ? schedule_.coarse_done() : options_.coarse_step;
+    return schedule_.coarse_done > 0 ? schedule_.coarse_done : options_.coarse_step;
   }
   /// Whether a pass was interrupted that gives the pixels beside those of a coarse pass their first samples, in a film
   /// that was cleared before: pixels without samples have none yet.
-  bool is_filling() const { return options_.clear && taken() == 0 && within_pass() && schedule_.coarse() == 0; }
+  bool is_filling() const { return options_.clear && taken() == 0 && within_pass() && schedule_.coarse == 0; }
   /// Whether a pass was interrupted and is not complete.
-  bool within_pass() const { return schedule_.pass() != nullptr; }
+  bool within_pass() const { return schedule_.pass != nullptr; }
   /// May be called from run_pass()'s poll.
   PassTally tally() const;
   /// Light lost by ending paths at max_depth: see FilmTotals::cut_throughput.
@@ -174,13 +134,31 @@ class Progression {
 
  private:
   using Clock = std::chrono::steady_clock;
-  void begin(PassSchedule schedule, const ProgressionOptions& options);
+  /// Where the picture stands between the passes that it needs.
+  struct Schedule {
+    std::unique_ptr<Pass> pass;  ///< null between passes
+    int coarse = 0;              ///< step of the present pass, if it is a coarse one; else 0
+    int coarse_done = 0;         ///< step of the finest coarse pass that is complete; 0: there was none
+    bool refining = false;       ///< the pass is one over the part to refine first
+    bool replaces = false;       ///< the pass replaces the samples of the coarse one
+    std::uint32_t taken = 0;     ///< samples of every pixel; after adaptive rounds their mean
+    std::uint32_t end = 0;       ///< the same after the present pass
+    std::uint32_t max = 0;       ///< if above `taken`: samples of the pixels that were refined first
+    std::uint32_t level_to = 0;  ///< samples that an interrupted pass gave to some pixels: all get these first; 0: none
+  };
+  void begin(const ProgressionOptions& options);
+  void start_pass(const RenderEngine& engine, std::optional<std::uint32_t> limit);
+  int next_step(const RenderEngine& engine) const;
+  Tiling tiling_for(const RenderEngine& engine) const;
+  std::unique_ptr<Pass> pass_to(std::uint32_t samples, const Region& part, const Tiling& tiling) const;
+  std::unique_ptr<Pass> full_pass(const RenderEngine& engine, std::optional<std::uint32_t> limit);
+  std::unique_ptr<Pass> refining_pass(const RenderEngine& engine, std::optional<std::uint32_t> limit);
   bool estimate_is_due(const Limits& limits) const;
   void finish_pass();
 
   Film film_;
   ProgressionOptions options_;
-  PassSchedule schedule_;
+  Schedule schedule_;
   PassTally tally_;
   Clock::time_point last_write_;
   std::optional<Clock::time_point> running_from_;  ///< set while run_pass() runs: start of the time to add

@@ -27,53 +27,6 @@ ProgressionOptions progression_options(const RenderOptions& options, bool report
   return made;
 }
 
-/// The clean view of a render. It is made of the finished film; if its error decides when to stop, also now and then
-/// before.
-class CleanView {
- public:
-  CleanView(const RenderOptions& options, const RenderEngine& engine, PixelLevels& levels)
-      : wanted_(options.clean),
-        target_(options.target_error),
-        engine_(engine),
-        levels_(levels),
-        cleaner_(engine.kernels) {}
-
-  /// Whether its error is small enough to stop. Filters so seldom that this takes at most a quarter of the time.
-  bool is_good(const Progression& picture) {
-    if (!wanted_ || target_ <= 0 || picture.taken() < min_clean_spp) return false;
-    if (cleaned_ != picture.taken() && seconds_ <= picture.tally().seconds / 4) make(picture.film(), picture.taken());
-    return cleaned_ == picture.taken() && clean_.relative_error <= target_;
-  }
-  /// Moves the clean view of the film into the result.
-  void finish(const Film& film, std::uint32_t taken, bool whole, RenderResult& result) {
-    if (!wanted_ || totals(film).min_taken < min_clean_spp) return;
-    if (!whole || cleaned_ != taken) make(film, taken);
-    result.clean = std::move(clean_);
-    result.seconds_clean = seconds_;
-    cleaned_ = 0;
-  }
-  /// Estimated relative error of the newest clean view; infinite before the first.
-  double error() const { return clean_.relative_error; }
-
- private:
-  void make(const Film& film, std::uint32_t taken) {
-    const auto start = std::chrono::steady_clock::now();
-    const std::atomic<bool> never = false;
-    cleaner_.run(film, engine_, &levels_, never, clean_);
-    seconds_ += seconds_since(start);
-    cleaned_ = taken;
-  }
-
-  bool wanted_;
-  double target_;
-  RenderEngine engine_;
-  PixelLevels& levels_;
-  FilmCleaner cleaner_;
-  CleanPicture clean_;
-  std::uint32_t cleaned_ = 0;  ///< samples a pixel of the newest clean view
-  double seconds_ = 0;
-};
-
 /// A render, from its first pass to its result.
 class Rendering {
  public:
@@ -82,7 +35,8 @@ class Rendering {
         progress_(progress),
         kernels_(kernels_of(options.isa)),
         limits_{options.spp, options.time_limit, options.clean ? 0 : options.target_error},
-        view_(scene.view()) {
+        view_(scene.view()),
+        cleaner_(kernels_) {
     const ProgressionOptions how = progression_options(options, progress != nullptr);
     const RenderScene& columns = scene.columns();
     const Region whole{0, 0, columns.width, columns.height};
@@ -92,7 +46,6 @@ class Rendering {
       picture_.go_on(std::move(film), how);
     thread_pool_.emplace(options.threads);
     engine_.emplace(RenderEngine{*thread_pool_, kernels_, view_, options.samples.get()});
-    clean_.emplace(options, *engine_, picture_.levels());
   }
 
   RenderResult run() {
@@ -107,8 +60,20 @@ class Rendering {
 
  private:
   /// Limits are checked between passes only, also where a pass is interrupted for a break.
-  bool finished() {
-    return stopped_ || (!picture_.within_pass() && (picture_.reached(limits_) || clean_->is_good(picture_)));
+  bool finished() { return stopped_ || (!picture_.within_pass() && (picture_.reached(limits_) || clean_is_good())); }
+
+  /// Whether the clean view's error is small enough to stop. It is made of the finished film; if its error decides when
+  /// to stop, also now and then before, so seldom that this takes at most a quarter of the time.
+  bool clean_is_good() {
+    if (!options_.clean || options_.target_error <= 0 || picture_.taken() < min_clean_spp) return false;
+    if (cleaned_ != picture_.taken() && clean_seconds_ <= picture_.tally().seconds / 4) clean(picture_.film());
+    return cleaned_ == picture_.taken() && clean_.relative_error <= options_.target_error;
+  }
+  void clean(const Film& film) {
+    const auto start = std::chrono::steady_clock::now();
+    cleaner_.run(film, *engine_, &picture_.levels(), never_, clean_);
+    clean_seconds_ += seconds_since(start);
+    cleaned_ = picture_.taken();
   }
 
   /// Reports progress and finds out what is due. Called while a pass runs, and after each pass.
@@ -122,7 +87,7 @@ class Rendering {
   void report() {
     const PassTally tally = picture_.tally();
     const double rate = tally.seconds > 0 ? millions(tally.rays) / tally.seconds : 0;
-    const double error = options_.clean && options_.target_error > 0 ? clean_->error() : picture_.error();
+    const double error = options_.clean && options_.target_error > 0 ? clean_.relative_error : picture_.error();
     if (!progress_({picture_.taken(), tally.seconds, rate, error})) stopped_ = true;
   }
 
@@ -143,12 +108,15 @@ class Rendering {
     result.threads = thread_pool_->size();
     result.kernels = kernels_;
     result.interrupted = stopped_;
-    const bool whole = !picture_.within_pass();
-    const std::atomic<bool> never = false;
-    if (progress_ && !picture_.estimate_is_new()) picture_.estimate_now(*engine_, never);
+    if (progress_ && !picture_.estimate_is_new()) picture_.estimate_now(*engine_, never_);
     if (picture_.taken() >= 2 && (progress_ || picture_.estimate_is_new())) result.estimate = picture_.estimate();
     result.film = picture_.take_film();
-    clean_->finish(result.film, picture_.taken(), whole, result);
+    if (options_.clean && totals(result.film).min_taken >= min_clean_spp) {
+      if (picture_.within_pass() || cleaned_ != picture_.taken()) clean(result.film);
+      result.clean = std::move(clean_);
+      result.seconds_clean = clean_seconds_;
+      cleaned_ = 0;
+    }
     if (!options_.samples) result.first_rejected = find_rejected(kernels_, view_, result.film);
     return result;
   }
@@ -161,8 +129,12 @@ class Rendering {
   Progression picture_;
   std::optional<ThreadPool> thread_pool_;
   std::optional<RenderEngine> engine_;
-  std::optional<CleanView> clean_;
+  FilmCleaner cleaner_;
+  CleanPicture clean_;         ///< the newest one
+  std::uint32_t cleaned_ = 0;  ///< samples a pixel that it was made from; 0: there is none
+  double clean_seconds_ = 0;   ///< spent on all of them
   std::atomic<bool> give_up_ = false;
+  const std::atomic<bool> never_ = false;
   bool stopped_ = false, film_due_ = false, result_due_ = false;
 };
 

@@ -5,34 +5,20 @@
 #include <set>
 
 namespace tyndall {
-namespace {
-
-constexpr std::uint32_t job_samples = 1024;
-constexpr std::uint32_t jobs = PixelLevels::samples / job_samples;
-
-}  // namespace
-
 std::vector<Vec3f> PixelLevels::of(const std::vector<std::size_t>& pixels, const Film& film, const RenderEngine& engine,
                                    const std::atomic<bool>& give_up) {
+  constexpr std::uint32_t job_samples = 1024, jobs = samples / job_samples;
   std::vector<std::size_t> unknown;
   std::copy_if(pixels.begin(), pixels.end(), std::back_inserter(unknown),
                [&](std::size_t pixel) { return !known_.contains(pixel); });
-  if (!unknown.empty() && !find(unknown, film, engine, give_up)) return {};
-  std::vector<Vec3f> levels;
-  for (const std::size_t pixel : pixels) levels.push_back(known_.at(pixel));
-  return levels;
-}
-
-bool PixelLevels::find(const std::vector<std::size_t>& pixels, const Film& film, const RenderEngine& engine,
-                       const std::atomic<bool>& give_up) {
   SceneView scene = engine.scene;
   scene.seed = ~scene.seed;    // samples independent of the film's
   scene.reuses_paths = false;  // a pixel's samples without its group
   const auto width = static_cast<std::size_t>(film.region.width());
-  std::vector<FilmPixel> parts(pixels.size() * jobs);
+  std::vector<FilmPixel> parts(unknown.size() * jobs);
   engine.thread_pool.for_each(static_cast<int>(parts.size()), [&](int i) {
     if (give_up.load(std::memory_order_relaxed)) return;
-    const std::size_t part = static_cast<std::size_t>(i), pixel = pixels[part / jobs];
+    const std::size_t part = static_cast<std::size_t>(i), pixel = unknown[part / jobs];
     const int x = film.region.x0 + static_cast<int>(pixel % width),
               y = film.region.y0 + static_cast<int>(pixel / width);
     const auto first = static_cast<std::uint32_t>(part % jobs) * job_samples;
@@ -40,13 +26,15 @@ bool PixelLevels::find(const std::vector<std::size_t>& pixels, const Film& film,
     engine.kernels.render_tile(scene, {{x, y, x + 1, y + 1}, 1, 0, first, first + job_samples}, film.quantum,
                                &parts[part], counts);
   });
-  if (give_up.load(std::memory_order_relaxed)) return false;
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
+  if (!unknown.empty() && give_up.load(std::memory_order_relaxed)) return {};
+  for (std::size_t i = 0; i < unknown.size(); ++i) {
     FilmPixel whole;
     for (std::size_t k = 0; k < jobs; ++k) add_pixel(whole, parts[i * jobs + k]);
-    known_[pixels[i]] = mean(film, whole);
+    known_[unknown[i]] = mean(film, whole);
   }
-  return true;
+  std::vector<Vec3f> levels;
+  for (const std::size_t pixel : pixels) levels.push_back(known_.at(pixel));
+  return levels;
 }
 
 LevelsOf levels_of(const Film& film, const RenderEngine& engine, PixelLevels& levels,

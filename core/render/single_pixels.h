@@ -24,9 +24,6 @@ class PixelLevels {
                         const std::atomic<bool>& give_up);
 
  private:
-  bool find(const std::vector<std::size_t>& pixels, const Film& film, const RenderEngine& engine,
-            const std::atomic<bool>& give_up);
-
   std::unordered_map<std::size_t, Vec3f> known_;  ///< by index of the pixel in the film
 };
 

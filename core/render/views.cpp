@@ -116,18 +116,6 @@ std::vector<float> noise_rgba(const std::vector<float>& errors) {
   return greys(errors.size(), [&](std::size_t i) { return std::min(errors[i], 1.0f); });
 }
 
-double twice_mean_samples(const Film& film) {
-  const auto all = static_cast<double>(std::max<std::uint64_t>(1, totals(film).samples));
-  return 2 * all / static_cast<double>(film.pixels.size());
-}
-
-/// The number of samples of each pixel as grey: twice the mean and more is white.
-std::vector<float> samples_rgba(const Film& film) {
-  const auto twice_mean = static_cast<float>(twice_mean_samples(film));
-  return greys(film.pixels.size(),
-               [&](std::size_t i) { return std::min(static_cast<float>(film.pixels[i].taken) / twice_mean, 1.0f); });
-}
-
 /// Rays a path through each pixel takes: the mean over cells of 4 x 4 pixels. To count them, the pixels' first 4
 /// samples are rendered once more. Empty if `give_up` was set meanwhile.
 std::vector<float> find_costs(const Kernels& kernels, const SceneView& scene, ThreadPool& thread_pool,
@@ -152,42 +140,30 @@ std::vector<float> find_costs(const Kernels& kernels, const SceneView& scene, Th
   return costs;
 }
 
-/// The largest value, but always above 0.
-float largest(const std::vector<float>& values) {
-  return values.empty() ? 1e-37f : std::max(1e-37f, *std::max_element(values.begin(), values.end()));
-}
-
-/// The largest depth, but always above 0.
-float farthest(const std::vector<FirstHit>& hits) {
+/// The largest of some values, but always above 0.
+template <class List, class Value>
+float largest(const List& list, const Value& value_of) {
   float found = 1e-37f;
-  for (const FirstHit& hit : hits) found = std::max(found, hit.depth);
+  for (const auto& one : list) found = std::max(found, value_of(one));
   return found;
 }
 
-/// A colour for each object, the same wherever it is seen. scene: owner of the elements that the hits name.
-std::vector<float> object_rgba(const std::vector<FirstHit>& hits, const RenderScene& scene) {
+/// Albedo, normal (x, y, z mapped to [0, 1]) or depth (grey, `white` is white) of the first hit of each pixel, or a
+/// colour for each object, the same wherever it is seen. scene: owner of the elements that the hits name.
+std::vector<float> first_hit_rgba(View view, const std::vector<FirstHit>& hits, const RenderScene& scene, float white) {
   std::vector<Vec3f> colours;
-  for (const std::int32_t object : scene.elements.object)
-    colours.push_back(colour_of_object(scene.objects.path(object)));
+  if (view == View::object)
+    for (const std::int32_t object : scene.elements.object)
+      colours.push_back(colour_of_object(scene.objects.path(object)));
+  const auto colour_of = [&](const FirstHit& hit) {
+    if (hit.element < 0) return Vec3f{};
+    if (view == View::object) return colours[static_cast<std::size_t>(hit.element)];
+    if (view == View::albedo) return hit.albedo;
+    if (view == View::normal) return 0.5f * (hit.normal + Vec3f{1, 1, 1});
+    return (hit.depth / white) * Vec3f{1, 1, 1};
+  };
   std::vector<float> rgba(4 * hits.size());
-  for (std::size_t i = 0; i < hits.size(); ++i)
-    put(rgba, i, hits[i].element >= 0 ? colours[static_cast<std::size_t>(hits[i].element)] : Vec3f{});
-  return rgba;
-}
-
-/// Albedo, normal (x, y, z mapped to [0, 1]) or depth (grey, the farthest is white) of the first hit of each pixel.
-std::vector<float> first_hit_rgba(const std::vector<FirstHit>& hits, View view) {
-  const float white = farthest(hits);
-  std::vector<float> rgba(4 * hits.size());
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    const FirstHit& hit = hits[i];
-    const float depth = hit.depth / white;
-    const Vec3f normal = 0.5f * (hit.normal + Vec3f{1, 1, 1});
-    Vec3f colour{};
-    if (hit.element >= 0)
-      colour = view == View::albedo ? hit.albedo : view == View::normal ? normal : Vec3f{depth, depth, depth};
-    put(rgba, i, colour);
-  }
+  for (std::size_t i = 0; i < hits.size(); ++i) put(rgba, i, colour_of(hits[i]));
   return rgba;
 }
 
@@ -233,22 +209,19 @@ void Views::change_scene(std::shared_ptr<const PreparedScene> scene) {
   costs_due_ = true;
 }
 
-void Views::find_due_costs(const RenderEngine& engine, const std::atomic<bool>& give_up) {
-  if (!costs_due_) return;
-  std::vector<float> found = find_costs(engine.kernels, engine.scene, engine.thread_pool, give_up);
-  if (found.empty()) return;
-  costs_ = std::move(found);
-  costs_due_ = false;
-}
-
-/// Draws the view of noise or of samples. Until the new picture has enough samples, the old drawing stays.
+/// Draws the view of noise, or that of samples, in which twice their mean is white. Until the new picture has enough
+/// samples, the old drawing stays.
 void Views::draw_counts(View view, const Progression& picture, std::vector<float>& rgba) {
   const Film& film = picture.film();
   const std::uint32_t minimum = view == View::noise ? 2 : 1;  // fewer samples show nothing
   if (picture.taken() >= minimum) {
-    counts_ = view == View::noise ? noise_rgba(pixel_relative_error(film)) : samples_rgba(film);
+    const double mean = static_cast<double>(totals(film).samples) / static_cast<double>(film.pixels.size());
     counts_of_ = view;
-    white_of_counts_ = view == View::noise ? 1 : twice_mean_samples(film);
+    white_of_counts_ = view == View::noise ? 1 : 2 * mean;
+    const auto samples = [&, white = static_cast<float>(white_of_counts_)](std::size_t i) {
+      return std::min(static_cast<float>(film.pixels[i].taken) / white, 1.0f);
+    };
+    counts_ = view == View::noise ? noise_rgba(pixel_relative_error(film)) : greys(film.pixels.size(), samples);
   }
   const bool known = counts_of_ == view && counts_.size() == 4 * film.pixels.size();
   white_ = known ? white_of_counts_ : 1;
@@ -275,9 +248,13 @@ PictureGrid Views::draw(View view, const Progression& picture, const CleanFrame*
       draw_counts(view, picture, rgba);
       return every_pixel;
     case View::cost: {
-      find_due_costs(engine, give_up);
+      if (costs_due_) {
+        std::vector<float> found = find_costs(engine.kernels, engine.scene, engine.thread_pool, give_up);
+        costs_due_ = found.empty();
+        if (!costs_due_) costs_ = std::move(found);
+      }
       const bool known = costs_.size() == pixels;
-      const float maximum = largest(costs_);
+      const float maximum = largest(costs_, [](float cost) { return cost; });
       rgba = greys(pixels, [&](std::size_t i) { return known ? costs_[i] / maximum : 0.0f; });
       white_ = static_cast<double>(maximum);
       return every_pixel;
@@ -289,8 +266,9 @@ PictureGrid Views::draw(View view, const Progression& picture, const CleanFrame*
       break;
   }
   if (first_hits_.empty()) first_hits_ = find_first_hits(engine.kernels, engine.scene, engine.thread_pool);
-  rgba = view == View::object ? object_rgba(first_hits_, scene_->columns()) : first_hit_rgba(first_hits_, view);
-  if (view == View::depth) white_ = static_cast<double>(farthest(first_hits_));
+  const float farthest = largest(first_hits_, [](const FirstHit& hit) { return hit.depth; });
+  rgba = first_hit_rgba(view, first_hits_, scene_->columns(), farthest);
+  if (view == View::depth) white_ = static_cast<double>(farthest);
   return every_pixel;
 }
 

@@ -68,7 +68,6 @@ class Views {
   double white() const { return white_; }
 
  private:
-  void find_due_costs(const RenderEngine& engine, const std::atomic<bool>& give_up);
   void draw_counts(View view, const Progression& picture, std::vector<float>& rgba);
 
   std::shared_ptr<const PreparedScene> scene_;

@@ -5,19 +5,16 @@
 namespace tyndall {
 namespace {
 
-template <Target target>
-Kernels kernels_for() {
-  if constexpr (target == Target::scalar) {
-    return scalar_kernels();
-  } else {
-    Kernels kernels = full_kernel<target>();
-    if constexpr (floats_in(target) >= 8) add_kernel_sets<target>(kernels);
-    return kernels;
-  }
-}
-
 Kernels kernels_of(Target target) {
-  return use_target<TYNDALL_BUILT_TARGETS>(target, [](auto built) { return kernels_for<built()>(); });
+  return use_target<TYNDALL_BUILT_TARGETS>(target, [](auto built) {
+    if constexpr (built() == Target::scalar) {
+      return scalar_kernels();
+    } else {
+      Kernels kernels = full_kernel(built);
+      if constexpr (floats_in(built()) >= 8) add_kernel_sets(built, kernels);
+      return kernels;
+    }
+  });
 }
 
 }  // namespace

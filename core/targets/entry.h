@@ -6,9 +6,12 @@
 /// and fills a table of Kernels with them.
 namespace tyndall {
 
+// These functions are static, so that each file has its own copies: of an ordinary template the linker keeps one copy
+// for all files, and a copy with wide instructions would crash older CPUs.
+
 /// See TraceRays.
 template <class F>
-TYNDALL_INLINE void trace_rays(const SceneView& s, const TraceRay* rays, TraceHit* hits, int count, bool brute_force) {
+static void trace_rays(const SceneView& s, const TraceRay* rays, TraceHit* hits, int count, bool brute_force) {
   constexpr int lanes = lanes_of<F>;
   for (int first = 0; first < count; first += lanes) {
     alignas(64) float column[7][lanes] = {};
@@ -35,7 +38,7 @@ TYNDALL_INLINE void trace_rays(const SceneView& s, const TraceRay* rays, TraceHi
 
 /// See FirstHits.
 template <class F>
-TYNDALL_INLINE void first_hits(const SceneView& s, const Region& region, FirstHit* hits) {
+static void first_hits(const SceneView& s, const Region& region, FirstHit* hits) {
   constexpr int lanes = lanes_of<F>;
   const Pair<F> middle_of_lens{F(0.0f), F(0.0f)};
   const F time = splat<F>(s.camera.shutter_open + 0.5f * s.camera.shutter_length);
@@ -111,9 +114,6 @@ class EitherSamples {
   GroupSamples* groups_;
 };
 
-// The functions below are static, so that each file has its own copies: of an ordinary template the linker keeps one
-// copy for all files, and a copy with wide instructions would crash older CPUs.
-
 template <class F>
 [[gnu::noinline]] static void follow_either(const auto& s, const TileJob& job, const TileFilm& film,
                                             GroupSamples* groups, auto& recorder) {
@@ -157,32 +157,12 @@ static void render_any_entry(const SceneView& s, const TileJob& job, double film
   Recorder recorder{};
   render_either_tile<F>(s, job, {1 / film_quantum, pixels, emission, counts}, recorder, [](const GroupSamples&) {});
 }
-template <class F>
-static void trace_entry(const SceneView& s, const TraceRay* r, TraceHit* h, int n, bool brute_force) {
-  trace_rays<F>(s, r, h, n, brute_force);
-}
-template <class F>
-static void first_hits_entry(const SceneView& s, const Region& r, FirstHit* h) {
-  first_hits<F>(s, r, h);
-}
 /// A table in which one kernel with every model serves all KernelSets. It gives the same pictures, a little slower, and
 /// compiles much sooner: for references and for old processors.
 template <class F, class Recorder = NoRecorder>
 static Kernels full_kernel_of(const char* isa) {
   const RenderTile render = render_any_entry<F, Recorder>;
-  return {isa, lanes_of<F>, {render, render, render, render, render, render}, trace_entry<F>, first_hits_entry<F>};
-}
-
-/// See add_kernel_sets().
-template <class F>
-static void add_kernel_sets_of(Kernels& kernels) {
-  const auto add = [&](KernelSet set, RenderTile render) { kernels.render[static_cast<int>(set)] = render; };
-  using enum KernelSet;
-  add(common_models, render_tile_entry<F, common_models>);
-  add(specular_paths_only, render_tile_entry<F, specular_paths_only>);
-  add(guided_paths_only, render_tile_entry<F, guided_paths_only>);
-  add(no_specular_paths, render_tile_entry<F, no_specular_paths>);
-  add(no_media_no_textures, render_tile_entry<F, no_media_no_textures>);
+  return {isa, lanes_of<F>, {render, render, render, render, render, render}, trace_rays<F>, first_hits<F>};
 }
 
 }  // namespace tyndall

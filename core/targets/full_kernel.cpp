@@ -4,8 +4,7 @@
 
 namespace tyndall {
 
-template <>
-Kernels full_kernel<Target::TYNDALL_TARGET>() {
+Kernels full_kernel(TargetIs<Target::TYNDALL_TARGET>) {
   return full_kernel_of<KernelLanes>(name_of(Target::TYNDALL_TARGET));
 }
 

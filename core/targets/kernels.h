@@ -5,11 +5,14 @@
 
 #include <optional>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 /// The kernels as the rest of the program sees them: a table of functions for each instruction set. All tables are
 /// compiled from the same source.
 namespace tyndall {
+
+struct ReusedPaths;
 
 using RenderTile = void (*)(const SceneView& scene, const TileJob& job, double film_quantum, FilmPixel* pixels,
                             EmissionSums* emission, TileCounts& counts);
@@ -39,29 +42,22 @@ struct Kernels {
 };
 
 Kernels scalar_kernels();
+/// Follows the paths of groups with the scalar kernel, for probe_reuse(). scene: one with reuses_paths set.
+void trace_groups(const SceneView& scene, ReusedPaths& paths, TileCounts& counts);
 
 // Each is compiled with the flags of its instruction set. Call only what this build has and this CPU can run.
+template <Target target>
+using TargetIs = std::integral_constant<Target, target>;
 /// The kernel with every model, for all KernelSets.
-template <Target>
-Kernels full_kernel();
-template <>
-Kernels full_kernel<Target::sse4>();
-template <>
-Kernels full_kernel<Target::avx2>();
-template <>
-Kernels full_kernel<Target::avx512>();
-template <>
-Kernels full_kernel<Target::neon>();
-template <>
-Kernels full_kernel<Target::wasm>();
+Kernels full_kernel(TargetIs<Target::sse4>);
+Kernels full_kernel(TargetIs<Target::avx2>);
+Kernels full_kernel(TargetIs<Target::avx512>);
+Kernels full_kernel(TargetIs<Target::neon>);
+Kernels full_kernel(TargetIs<Target::wasm>);
 /// Gives the table of the full kernel a kernel of its own for each other KernelSet. Targets of 8 lanes and more have
 /// them.
-template <Target>
-void add_kernel_sets(Kernels& kernels);
-template <>
-void add_kernel_sets<Target::avx2>(Kernels& kernels);
-template <>
-void add_kernel_sets<Target::avx512>(Kernels& kernels);
+void add_kernel_sets(TargetIs<Target::avx2>, Kernels& kernels);
+void add_kernel_sets(TargetIs<Target::avx512>, Kernels& kernels);
 
 /// All kernels that this build has and this CPU can run, the narrowest ("scalar", which is always there) first.
 std::vector<Kernels> available_kernels();

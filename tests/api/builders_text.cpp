@@ -9,6 +9,8 @@
 
 #include <cctype>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace tyndall::test {
 namespace {
@@ -47,7 +49,7 @@ class Struct {
 
   void add(const std::string& declaration, const std::string& name, const std::string& help) {
     members_ += fmt::format("  {};{}\n", declaration, help.empty() ? "" : "  ///< " + help);
-    visits_ += fmt::format("    visit(\"{0}\", {0});\n", name);
+    entries_.push_back(fmt::format("(\"{0}\", {0})", name));
   }
   /// The fields that a scene file must give, or the others.
   template <class Owner>
@@ -69,15 +71,25 @@ class Struct {
   }
   /// list: where a scene keeps such things by name, as a JSON pointer; null: nowhere.
   std::string text(const char* list) const {
-    return fmt::format(
-        "/// {}\nstruct {} {{\n  static constexpr const char* type = \"{}\";\n{}{}  template <class Visit>\n"
-        "  void each(Visit& visit) const {{\n{}  }}\n}};\n\n",
-        about_, capital(type_), type_, list ? fmt::format("  static constexpr const char* list = \"{}\";\n", list) : "",
-        members_, visits_.empty() ? "    (void)visit;\n" : visits_);
+    return fmt::format("/// {}\nstruct {} {{\n{}{}  std::string json() const {{{}}}\n}};\n\n", about_, capital(type_),
+                       list ? fmt::format("  static constexpr const char* list = \"{}\";\n", list) : "", members_,
+                       body());
   }
 
  private:
-  std::string type_, about_, members_, visits_;
+  /// Of the function that writes the members: in the line of its name if that leaves it at most 120 columns wide.
+  std::string body() const {
+    std::string lines, line = fmt::format("return detail::Members(\"{}\")", type_);
+    for (const std::string& entry : entries_) {
+      if (line.size() + entry.size() > 108) lines += "\n    " + std::exchange(line, "    ");
+      line += entry;
+    }
+    line += ".text();";
+    return lines.empty() && line.size() < 90 ? " " + line + " " : lines + "\n    " + line + "\n  ";
+  }
+
+  std::string type_, about_, members_;
+  std::vector<std::string> entries_;
 };
 
 template <class... Kinds>

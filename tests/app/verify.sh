@@ -9,6 +9,13 @@ for isa in scalar sse4 avx2 avx512 neon; do
   expect 0 "$tyndall" verify "${quick[@]}" --isa $isa :out '0 rejected'
 done
 
+# Each kind of answer by the best instruction set.
+expect 0 "$tyndall" verify plate/reflected-n2.417-80 plate/transmitted-n1.5-60 coloured-glass/n2-density1-b0.9 \
+  smoke-ball/density1-b0.6 fog-ball/depth2-albedo0.9-b0.6 fog-layer/reflected-depth1-albedo0.9-60deg \
+  thick-fog/density1000-albedo0.9-60deg mcml/thin-transmitted cornell-lamp square-lamp/corner-h1- ball-lamp/d2-60deg \
+  ball-lamp/d2-45deg-nee integrating-sphere/albedo0.95- integrating-sphere/albedo0.2 rainbow hollow-ball fuzzy-ball/fuzz0.3 \
+  defocus/before defocus/close-
+
 # The results as a table and as JSON. Light paths alone are ended by smoke at random; mis weighs them, without noise.
 expect 0 "$tyndall" verify smoke-box plate/reflected-n1.5-60 --integrator path
 grep -q '^  plate/reflected-n1.5-60deg  *0.1637675 ' out || fail "no row: $(cat out)"

@@ -2,6 +2,7 @@
 #include "core/render/progression.h"
 #include "core/render/render.h"
 #include "core/scene/load.h"
+#include "core/system/processors.h"
 #include "tests/bench/bench.h"
 #include "tests/support/double_kernels.h"
 

@@ -79,13 +79,13 @@ TEST_CASE("adaptive: a pass that is given up leaves prefixes, and goes on to the
   const SceneViewOf view(scene);
   const Film whole = render(scene, options_of(128)).film;
   Film film = render(scene, options_of(64)).film;
-  plan_round(film);
+  ThreadPool thread_pool(2);
+  plan_round(film, thread_pool);
   stop.real = available_kernels().back();
   Kernels stopping = stop.real;
   for (RenderTile& quantum : stopping.render) quantum = stopping_tile;
-  ThreadPool thread_pool(2);
   const std::vector<std::uint32_t> wanted = counts_at(film, 128);
-  Pass pass(film, wanted);
+  Pass pass(film, wanted, film.region);
   int abandoned = 0;
   for (bool done = false; !done; ++abandoned) {
     stop.tiles_left = 3;

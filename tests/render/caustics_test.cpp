@@ -14,6 +14,7 @@ namespace {
 /// A floor, a glass sphere of radius 1, and a light `distance` above its centre.
 Scene sphere_under_light(double radius, double distance) {
   Scene scene;
+  scene.render.caustics = Caustics::scatter;
   scene.camera.look_from = {0, 2, 8};
   scene.materials = {{"floor", Vec3d{0.7, 0.7, 0.7}, Lambertian<>{}},
                      {"glass", Vec3d{1, 1, 1}, Dielectric<>{1.5}},
@@ -24,69 +25,61 @@ Scene sphere_under_light(double radius, double distance) {
   return scene;
 }
 
+/// The chance in a scene without a guide.
+double chance(const Scene& scene) {
+  return PreparedScene(std::make_shared<const Scene>(scene), compile(scene), std::make_shared<const Guide>())
+      .caustic_chance();
+}
+
 }  // namespace
 
 TEST_CASE("caustics: the chance is the light's fraction of all directions, seen from the glass") {
-  CHECK(chance_of_caustics(sphere_under_light(0.03, 3)) == doctest::Approx(0.5 * (1 - std::sqrt(1 - 1e-4))));
-  CHECK(chance_of_caustics(sphere_under_light(1.5, 3)) == doctest::Approx(0.5 * (1 - std::sqrt(0.75))));
-  CHECK(chance_of_caustics(sphere_under_light(4, 3)) == 1);  // the light is around the sphere and fills all directions
+  CHECK(chance(sphere_under_light(0.03, 3)) == doctest::Approx(0.5 * (1 - std::sqrt(1 - 1e-4))));
+  CHECK(chance(sphere_under_light(1.5, 3)) == doctest::Approx(0.5 * (1 - std::sqrt(0.75))));
+  CHECK(chance(sphere_under_light(4, 3)) == 1);  // the light is around the sphere and fills all directions
 }
 
-TEST_CASE("caustics: a light within glass is seen from the floor below, or from the glass if that is farther") {
-  // The light hangs 0.3 above the middle of the sphere, the floor 1 below it.
-  CHECK(chance_of_caustics(sphere_under_light(0.05, 0.3)) ==
-        doctest::Approx(0.5 * (1 - std::sqrt(1 - std::pow(0.05 / 1.3, 2)))));
-  CHECK(chance_of_caustics(sphere_under_light(0.05, 0)) == doctest::Approx(0.5 * (1 - std::sqrt(1 - 0.05 * 0.05))));
+TEST_CASE("caustics: a light within glass is seen from its surface") {
+  const auto seen_from_glass = doctest::Approx(0.5 * (1 - std::sqrt(1 - 0.05 * 0.05)));
+  CHECK(chance(sphere_under_light(0.05, 0.3)) == seen_from_glass);
+  CHECK(chance(sphere_under_light(0.05, 0)) == seen_from_glass);
   Scene scene = sphere_under_light(0.05, 0.3);
   scene.camera.look_from = {0.5, 0, 0};  // the camera is within the glass, too: a room, not a bulb
-  CHECK(chance_of_caustics(scene) > 0.005);
+  CHECK(chance(scene) > 0.005);
   scene = sphere_under_light(0.05, 0.3);
-  scene.materials[0].kind = Metal<>{0.5};  // now only the medium shows the light, and it begins 4 units from the light
-  CHECK(chance_of_caustics(scene) == 1);
+  scene.materials[0].kind = Metal<>{0.5};  // now only a medium can show the light
+  CHECK(chance(scene) == 1);
   scene.objects.push_back({"", Volume{Box<>{{4, -1, -1}, {6, 1, 1}}, {}, Medium<>{0.1, 0}, Vec3d{1, 1, 1}}, {}});
-  CHECK(chance_of_caustics(scene) == doctest::Approx(0.5 * (1 - std::sqrt(1 - std::pow(0.05 / 4, 2)))));
+  CHECK(chance(scene) == seen_from_glass);
 }
 
 TEST_CASE("caustics: the lobe of metal with a little fuzz makes the light larger") {
   Scene scene = sphere_under_light(0.03, 3);
   scene.materials[1].kind = Metal<>{0.01};
-  CHECK(chance_of_caustics(scene) == doctest::Approx(0.5 * (1 - std::sqrt(1 - 0.02 * 0.02))));
-}
-
-TEST_CASE("caustics: pairs that are found otherwise are left out") {
-  Scene scene = sphere_under_light(0.03, 3);
-  const double first = chance_of_caustics(scene);
-  scene.objects.push_back({"", Solid3d{Sphere<>{{0, 0, 5}, 0.1, {}}, 2}, {}});  // a second light: shape 3
-  const double both = chance_of_caustics(scene);
-  CHECK(both < first + 1e-12);
-  const auto second_is_found = [](std::size_t lamp, std::size_t shape) { return lamp == 3 && shape == 1; };
-  CHECK(chance_of_caustics(scene, second_is_found) == first);
-  CHECK(chance_of_caustics(scene, [](std::size_t, std::size_t) { return true; }) == 1);
+  CHECK(chance(scene) == doctest::Approx(0.5 * (1 - std::sqrt(1 - 0.02 * 0.02))));
 }
 
 TEST_CASE("caustics: none without something smooth that catches light, or something matt that shows it") {
   Scene scene = sphere_under_light(0.03, 3);
-  const double chance = chance_of_caustics(scene);
+  const double through_glass = chance(scene);
   scene.materials[1].kind = Metal<>{0};
-  CHECK(chance_of_caustics(scene) == chance);
+  CHECK(chance(scene) == through_glass);
   scene.materials[1].kind = Metal<>{0.1};  // metal of so much fuzz does not count as smooth
-  CHECK(chance_of_caustics(scene) == 1);
+  CHECK(chance(scene) == 1);
   scene = sphere_under_light(0.03, 3);
   scene.materials[0].kind = Metal<>{0.1};
-  CHECK(chance_of_caustics(scene) == 1);
-  CHECK(chance_of_caustics(sphere_under_light(0.03, 30)) ==
-        1);  // the sphere is too far to catch a hundredth of the light
-  CHECK(chance_of_caustics(load_scene("cornell-box").scene) == 1);
+  CHECK(chance(scene) == 1);
+  CHECK(chance(sphere_under_light(0.03, 30)) == 1);  // the sphere is too far to catch a hundredth of the light
+  CHECK(chance(load_scene("cornell-box").scene) == 1);
 }
 
 TEST_CASE("caustics: pairs with specular paths are left out, unless these are switched off") {
   Scene scene = sphere_under_light(0.03, 3);
-  CHECK(chance_of_caustics(scene, compile(scene)) == 1);
-  scene.render.caustics = Caustics::scatter;
-  CHECK(chance_of_caustics(scene, compile(scene)) == chance_of_caustics(scene));
+  CHECK(chance(scene) < 0.001);
   scene.render.caustics = Caustics::chains;
+  CHECK(chance(scene) == 1);
   scene.materials[1].kind = Metal<>{0.01};  // specular paths need a perfect mirror
-  CHECK(chance_of_caustics(scene, compile(scene)) == chance_of_caustics(scene));
+  CHECK(chance(scene) < 0.001);
 }
 
 TEST_CASE("caustics: specular paths find light off flat mirrors and through boxes, not quads, of glass") {
@@ -97,15 +90,14 @@ TEST_CASE("caustics: specular paths find light off flat mirrors and through boxe
     std::get<Solid3d>(scene.objects[1].kind).shape = shape;
     scene.objects.push_back(
         {"", Solid3d{Quad<>{{-5, 5, -5}, {10, 0, 0}, {0, 0, 10}}, 0}, {}});  // for light sent upward
-    return chance_of_caustics(scene, compile(scene));
+    scene.render.caustics = Caustics::chains;
+    return chance(scene);
   };
   CHECK(chance_with(Quad<>{{-1, -0.5, -1}, {2, 0, 0}, {0, 0, 2}}, mirror) == 1);
   CHECK(chance_with(Quad<>{{-1, -0.5, -1}, {2, 0, 0}, {0, 0, 2}}, clear) < 0.001);
   CHECK(chance_with(Box<>{{-1, -0.5, -1}, {1, 0, 1}}, mirror) == 1);
   CHECK(chance_with(Box<>{{-1, -0.5, -1}, {1, 0, 1}}, clear) == 1);
-  const Scene slab = load_scene("stress-pane").scene;
-  CHECK(chance_of_caustics(slab) < 0.001);
-  CHECK(chance_of_caustics(slab, compile(slab)) == 1);
+  CHECK(chance(load_scene("stress-pane").scene) == 1);
   const Material water{"", Vec3d{1, 1, 1}, Dielectric<>{1.33}};  // light leaves by all faces
   CHECK(chance_with(Box<>{{-1, -0.5, -1}, {1, 0, 1}}, water) < 0.001);
 }

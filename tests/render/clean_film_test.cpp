@@ -113,9 +113,9 @@ TEST_CASE("coarse clean view: what the picture shows, with fewer pixels, for any
     std::vector<CleanPicture> made;
     for (const int threads : {1, 3}) {
       const Ready ready(compile(scene), threads);
-      CoarseCleaner cleaner(ready.kernels);
-      CHECK_FALSE(cleaner.run(step, ready.engine, ready.scene.film_quantum, true, made.emplace_back()));
-      REQUIRE(cleaner.run(step, ready.engine, ready.scene.film_quantum, false, made.back()));
+      FilmCleaner cleaner(ready.kernels);
+      CHECK_FALSE(cleaner.run_coarse(step, ready.engine, ready.scene.film_quantum, true, made.emplace_back()));
+      REQUIRE(cleaner.run_coarse(step, ready.engine, ready.scene.film_quantum, false, made.back()));
     }
     REQUIRE(made[0].width == 40);
     REQUIRE(made[0].height == 27);

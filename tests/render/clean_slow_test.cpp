@@ -90,7 +90,7 @@ void measure(const std::string& name, Scene scene, std::uint32_t reference_spp, 
   scene.render.adaptive = false;
   const Reference reference = reference_of(scene, reference_spp);
   const RenderScene compiled = compile(scene);
-  const double chance = chance_of_caustics(scene, compiled);
+  const double chance = prepare(scene)->caustic_chance();
   RenderOptions options{.clean = true};
   Film film;
   for (const std::uint32_t spp : counts) {

@@ -27,20 +27,6 @@ FilmTotals totals_of(const Scene& scene, int spp) { return totals(film_of(scene,
 
 }  // namespace
 
-TEST_CASE("roulette: changes no mean, because survivors carry what ended paths would have") {
-  ZScores scores;
-  std::uint32_t seed = 0;
-  for (const double rho : {0.1, 0.3, 0.5, 0.8, 0.95})
-    for (const double light : {0.7, 0.3}) {
-      CAPTURE(rho);
-      CAPTURE(light);
-      Scene scene = integrating_sphere(rho, light);
-      scene.render.seed = ++seed;
-      scores.add("wall", radiance(scene, 2048), wall_radiance(rho, light), 5e-3);
-      if (rho == 0.5) scores.add("scalar", radiance(scene, 128, "scalar"), wall_radiance(rho, light), 0.02);
-    }
-}
-
 TEST_CASE("roulette: a path's brightest channel decides how likely it ends") {
   Scene scene = integrating_sphere(0.5, 0.5);
   scene.materials[0].colour = Vec3d{0.9, 0.2, 0.02};
@@ -68,49 +54,6 @@ TEST_CASE("depth: light counts after at most max_depth events; the rest is cut a
       // Roulette starts below an eighth of the full throughput: until then a path is cut if it never met the light.
       if (std::pow(rho, depth - 1) * 8 >= 1) scores.add("cut", estimate(cut), std::pow(1 - f, depth), 0.02);
     }
-}
-
-TEST_CASE("depth and roulette: the same in every integrator, with every sampler") {
-  ZScores scores;
-  std::uint32_t seed = 0;
-  const double light = 0.3;
-  for (const double rho : {0.3, 0.9})
-    for (const int depth : {1, 3, 1000})
-      for (const Integrator integrator : {Integrator::path, Integrator::nee, Integrator::mis})
-        for (const SamplerKind sampler : {SamplerKind::random, SamplerKind::sobol}) {
-          CAPTURE(rho);
-          CAPTURE(depth);
-          CAPTURE(static_cast<int>(integrator));
-          CAPTURE(static_cast<int>(sampler));
-          Scene scene = integrating_sphere(rho, light);
-          scene.render.max_depth = depth;
-          scene.render.integrator = integrator;
-          scene.render.sampler = sampler;
-          scene.render.seed = ++seed;
-          const Film film = film_of(scene, integrator == Integrator::path ? 1024 : 256);
-          scores.add("wall", radiance_of(film), wall_radiance(rho, light, depth), 0.01);
-        }
-}
-
-TEST_CASE("depth 0: lights and background alone") {
-  Scene scene = white_room();
-  scene.background = Vec3d{0.25, 0.5, 1};
-  scene.camera = {.look_from = {0, 0, 5}, .look_at = {0, 0, 0}, .vfov = 40};
-  add(scene, sphere({-1, 0, 0}, 0.5), lamp(3));
-  add(scene, sphere({1, 0, 0}, 0.5), lambertian(1));
-  scene.render.max_depth = 0;
-  const Film film = film_of(scene, 1);
-  int bright = 0, black = 0, sky = 0;
-  for (const FilmPixel& pixel : film.pixels) {
-    const Vec3f m = mean(film, pixel);
-    bright += m == Vec3f{3, 3, 3} ? 1 : 0;
-    sky += m == Vec3f{0.25f, 0.5f, 1} ? 1 : 0;
-    black += m == Vec3f{} ? 1 : 0;
-    CHECK(pixel.truncated == (m == Vec3f{} ? 1 : 0));
-  }
-  CHECK(bright > 30);
-  CHECK(black > 30);
-  CHECK(bright + black + sky == 32 * 32);
 }
 
 TEST_CASE("depth 1: a matt plane shows the sky, and paths that would go on are cut") {
@@ -146,16 +89,6 @@ TEST_CASE("depth: glass, media and metal are events; a medium's boundary is none
   add(scene, Quad<>{{-9, -9, -2}, {18, 0, 0}, {0, 18, 0}}, metal(1, 0));
   CHECK(seen_with(6).truncated == 1024);
   CHECK(seen_with(7).truncated == 0);
-}
-
-TEST_CASE("depth: a path that carries nothing has ended and is not cut") {
-  Scene scene = dark_room();
-  add(scene, sphere({0, 0, 0}, 1), lambertian(0));
-  aim(scene, {0, 0, 5}, {0, 0, 0});
-  scene.render.max_depth = 0;
-  CHECK(totals_of(scene, 4).truncated == 0);
-  scene.materials[0] = lambertian(0.001);
-  CHECK(totals_of(scene, 4).truncated == 4 * 1024);
 }
 
 }  // namespace tyndall::test::depth_test

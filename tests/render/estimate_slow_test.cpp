@@ -38,7 +38,7 @@ Scene resized(Scene scene) {
 void add_cases(const std::string& name, const Scene& scene, std::uint32_t reference_spp, std::vector<Case>& cases) {
   const Reference reference = reference_of(scene, reference_spp);
   const RenderScene compiled = compile(scene);
-  const double chance = chance_of_caustics(scene, compiled);
+  const double chance = prepare(scene)->caustic_chance();
   const Kernels kernels = choose_kernels("").value();
   Film film;
   for (const std::uint32_t spp : counts) {

@@ -15,24 +15,7 @@ Scene moving_sphere(double y) {
   return scene;
 }
 
-constexpr double coverage[][2] = {{-0.4, 0.05079872407968904}, {0.0, 0.25},
-                                  {0.3, 0.4004495957273638},   {1.0, 0.5099019513592784},
-                                  {1.7, 0.4140549185302178},   {2.4, 0.07730849247724059}};
-
 }  // namespace
-
-TEST_CASE("motion: covers each point for its share of the time") {
-  ZScores scores;
-  std::uint32_t seed = 0;
-  for (const auto& [y, fraction] : coverage)
-    for (const int others : {0, 40}) {  // alone, and in a tree
-      Scene scene = moving_sphere(y);
-      for (int i = 0; i < others; ++i) add(scene, sphere({10.0 + i, 0, 0}, 0.3), lambertian(0.5));
-      scene.render.seed = ++seed;
-      scores.add("seen past it", radiance(scene, 256), 1 - fraction, 5e-3);
-      if (others == 0) scores.add("scalar", radiance(scene, 32, "scalar"), 1 - fraction, 0.02);
-    }
-}
 
 TEST_CASE("motion: the shutter's times count, also a part, an instant and times beyond 1") {
   Scene scene = moving_sphere(1.0);
@@ -48,18 +31,6 @@ TEST_CASE("motion: the shutter's times count, also a part, an instant and times 
   aim(scene, {0, 0, 5}, {0, 4, 0});
   scene.camera.shutter_open = scene.camera.shutter_close = 2;
   CHECK(common_value(scene) == 0);
-}
-
-TEST_CASE("motion: a mirror sees the ball where it is at the path's own time") {
-  // Seen in a mirror and directly at once, the sphere covers both or neither: their product's mean is the coverage, not
-  // its square.
-  Scene scene = moving_sphere(0.0);
-  add(scene, Quad<>{{-50, -50, -5}, {100, 0, 0}, {0, 100, 0}}, metal(1, 0));
-  aim(scene, {0, 0.3, 5}, {0, 0.3, -5});  // past the sphere, back from the mirror, past the sphere again
-  scene.camera.shutter_close = 1;
-  ZScores scores;
-  // The sphere covers the ray while |2t - 0.3| < 0.5.
-  scores.add("there and back", radiance(scene, 8192), 0.6, 1e-3);
 }
 
 TEST_CASE("motion: a ball whose two centres are equal is at rest") {

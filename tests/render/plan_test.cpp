@@ -36,6 +36,11 @@ std::uint64_t total(const std::vector<std::uint32_t>& counts) {
   return sum;
 }
 
+ThreadPool& one_thread() {
+  static ThreadPool thread_pool(1);
+  return thread_pool;
+}
+
 std::size_t index(int x, int y) { return static_cast<std::size_t>(y * width + x); }
 
 /// The number of samples that the cell of a pixel is planned to get.
@@ -49,7 +54,7 @@ std::uint32_t planned_at(const Film& film, int x, int y) {
 TEST_CASE("plan: more samples where the halves differ, their mean doubled and not a sample above") {
   Film film = film_of(warm_up, disc);
   CHECK(planned_mean(film) == 0);
-  plan_round(film);
+  plan_round(film, one_thread());
   CHECK(planned_mean(film) == 2 * warm_up);
   const auto counts = counts_at(film, 2 * warm_up);
   CHECK(total(counts) <= 2 * warm_up * film.pixels.size());
@@ -65,7 +70,7 @@ TEST_CASE("plan: never less than a quarter of the mean, never more than 16 times
   for (FilmPixel& pixel : film.pixels) pixel.taken = 16;  // few, so that the lower limit decides for most cells
   film.planned.assign(17 * 11, {8, 16});
   for (std::uint32_t mean = 32; mean <= 256; mean *= 2) {
-    plan_round(film);
+    plan_round(film, one_thread());
     REQUIRE(planned_mean(film) == mean);
     for (const PlannedSamples& p : film.planned) {
       CHECK(p.to >= mean / 4);
@@ -81,25 +86,25 @@ TEST_CASE("plan: never less than a quarter of the mean, never more than 16 times
 TEST_CASE("plan: where little is to be gained, all cells keep the same count") {
   for (const double wave : {0.0, 0.02}) {
     Film film = film_of(warm_up, [wave](int x, int) { return 0.1 + wave * (x / 16 % 2); });
-    plan_round(film);
+    plan_round(film, one_thread());
     for (const PlannedSamples& p : film.planned) REQUIRE(p == PlannedSamples{warm_up, 2 * warm_up});
   }
   Film black = film_of(warm_up, [](int, int) { return 0; });
-  plan_round(black);
+  plan_round(black, one_thread());
   for (const PlannedSamples& p : black.planned) REQUIRE(p == PlannedSamples{warm_up, 2 * warm_up});
 }
 
 TEST_CASE("plan: a round is planned when it is due, and not again") {
   Film film = film_of(warm_up, disc);
-  CHECK(end_of_round(film, 3) == warm_up);
+  CHECK(end_of_round(film, 3, one_thread()) == warm_up);
   CHECK(film.planned.empty());
   CHECK_FALSE(planned_unevenly(film));
-  CHECK(end_of_round(film, warm_up) == 2 * warm_up);
+  CHECK(end_of_round(film, warm_up, one_thread()) == 2 * warm_up);
   CHECK(planned_unevenly(film));
   const Film planned = film;
   film.at(60, 5) = {};
   film.at(60, 5).taken = 20;
-  CHECK(end_of_round(film, 20) == 2 * warm_up);
+  CHECK(end_of_round(film, 20, one_thread()) == 2 * warm_up);
   CHECK(film.planned == planned.planned);
 }
 
@@ -107,8 +112,8 @@ TEST_CASE("plan: a cell has no say in its own count, its neighbours have") {
   Film film = film_of(warm_up, disc),
        other =
            film_of(warm_up, [](int x, int y) { return x / cell_edge == 12 && y / cell_edge == 5 ? 0.3 : disc(x, y); });
-  plan_round(film);
-  plan_round(other);
+  plan_round(film, one_thread());
+  plan_round(other, one_thread());
   CHECK(planned_at(film, 48, 20) == warm_up);
   CHECK(planned_at(other, 48, 20) == warm_up);
   for (const int beside : {-8, -4, 4, 8}) CHECK(planned_at(other, 48 + beside, 20) > warm_up);
@@ -117,7 +122,7 @@ TEST_CASE("plan: a cell has no say in its own count, its neighbours have") {
 
 TEST_CASE("plan: on the way through a round counts only grow, and fit into the mean") {
   Film film = film_of(warm_up, disc);
-  plan_round(film);
+  plan_round(film, one_thread());
   std::vector<std::uint32_t> before = counts_at(film, warm_up);
   CHECK(before == std::vector<std::uint32_t>(film.pixels.size(), warm_up));
   for (std::uint32_t spp = warm_up + 1; spp <= 2 * warm_up; ++spp) {
@@ -133,12 +138,12 @@ TEST_CASE("plan: on the way through a round counts only grow, and fit into the m
 TEST_CASE("plan: a crew changes nothing; pixels without samples in a half have no say") {
   Film alone = film_of(warm_up, disc), shared = alone;
   ThreadPool thread_pool(3);
-  plan_round(alone);
-  plan_round(shared, &thread_pool);
+  plan_round(alone, one_thread());
+  plan_round(shared, thread_pool);
   CHECK(alone == shared);
   Film lost = film_of(warm_up, disc);
   for (int x = 0; x < width; ++x) lost.at(x, 8).rejected[0] = warm_up / 2;
-  plan_round(lost);
+  plan_round(lost, one_thread());
   CHECK(planned_mean(lost) == 2 * warm_up);
 }
 
@@ -146,7 +151,7 @@ TEST_CASE("plan: pictures smaller than a cell") {
   Film film = make_film(2, 1, {0, 0, 2, 1}, 0, 1);
   for (FilmPixel& pixel : film.pixels) pixel.taken = warm_up;
   for (std::uint32_t mean = 2 * warm_up; mean <= 1024; mean *= 2) {
-    plan_round(film);
+    plan_round(film, one_thread());
     REQUIRE(planned_mean(film) == mean);
     REQUIRE(counts_at(film, mean) == std::vector<std::uint32_t>(2, mean));
     for (FilmPixel& pixel : film.pixels) pixel.taken = mean;
@@ -158,7 +163,7 @@ TEST_CASE("plan: a picture is labelled with what all pixels have, or with their 
   film.pixels[0].taken = 3;
   CHECK(labelled_spp(film) == 3);
   film.pixels[0].taken = warm_up;
-  plan_round(film);
+  plan_round(film, one_thread());
   const auto counts = counts_at(film, 27);
   for (std::size_t i = 0; i < counts.size(); ++i) film.pixels[i].taken = counts[i];
   CHECK(labelled_spp(film) == 27);

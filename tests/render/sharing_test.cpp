@@ -1,7 +1,7 @@
 #include "core/render/pass.h"
 #include "core/reuse/probe.h"
 #include "core/reuse/reuse_tile.h"
-#include "core/targets/scalar.h"
+#include "core/targets/kernels.h"
 #include "tests/support/pictures.h"
 #include "tests/support/probe.h"
 #include "tests/support/thorough.h"
@@ -206,7 +206,7 @@ TEST_CASE("sharing: pixels that lack different numbers of samples get the sample
   const std::atomic<bool> give_up = false;
   for (const int edge : {0, 5, 16}) {
     Film film = few;
-    Pass pass(film, wanted, Tiling{edge, true});
+    Pass pass(film, wanted, film.region, {edge, true});
     CHECK(pass.run({thread_pool, available_kernels().back(), view.view()}, film, give_up));
     const Film middle = picture_of(scene, true, 0, 5);
     for (std::size_t i = 0; i < wanted.size(); ++i) {

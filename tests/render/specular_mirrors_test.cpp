@@ -123,8 +123,4 @@ TEST_CASE("specular paths: flat mirrors that another surface covers, even in par
   CHECK(mirrors([](Scene& s) { add(s, Box<>{{-9, -1, -4}, {9, 9, 9}}, lambertian(0.5)); }) == 0);
 }
 
-TEST_CASE("specular paths: no sample of a scene with flat mirrors is rejected, and tiles do not matter") {
-  CHECK(check_built_in("stress-mirror-wall").specular.flats.size() > 0);
-}
-
 }  // namespace tyndall::test::specular_mirrors_test

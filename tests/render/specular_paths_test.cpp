@@ -121,9 +121,4 @@ TEST_CASE("specular paths: they pay for lights that are small as seen from the s
   CHECK(pairs(0.1, [](Scene& s) { add(s, sphere({0, 1.2, 0}, -1), glass(1.2)); }) == 0);  // two in one place
 }
 
-TEST_CASE("specular paths: no sample of the scenes that need them is rejected, and tiles do not matter") {
-  for (const char* name : {"stress-caustic-mirror", "stress-caustic-glass", "stress-caustic-shell", "stress-bulb"})
-    CHECK(check_built_in(name).specular.sphere.size() == 1);
-}
-
 }  // namespace tyndall::test::specular_paths_test

@@ -129,8 +129,4 @@ TEST_CASE("specular paths: faces of a slab that something touches are closed, an
         }) == 1 << 0);
 }
 
-TEST_CASE("specular paths: no sample of a scene with a slab is rejected, and tiles do not matter") {
-  CHECK(check_built_in("stress-pane").specular.flats.size() == 1);
-}
-
 }  // namespace tyndall::test::specular_slabs_test

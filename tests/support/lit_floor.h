@@ -57,14 +57,4 @@ inline void check_invisible(const Scene& furnace) {
   CHECK(all.error < 0.002);
 }
 
-/// Checks that no sample of a built-in scene is rejected and that tiles do not matter; returns the compiled scene.
-inline RenderScene check_built_in(const char* name) {
-  CAPTURE(name);
-  const RenderScene scene = compile(small_scene(name, 48, 36, 16));
-  const Film film = render(scene, {.spp = 16}).film;
-  CHECK(totals(film).rejected == 0);
-  CHECK(render(scene, {.threads = 1, .spp = 16, .tile = 5}).film == film);
-  return scene;
-}
-
 }  // namespace tyndall::test

@@ -18,7 +18,7 @@ inline const std::vector<RenderScene>& scenes() {
   static const std::vector<RenderScene> all = [] {
     std::vector<RenderScene> list;
     for (const char* name : {"showroom", "cornell-smoke", "bouncing-spheres", "next-week", "stress-caustic-glass",
-                             "stress-caustic-shell", "stress-mirror-wall", "stress-two-balls"})
+                             "stress-caustic-shell", "stress-mirror-wall", "stress-pane", "stress-two-balls"})
       list.push_back(compile(small_scene(name, width, height, 1)));
     for (const char* name : {"cornell-box", "cornell-smoke"}) list.push_back(compile(close_up(name, width, height)));
     list.push_back(compile(caustic_close_up(width, height)));

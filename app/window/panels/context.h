@@ -2,7 +2,7 @@
 #include "app/window/accuracy/live_accuracy.h"
 #include "app/window/gallery/gallery.h"
 #include "app/window/system/layout.h"
-#include "core/render/render_request.h"
+#include "core/render/frame.h"
 #include "core/scene/load.h"
 
 #include <memory>

@@ -1,6 +1,6 @@
 #pragma once
 #include "app/window/accuracy/comparison.h"
-#include "core/render/render_request.h"
+#include "core/render/frame.h"
 #include "core/render/renderer.h"
 #include "core/system/locks.h"
 

@@ -105,13 +105,13 @@ class TYNDALL_API Scene {
   /// Adds a material or a texture by that name, or replaces it. thing: one of <tyndall/builders.h>.
   template <class Thing>
   void add(const std::string& name, const Thing& thing) {
-    set_json(std::string(Thing::list) + detail::pointer_step(name), detail::json_of(thing));
+    set_json(std::string(Thing::list) + detail::pointer_step(name), thing.json());
   }
   /// Adds an object: Sphere, Quad, Triangle, Disk, Box or MediumIn, whose materials are there. Throws Error, and then
   /// changes nothing.
   template <class Thing>
   void add(const Thing& object) {
-    add_json(detail::json_of(object));
+    add_json(object.json());
   }
   /// The same for an object of any kind, as JSON.
   void add_json(const std::string& object);

@@ -40,40 +40,30 @@ using Transform = std::vector<std::variant<RotateY, Translate>>;
 
 namespace detail {
 
-/// Writes the members of a thing as JSON. Throws Error for a number that is not finite.
+/// Writes the members of a thing as JSON, one after the other. Throws Error for a number that is not finite.
 class TYNDALL_API Members {
  public:
-  explicit Members(const char* type);
-  void operator()(const char* key, double value);
-  void operator()(const char* key, const Vec3& value);
-  void operator()(const char* key, const Colour& value);
-  void operator()(const char* key, const std::string& value);  ///< left out where it is ""
-  void operator()(const char* key, const Transform& value);    ///< left out where it is empty
+  Members() = default;
+  explicit Members(const std::string& type) { (*this)("type", type); }
+  Members& operator()(const char* key, double value);
+  Members& operator()(const char* key, const Vec3& value);
+  Members& operator()(const char* key, const Colour& value);
+  Members& operator()(const char* key, const std::string& value);  ///< left out where it is ""
+  Members& operator()(const char* key, const Transform& value);    ///< left out where it is empty
   template <class T>
-  void operator()(const char* key, const std::optional<T>& value) {
-    if (value) (*this)(key, *value);
+  Members& operator()(const char* key, const std::optional<T>& value) {
+    return value ? (*this)(key, *value) : *this;
   }
   template <class... Things>
-  void operator()(const char* key, const std::variant<Things...>& thing) {
-    std::visit([&](const auto& one) { put(key, members_of(one).text()); }, thing);
+  Members& operator()(const char* key, const std::variant<Things...>& thing) {
+    return put(key, std::visit([](const auto& one) { return one.json(); }, thing));
   }
-  template <class Thing>
-  static Members members_of(const Thing& thing) {
-    Members members(Thing::type);
-    thing.each(members);
-    return members;
-  }
-  std::string text() const { return text_ + "}"; }
+  std::string text() const { return "{" + text_ + "}"; }
 
  private:
-  void put(const char* key, const std::string& json);
+  Members& put(const char* key, const std::string& json);
   std::string text_;
 };
-
-template <class Thing>
-std::string json_of(const Thing& thing) {
-  return Members::members_of(thing).text();
-}
 
 /// A name as one step of a JSON pointer (RFC 6901).
 TYNDALL_API std::string pointer_step(const std::string& name);
