@@ -83,10 +83,8 @@ inline int slip_through(const ClosedMesh& mesh, double scale, const Transform& t
     }
     kernels.trace(view.view(), rays.data(), hits.data(), static_cast<int>(rays.size()), brute_force);
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      const auto e = static_cast<std::size_t>(hits[i].element);
       const auto faces = [&] {
-        const Elements& all = compiled.elements;
-        return dot(Vec3f{all.x[e], all.y[e], all.z[e]}, rays[i].direction) < 0;
+        return dot(compiled.elements.center_or_normal[hits[i].element], rays[i].direction) < 0;
       };
       leaks += hits[i].element < 0 || (!from_within && !faces()) ? 1 : 0;
     }
