@@ -15,8 +15,7 @@ namespace {
 constexpr double smallness = 0.25;  // most that a light's reach may be over its distance, or over the sphere around it
 constexpr double smallness_for_glass = 0.15;  // the same for light through solid glass from outside
 constexpr std::size_t max_pairs = 256;
-constexpr std::size_t max_visibility_tests =
-    1 << 18;                           // pairs times shapes up to which it is found out what spheres see of lights
+constexpr std::size_t max_visibility_tests = 1 << 18;  // for more pairs times shapes all lights count as visible
 constexpr double like_outside = 1e-3;  // an index counts as that of the outside if it is this close to 1
 
 /// A sphere of glass or of metal without fuzz.

@@ -137,11 +137,10 @@ TYNDALL_INLINE F light_cosine(const LightColumns<F>& light, Vec3<F> normal, Vec3
 /// The plane of a specular path. It holds both ends and the sphere's centre.
 template <class F>
 struct PathPlane {
-  Vec3<F> near_out, far_out;  ///< unit vectors from the centre to each end
-  Vec3<F> near_side,
-      far_side;   ///< near_out, far_out rotated by 90 degrees, in the sense from near to far end
-  F near, far;    ///< distances of the ends from the centre
-  F angle, sine;  ///< angle between the ends, seen from the centre, in [0, pi]; its sine
+  Vec3<F> near_out, far_out;    ///< unit vectors from the centre to each end
+  Vec3<F> near_side, far_side;  ///< near_out, far_out rotated by 90 degrees, in the sense from near to far end
+  F near, far;                  ///< distances of the ends from the centre
+  F angle, sine;                ///< angle between the ends, seen from the centre, in [0, pi]; its sine
 };
 
 template <class F>
