@@ -14,8 +14,11 @@
 
 namespace tyndall {
 
-PnmReader::PnmReader(std::filesystem::path name, PpmCurve curve, std::optional<std::size_t> size)
-    : name_(std::move(name)), power_(curve == PpmCurve::gamma2 ? 2 : srgb_curve), size_(size) {}
+/// What ends a number.
+constexpr auto is_gap = [](char c) { return c == '#' || is_space(c); };
+
+PnmReader::PnmReader(std::filesystem::path name, PpmCurve curve, bool has_all)
+    : name_(std::move(name)), power_(curve == PpmCurve::gamma2 ? 2 : srgb_curve), has_all_(has_all) {}
 
 const char* PnmReader::expected() const {
   constexpr const char* of_header[] = {"P3 or P6 (colours), or P2 or P5 (greys)", "the width", "the height",
@@ -80,42 +83,44 @@ void PnmReader::put(std::int64_t number, std::vector<float>& rgb) {
   if (++taken_ == header_.numbers()) part_ = Part::end;
 }
 
-/// Takes a byte that ends no number. False: it does not belong to the picture.
-bool PnmReader::take_byte(std::uint8_t byte, std::vector<float>& rgb) {
-  const char c = static_cast<char>(byte);
-  if (part_ == Part::line_feed) {
-    part_ = Part::pixels;
-    if (c == '\n' && (!size_ || *size_ - position_ > header_.number_size() * header_.numbers())) return true;
-  }
+void PnmReader::take_pixel_byte(std::uint8_t byte, std::vector<float>& rgb) {
+  if (header_.number_size() == 2 && !high_byte_)
+    high_byte_ = byte;
+  else
+    put(std::exchange(high_byte_, std::nullopt).value_or(0) * 256 + byte, rgb);
+}
+
+/// Takes a character of the mark, or of what is between and behind numbers. False: it does not belong to the picture.
+bool PnmReader::take_character(char c) {
   if (part_ == Part::mark) {
     take_mark(c);
-  } else if (part_ > Part::gap && !header_.is_text()) {
-    if (part_ == Part::end) return false;
-    if (header_.number_size() == 2 && !high_byte_)
-      high_byte_ = byte;
-    else
-      put(std::exchange(high_byte_, std::nullopt).value_or(0) * 256 + byte, rgb);
-  } else if (in_remark_ || c == '#' || is_space(c)) {
-    in_remark_ = in_remark_ ? c != '\n' && c != '\r' : c == '#';
-    if (part_ == Part::gap && !in_remark_) part_ = c == '\r' ? Part::line_feed : Part::pixels;
-  } else if (part_ == Part::end) {
-    return false;
-  } else {
-    take_digit(c);
+    return true;
   }
+  if (part_ == Part::end && (!header_.is_text() || !(in_remark_ || is_gap(c)))) return false;
+  in_remark_ = in_remark_ ? c != '\n' && c != '\r' : c == '#';
+  if (part_ == Part::gap && !in_remark_) part_ = c == '\r' ? Part::line_feed : Part::pixels;
   return true;
 }
 
 std::size_t PnmReader::take(std::span<const std::uint8_t> bytes, std::vector<float>& rgb, bool header_only) {
+  const auto character = [&](std::size_t at) { return static_cast<char>(bytes[at]); };
   std::size_t at = 0;
   while (at < bytes.size() && !(header_only && header())) {
-    const char c = static_cast<char>(bytes[at]);
-    if (!digits_.text.empty() && (is_space(c) || c == '#'))
-      end(rgb);
-    else if (take_byte(bytes[at], rgb))
-      ++at, ++position_;
-    else
+    const bool numbers = part_ == Part::pixels ? header_.is_text() : part_ > Part::mark && part_ < Part::gap;
+    if (numbers && !in_remark_ && (!is_gap(character(at)) || !digits_.text.empty())) {
+      for (; at < bytes.size() && !is_gap(character(at)); ++at) take_digit(character(at));
+      if (at < bytes.size()) end(rgb);
+    } else if (part_ == Part::line_feed) {
+      part_ = Part::pixels;
+      const bool fits = !has_all_ || bytes.size() - at > header_.number_size() * header_.numbers();
+      if (bytes[at] == '\n' && fits) ++at;
+    } else if (part_ == Part::pixels && !header_.is_text()) {
+      for (; at < bytes.size() && part_ == Part::pixels; ++at) take_pixel_byte(bytes[at], rgb);
+    } else if (take_character(character(at))) {
+      ++at;
+    } else {
       break;
+    }
   }
   return at;
 }
@@ -180,7 +185,7 @@ void write_ppm(const std::filesystem::path& file, const LinearImage& image, doub
 }
 
 PictureFile read_ppm(const std::filesystem::path& file, std::span<const std::uint8_t> bytes, PpmCurve curve) {
-  PnmReader reader(file, curve, bytes.size());
+  PnmReader reader(file, curve, true);
   PictureFile picture;
   std::vector<float>& rgb = picture.image.rgb;
   std::size_t at = reader.take(bytes, rgb, true);

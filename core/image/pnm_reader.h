@@ -27,9 +27,10 @@ struct PnmHeader {
 /// separated by any white space and by remarks, which go from # to the end of the line. Netpbm, ppm(5) and pgm(5).
 class PnmReader {
  public:
-  /// name: what messages call the picture; curve: how numbers stand for light; size: bytes that there are in all, if
-  /// that is known. It decides whether a line feed after a header that ends in CR is the first pixel's; else it is not.
-  explicit PnmReader(std::filesystem::path name, PpmCurve curve = PpmCurve::srgb, std::optional<std::size_t> size = {});
+  /// name: what messages call the picture; curve: how numbers stand for light; has_all: take() gets all bytes that
+  /// there are. Their number decides whether a line feed after a header that ends in CR is the first pixel's; else it
+  /// is not.
+  explicit PnmReader(std::filesystem::path name, PpmCurve curve = PpmCurve::srgb, bool has_all = false);
 
   /// Takes the next bytes. Appends the light of the numbers in them to `rgb`, 3 floats a pixel, top row first; the last
   /// pixel may lack some of its three. Returns how many bytes it took: fewer than it was given where something other
@@ -60,7 +61,8 @@ class PnmReader {
     bool negative = false, any = false, damaged = false;
   };
 
-  bool take_byte(std::uint8_t byte, std::vector<float>& rgb);
+  void take_pixel_byte(std::uint8_t byte, std::vector<float>& rgb);
+  bool take_character(char c);
   void take_mark(char c);
   void take_digit(char c);
   [[noreturn]] void fail_number() const;
@@ -69,8 +71,7 @@ class PnmReader {
 
   std::filesystem::path name_;
   double power_;  ///< see light_table
-  std::optional<std::size_t> size_;
-  std::size_t position_ = 0;  ///< bytes that were taken
+  bool has_all_;
   Part part_ = Part::mark;
   PnmHeader header_;
   std::string mark_;

@@ -68,7 +68,7 @@ CORE = [
      "matrix = «matrix * adaptation(neutral, rec709.white) → matrix»;", "image/image_io_exr_header"),
     ("PFM with the top row first", "core/image/image_io_pnm.cpp", "subspan(«left - row → image.rgb.size() - left», row)", "image/image_io_pfm"),
     ("PFM files of the other byte order are read as they are", "core/image/image_io_pnm.cpp",
-     "«header.scale > 0 → false»));", "image/image_io_pfm image/image_io_hostile"),
+     "&pixels[at], «scale > 0 → false»));", "image/image_io_pfm image/image_io_hostile"),
 
     ("black pixels dominate", "core/accuracy/error.cpp", "(square(ref) + «floor_of_square → 1e-6»)", "accuracy/error"),
     ("the noise of halves counted twice", "core/accuracy/error.cpp",
