@@ -18,6 +18,7 @@ namespace {
 
 constexpr double min_catch = 0.01;  // fraction of a light's power that a smooth shape has to catch to matter
 constexpr double max_fuzz = 0.05;   // fuzz from which on metal does not count as smooth
+constexpr std::size_t max_pairs = 1000000;
 
 /// Fraction of all directions that a sphere fills, seen from a point at `distance` from its centre; 1 inside the
 /// sphere.
@@ -57,21 +58,25 @@ double chance_by(const SceneView& s, Vec3d middle, double radius, std::int32_t f
 }
 
 double chance_of_caustics(const Scene& scene, const RenderScene& columns, const SceneView& s) {
-  bool smooth = false;
-  for (std::int32_t m = 0; m < s.material_count; ++m) smooth = smooth || lobe_width_of(s, m) < max_fuzz;
+  bool some = false;
+  for (std::int32_t m = 0; m < s.material_count; ++m) some = some || lobe_width_of(s, m) < max_fuzz;
   const bool shown = needs_trait<&BsdfTraits::diffuse>(s.features) || s.has_media();
-  if (!smooth || !shown || !(s.has_lights() || s.samples_sky())) return 1;  // at once, also with a million spheres
+  if (!some || !shown || !(s.has_lights() || s.samples_sky())) return 1;  // at once, also with a million spheres
   const Flattened flat = flatten(scene);
   const std::vector<std::int32_t> elements = first_elements(flat);
+  std::vector<std::size_t> smooth;
+  for (std::size_t i = 0; i < flat.shapes.size(); ++i)
+    if (lobe_width_of(s, s.material[elements[i]]) < max_fuzz) smooth.push_back(i);
+  // Of very many pairs only every step-th shape is looked at.
+  const std::size_t step = 1 + smooth.size() * static_cast<std::size_t>(s.lights.count) / max_pairs;
   double chance = 1;
-  for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
+  for (std::size_t n = 0; n < smooth.size(); n += step) {
+    const std::size_t i = smooth[n];
     const std::int32_t first = elements[i], last = elements[i + 1];
-    const double fuzz = lobe_width_of(s, s.material[first]);
-    if (fuzz >= max_fuzz) continue;
     if (s.samples_sky()) {
       const SkyDistribution& sky = *columns.sky.distribution;
       const double spread = is_found(s, first, last, -1) ? sky.spread_without_sun : sky.spread;
-      chance = std::min(chance, spread + fraction_of_directions(fuzz, 1));
+      chance = std::min(chance, spread + fraction_of_directions(lobe_width_of(s, s.material[first]), 1));
     }
     const Extent extent = extent_of(flat.shapes[i], scene.camera);
     const Vec3d middle = center_of(flat.shapes[i]);
