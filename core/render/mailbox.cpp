@@ -71,16 +71,6 @@ std::future<Film> Mailbox::ask_for_film() {
   return answer;
 }
 
-RenderReply Mailbox::reply() const {
-  const std::lock_guard lock(mutex_);
-  return reply_;
-}
-
-std::shared_ptr<const PreparedScene> Mailbox::prepared() const {
-  const std::lock_guard lock(mutex_);
-  return prepared_;
-}
-
 bool Mailbox::wait(const StopToken& stop, const std::function<bool(std::uint32_t limit)>& unfinished) {
   std::unique_lock lock(mutex_);
   const bool news = news_.wait(lock, stop, [&] {
@@ -89,32 +79,11 @@ bool Mailbox::wait(const StopToken& stop, const std::function<bool(std::uint32_t
   return news && !stop.stop_requested();
 }
 
-ReceivedRequest Mailbox::take() {
-  const std::lock_guard lock(mutex_);
-  give_up_ = false;
-  return taken_ = newest_;
-}
-
-std::vector<std::promise<Film>> Mailbox::take_film_requests() {
-  const std::lock_guard lock(mutex_);
-  return std::exchange(films_, {});
-}
-
 void Mailbox::post(std::shared_ptr<Frame> frame) {
   const std::lock_guard lock(mutex_);
   frame->finished = frame->spp >= newest_.full_spp() && !frame->awaits_clean;
   reply_.frame = std::move(frame);
   posted_at_ = Clock::now();
-}
-
-void Mailbox::post(RenderProblem problem) {
-  const std::lock_guard lock(mutex_);
-  reply_.problem = std::make_shared<const RenderProblem>(std::move(problem));
-}
-
-void Mailbox::post(PixelReport report) {
-  const std::lock_guard lock(mutex_);
-  reply_.pixel = std::make_shared<const PixelReport>(report);
 }
 
 void Mailbox::post(std::shared_ptr<const PreparedScene> scene) {

@@ -8,6 +8,7 @@
 #include <functional>
 #include <future>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 /// Passes messages between the threads that use a Renderer and the renderer's own thread.
@@ -48,8 +49,14 @@ class Mailbox {
   std::uint64_t request(RenderRequest request);
   void note_shown(std::uint64_t pass);
   std::future<Film> ask_for_film();
-  RenderReply reply() const;
-  std::shared_ptr<const PreparedScene> prepared() const;
+  RenderReply reply() const {
+    const std::lock_guard lock(mutex_);
+    return reply_;
+  }
+  std::shared_ptr<const PreparedScene> prepared() const {
+    const std::lock_guard lock(mutex_);
+    return prepared_;
+  }
 
   // For the thread that renders.
 
@@ -57,8 +64,15 @@ class Mailbox {
   /// pixel, returns true. Returns false if the thread is to stop.
   bool wait(const StopToken& stop, const std::function<bool(std::uint32_t limit)>& unfinished);
   /// Returns the newest request, and clears give_up().
-  ReceivedRequest take();
-  std::vector<std::promise<Film>> take_film_requests();
+  ReceivedRequest take() {
+    const std::lock_guard lock(mutex_);
+    give_up_ = false;
+    return taken_ = newest_;
+  }
+  std::vector<std::promise<Film>> take_film_requests() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(films_, {});
+  }
   /// Waits until the frame of that pass is on the screen, an urgent request comes, or 50 ms have passed. Returns the
   /// seconds from the frame's posting to the screen, if it is there. Does not wait if no caller has ever reported a
   /// shown frame.
@@ -72,8 +86,14 @@ class Mailbox {
   }
   /// Publishes a frame. Sets Frame::finished, as the limit may have changed since the frame was begun.
   void post(std::shared_ptr<Frame> frame);
-  void post(RenderProblem problem);
-  void post(PixelReport report);
+  void post(RenderProblem problem) {
+    const std::lock_guard lock(mutex_);
+    reply_.problem = std::make_shared<const RenderProblem>(std::move(problem));
+  }
+  void post(PixelReport report) {
+    const std::lock_guard lock(mutex_);
+    reply_.pixel = std::make_shared<const PixelReport>(report);
+  }
   /// Publishes the scene that is rendered from now on, and withdraws the problem of an earlier one.
   void post(std::shared_ptr<const PreparedScene> scene);
 

@@ -61,7 +61,7 @@ double chance_of_caustics(const Scene& scene, const SceneView& s) {
   bool smooth = false;
   for (std::int32_t m = 0; m < s.materials.count(); ++m) smooth = smooth || lobe_width_of(s, m) < max_fuzz;
   const bool shown = needs_trait<&BsdfTraits::diffuse>(s.features) || s.has_media();
-  if (!smooth || !shown || !(s.has_lights() || s.samples_sky())) return 1;  // at once, also with a million spheres
+  if (!some || !shown || !(s.has_lights() || s.samples_sky())) return 1;  // at once, also with a million spheres
   const Flattened flat = flatten(scene);
   const std::vector<std::int32_t> elements = first_elements(flat);
   std::vector<std::size_t> shapes;  // the smooth ones
