@@ -58,8 +58,8 @@ double chance_by(const SceneView& s, Vec3d middle, double radius, std::int32_t f
 }
 
 double chance_of_caustics(const Scene& scene, const SceneView& s) {
-  bool smooth = false;
-  for (std::int32_t m = 0; m < s.materials.count(); ++m) smooth = smooth || lobe_width_of(s, m) < max_fuzz;
+  bool some = false;
+  for (std::int32_t m = 0; m < s.materials.count(); ++m) some = some || lobe_width_of(s, m) < max_fuzz;
   const bool shown = needs_trait<&BsdfTraits::diffuse>(s.features) || s.has_media();
   if (!some || !shown || !(s.has_lights() || s.samples_sky())) return 1;  // at once, also with a million spheres
   const Flattened flat = flatten(scene);
