@@ -27,8 +27,8 @@ Scene sphere_under_light(double radius, double distance) {
 
 /// The chance in a scene without a guide.
 double chance(const Scene& scene) {
-  return PreparedScene(std::make_shared<const Scene>(scene), compile(scene), std::make_shared<const Guide>())
-      .caustic_chance();
+  const Guide none;
+  return PreparedScene(std::make_shared<const Scene>(scene), compile(scene), &none).caustic_chance();
 }
 
 }  // namespace
