@@ -14,7 +14,7 @@ namespace {
 
 const float* table() {
   static const auto gradients = gradient_table();
-  return gradients->data();
+  return gradients;
 }
 
 /// Random points whose coordinates have about 12 binary places, so that adding whole periods to them is exact.

@@ -41,7 +41,7 @@ Scene varied_scene() {
 }
 
 /// The column over the varied scene.
-struct VariedColumn : Column {
+struct VariedColumn : TestColumn {
   VariedColumn() {
     saved = varied_scene();
     scene() = saved;

@@ -16,9 +16,9 @@
 namespace tyndall {
 
 /// The column over a scene, driven by a mouse that aims at controls by name.
-class Column {
+class TestColumn {
  public:
-  Column() : log_("/dev/null") {
+  TestColumn() : log_("/dev/null") {
     set_style(1);
     ui.log = &log_;
     scene().materials = {{"gold", Vec3d{0.9, 0.6, 0.3}, Metal<>{0.18}}, {"glass", {}, Dielectric<>{2.0 / 3}}};

@@ -5,12 +5,12 @@ namespace tyndall::test::column_test {
 namespace {
 
 /// The part of the column under its tabs.
-Rect heading(const Column& column, const std::string& section) { return column.rect("section." + section); }
+Rect heading(const TestColumn& column, const std::string& section) { return column.rect("section." + section); }
 
 }  // namespace
 
 TEST_CASE("a tab brings its part to the head of the column, opens it, and is lit") {
-  Column column;
+  TestColumn column;
   column.height = 500;
   column.draw();
   column.draw();
@@ -33,7 +33,7 @@ TEST_CASE("a tab brings its part to the head of the column, opens it, and is lit
 }
 
 TEST_CASE("selecting an object in the picture brings its values to the head of the column") {
-  Column column;
+  TestColumn column;
   column.height = 500;
   column.click("tab.Objects");
   column.draw();
@@ -48,7 +48,7 @@ TEST_CASE("selecting an object in the picture brings its values to the head of t
 }
 
 TEST_CASE("the tab at the end asks for all actions") {
-  Column column;
+  TestColumn column;
   column.aim("tab.actions");
   column.button(true);
   column.button(false);
@@ -56,7 +56,7 @@ TEST_CASE("the tab at the end asks for all actions") {
 }
 
 TEST_CASE("dragging its edge makes the column wider, within limits, and a double click sets it back") {
-  Column column;
+  TestColumn column;
   column.aim("column.edge");
   column.button(true);
   compat::mouse_pos(ImGui::GetIO(), -60, 100);
@@ -71,7 +71,7 @@ TEST_CASE("dragging its edge makes the column wider, within limits, and a double
 }
 
 TEST_CASE("the list of scenes shows which method fails, wants the pictures that are seen, and opens recent files") {
-  Column column;
+  TestColumn column;
   column.state.now.recent = {"/scenes/my own.json"};
   column.draw();
   column.draw();
@@ -83,7 +83,7 @@ TEST_CASE("the list of scenes shows which method fails, wants the pictures that 
 }
 
 TEST_CASE("theme and text size are chosen in the column") {
-  Column column;
+  TestColumn column;
   column.click("window.theme.light");
   CHECK(column.look.theme == Theme::light);
   column.click("window.text.125");

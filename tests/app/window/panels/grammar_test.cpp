@@ -8,12 +8,14 @@ namespace tyndall::test::grammar_test {
 
 namespace {
 
-const Solid3d& solid(const Column& column, std::size_t k) { return std::get<Solid3d>(column.scene().objects[k].kind); }
+const Solid3d& solid(const TestColumn& column, std::size_t k) {
+  return std::get<Solid3d>(column.scene().objects[k].kind);
+}
 
 }  // namespace
 
 TEST_CASE("a double click sets sliders and numbers back to what the file has") {
-  Column column;
+  TestColumn column;
   column.gold().fuzz = 0.7;
   column.click_twice("gold.fuzz", 0.1);
   CHECK(column.gold().fuzz == 0.18);
@@ -30,7 +32,7 @@ TEST_CASE("a double click sets sliders and numbers back to what the file has") {
 }
 
 TEST_CASE("what the file does not have goes back to its default") {
-  Column column;
+  TestColumn column;
   column.saved.materials.clear();
   column.gold().fuzz = 0.7;
   column.click_twice("gold.fuzz.value");
@@ -41,7 +43,7 @@ TEST_CASE("Shift drags a tenth as far, on sliders and on numbers") {
   for (const char* name : {"gold.fuzz", "gold.fuzz.value"}) {
     double direction[2];
     for (const bool shift : {false, true}) {
-      Column column;
+      TestColumn column;
       column.gold().fuzz = 0.5;
       column.draw();
       column.aim(name, 0.5);
@@ -58,7 +60,7 @@ TEST_CASE("Shift drags a tenth as far, on sliders and on numbers") {
 }
 
 TEST_CASE("Ctrl snaps to round numbers, on sliders and on numbers") {
-  Column column;
+  TestColumn column;
   column.aim("gold.fuzz", 0.3);
   column.button(true);
   ImGui::GetIO().KeyCtrl = true;
@@ -74,7 +76,7 @@ TEST_CASE("Ctrl snaps to round numbers, on sliders and on numbers") {
 }
 
 TEST_CASE("sums can be typed") {
-  Column column;
+  TestColumn column;
   column.type("gold.fuzz.value", "1/4");
   CHECK(column.gold().fuzz == 0.25);
   column.type("gold.fuzz.value", "2*pi");
@@ -82,7 +84,7 @@ TEST_CASE("sums can be typed") {
 }
 
 TEST_CASE("the type of a material is chosen from a list, and fog within makes a companion") {
-  Column column;
+  TestColumn column;
   column.state.selected = {0};
   column.draw();
   column.click("Ball.type");
@@ -100,7 +102,7 @@ TEST_CASE("the type of a material is chosen from a list, and fog within makes a 
 }
 
 TEST_CASE("Esc closes a list, and nothing is chosen") {
-  Column column;
+  TestColumn column;
   column.state.selected = {0};
   column.draw();
   column.click("Ball.type");
@@ -120,7 +122,7 @@ TEST_CASE("Esc closes a list, and nothing is chosen") {
 }
 
 TEST_CASE("a shared material can be made a single user's") {
-  Column column;
+  TestColumn column;
   column.state.selected = {0};
   column.draw();
   CHECK_FALSE(column.has("Ball.single_user"));
@@ -132,7 +134,7 @@ TEST_CASE("a shared material can be made a single user's") {
 }
 
 TEST_CASE("a lamp has a colour and a power: the power keeps the colour, and stops double it") {
-  Column column;
+  TestColumn column;
   column.scene().materials[0] = {"lamp", Vec3d{4, 2, 1}, Light<>{}};
   column.state.selected = {0};
   column.draw();
@@ -147,7 +149,7 @@ TEST_CASE("a lamp has a colour and a power: the power keeps the colour, and stop
 }
 
 TEST_CASE("a background keeps its colours when its kind changes, and has its own ones again when it changes back") {
-  Column column;
+  TestColumn column;
   column.scene().background = Gradient{{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}};
   column.click("background.kind.hemispheres");
   CHECK(column.scene().background == Background(Hemispheres{{0.4, 0.5, 0.6}, {0.1, 0.2, 0.3}}));
@@ -159,7 +161,7 @@ TEST_CASE("a background keeps its colours when its kind changes, and has its own
 }
 
 TEST_CASE("a name is typed where it is shown, or by the key for it; Esc leaves it") {
-  Column column;
+  TestColumn column;
   column.state.selected = {0};
   column.draw();
   column.type("Ball.name", "marble");
@@ -177,7 +179,7 @@ TEST_CASE("a name is typed where it is shown, or by the key for it; Esc leaves i
 
 TEST_CASE("Esc takes a drag back, of sliders and of numbers, and the mouse changes nothing until it is let go") {
   for (const char* name : {"gold.fuzz", "gold.fuzz.value"}) {
-    Column column;
+    TestColumn column;
     column.gold().fuzz = 0.5;
     column.draw();
     column.aim(name, 0.5);

@@ -5,7 +5,7 @@ namespace tyndall::test::objects_panel_test {
 namespace {
 
 /// A sphere, a group of 30 small ones, and a group of two.
-void fill(Column& column) {
+void fill(TestColumn& column) {
   std::vector<Object> many(30, Object{"", Solid3d{Sphere<>{}, 1}, {}});
   many[29].name = "pearl";
   column.scene().objects = {
@@ -17,7 +17,7 @@ void fill(Column& column) {
 }  // namespace
 
 TEST_CASE("large groups are folded at first, small ones are not, and a click on the sign turns that") {
-  Column column;
+  TestColumn column;
   fill(column);
   CHECK(column.has("objects.4"));  // sphere, beads, pair, and the two of the pair
   CHECK_FALSE(column.has("objects.5"));
@@ -29,7 +29,7 @@ TEST_CASE("large groups are folded at first, small ones are not, and a click on 
 }
 
 TEST_CASE("a search finds objects in folded groups, by name, kind and material") {
-  Column column;
+  TestColumn column;
   fill(column);
   column.state.objects.search = "PEARL";
   column.draw();
@@ -45,7 +45,7 @@ TEST_CASE("a search finds objects in folded groups, by name, kind and material")
 }
 
 TEST_CASE("what is selected elsewhere is unfolded and shown in the list") {
-  Column column;
+  TestColumn column;
   fill(column);
   column.state.selected = {1, 29};
   for (int k = 0; k < 3; ++k) column.draw();
@@ -53,7 +53,7 @@ TEST_CASE("what is selected elsewhere is unfolded and shown in the list") {
 }
 
 TEST_CASE("Ctrl + click adds to the selection and takes away again") {
-  Column column;
+  TestColumn column;
   fill(column);
   column.click("objects.0");
   ImGui::GetIO().KeyCtrl = true;
@@ -65,7 +65,7 @@ TEST_CASE("Ctrl + click adds to the selection and takes away again") {
 }
 
 TEST_CASE("the wheel scrolls the list under the mouse; at its end, and where it was turned before, the column") {
-  Column column;
+  TestColumn column;
   fill(column);
   column.click("objects.1", 0.03);  // more lines than the list is high
   column.height = 900;

@@ -9,14 +9,14 @@
 namespace tyndall::test::panels_test {
 
 TEST_CASE("a new user finds fuzz, refractive index and density at once") {
-  const Column column;
+  const TestColumn column;
   for (const char* name : {"gold.fuzz", "glass.refractive_index", "Fog.density", "Fog.g", "Ball.radius", "camera.vfov",
                            "image.exposure", "render.max_depth", "chart", "scenes.cover"})
     CHECK_MESSAGE(column.has(name), name);
 }
 
 TEST_CASE("drawing changes nothing, nor does a click into a number that has more digits than it shows") {
-  Column column;
+  TestColumn column;
   const Scene before = column.scene();
   for (int k = 0; k < 5; ++k) column.draw();
   CHECK(column.scene() == before);
@@ -27,7 +27,7 @@ TEST_CASE("drawing changes nothing, nor does a click into a number that has more
 }
 
 TEST_CASE("a slider follows the mouse, from end to end") {
-  Column column;
+  TestColumn column;
   column.aim("gold.fuzz", 0.01);
   column.button(true);
   column.aim("gold.fuzz", 0.5);
@@ -43,7 +43,7 @@ TEST_CASE("a slider follows the mouse, from end to end") {
 }
 
 TEST_CASE("a press on the grab moves nothing, though the value has more digits than a slider gives") {
-  Column column;
+  TestColumn column;
   const Rect rect = column.rect("glass.refractive_index");
   const double width = static_cast<double>(rect.width()), grab = 14, margin = 2;
   const double middle = margin + grab / 2 + (2.0 / 3 - 0.5) / 2.5 * (width - 2 * margin - grab);
@@ -57,7 +57,7 @@ TEST_CASE("a press on the grab moves nothing, though the value has more digits t
 }
 
 TEST_CASE("typed values: taken where valid, refused with a reason elsewhere") {
-  Column column;
+  TestColumn column;
   column.type("gold.fuzz.value", "0.25");
   CHECK(column.gold().fuzz == 0.25);
   CHECK(column.problem.empty());
@@ -72,7 +72,7 @@ TEST_CASE("typed values: taken where valid, refused with a reason elsewhere") {
 }
 
 TEST_CASE("escape leaves a value as it was") {
-  Column column;
+  TestColumn column;
   column.click("gold.fuzz.value");
   column.draw();
   ImGui::GetIO().AddInputCharacter('1');
@@ -83,7 +83,7 @@ TEST_CASE("escape leaves a value as it was") {
 }
 
 TEST_CASE("tab goes on to the next number") {
-  Column column;
+  TestColumn column;
   column.click("gold.fuzz.value");
   column.draw();
   for (const char c : {'0', '.', '5'}) ImGui::GetIO().AddInputCharacter(static_cast<unsigned>(c));
@@ -98,7 +98,7 @@ TEST_CASE("tab goes on to the next number") {
 }
 
 TEST_CASE("numbers are dragged sideways") {
-  Column column;
+  TestColumn column;
   column.aim("camera.look_from.x", 0.5);
   column.button(true);
   column.aim("camera.look_from.x", 1.5);
@@ -110,7 +110,7 @@ TEST_CASE("numbers are dragged sideways") {
 }
 
 TEST_CASE("choices change what they say, and only that") {
-  Column column;
+  TestColumn column;
   column.click("render.fresnel.schlick");
   CHECK(column.scene().render.fresnel == FresnelKind::schlick);
   column.click("image.tone_map.aces");
@@ -127,7 +127,7 @@ TEST_CASE("choices change what they say, and only that") {
 }
 
 TEST_CASE("a drawing in which no control was moved leaves the scene alone, and one in which one was says so") {
-  Column column;
+  TestColumn column;
   column.draw();
   CHECK_FALSE(column.changed);
   column.aim("gold.fuzz", 0.7);
@@ -148,7 +148,7 @@ TEST_CASE("a drawing in which no control was moved leaves the scene alone, and o
 }
 
 TEST_CASE("the controls of the section Accuracy ask for what they say") {
-  Column column;
+  TestColumn column;
   column.click("chart.export");
   column.click("chart.reference");
   CHECK(column.has_query_for({"export the chart"}));
@@ -168,7 +168,7 @@ TEST_CASE("the controls of the section Accuracy ask for what they say") {
 }
 
 TEST_CASE("errors are seen only where there is something to measure against") {
-  Column column;
+  TestColumn column;
   column.click("image.view.error");
   CHECK(column.state.now.view == 0);
   CHECK(column.problem == "error: needs a reference: see Speed and accuracy");
@@ -180,7 +180,7 @@ TEST_CASE("errors are seen only where there is something to measure against") {
 }
 
 TEST_CASE("a click in the list of objects selects one and shows its values, a second click on it selects nothing") {
-  Column column;
+  TestColumn column;
   column.click("objects.1");
   CHECK(column.state.selected == ObjectPath{1});
   column.draw();
@@ -195,7 +195,7 @@ TEST_CASE("a click in the list of objects selects one and shows its values, a se
 }
 
 TEST_CASE("a negative radius stays negative on its slider") {
-  Column column;
+  TestColumn column;
   column.state.selected = {1};
   column.draw();
   column.draw();
@@ -205,7 +205,7 @@ TEST_CASE("a negative radius stays negative on its slider") {
 }
 
 TEST_CASE("a click on a section's heading folds it and unfolds it again") {
-  Column column;
+  TestColumn column;
   column.click("section.Camera");
   column.draw();
   CHECK_FALSE(column.has("camera.vfov"));
@@ -215,7 +215,7 @@ TEST_CASE("a click on a section's heading folds it and unfolds it again") {
 }
 
 TEST_CASE("the column can be drawn at any size, over an empty scene too") {
-  Column column;
+  TestColumn column;
   column.scene() = {};
   NullImGui small(64, 64);
   Ui ui;
@@ -225,7 +225,7 @@ TEST_CASE("the column can be drawn at any size, over an empty scene too") {
 }
 
 TEST_CASE("the menu of a row has each line once, also where the row has three numbers") {
-  Column column;
+  TestColumn column;
   const auto first_line = [&](const std::string& aim, const std::string& line) {
     column.aim(aim);
     const float mouse = ImGui::GetIO().MousePos.y;
