@@ -169,7 +169,7 @@ struct MediumColumns {
   bool box = false;
   Vec3f center;  ///< sphere
   float radius = 0;
-  Affine map;                         ///< box
+  Affine map{};                       ///< box
   std::int32_t first = 0, count = 1;  ///< the boundary's elements: those of the surface it equals, or its own
   float density = 0;                  ///< > 0
   float g = 0;
