@@ -246,7 +246,7 @@ template <class F>
   const F t = dot(window.corner - ray.origin, window.normal) / max(slope, F(1e-30f));
   const Vec3<F> point = point_at(ray.origin, t, ray.direction), off = point - window.corner;
   const F across[] = {dot(off, window.edge_u), dot(off, window.edge_v)};
-  for (const F place : across)
+  for (const F& place : across)
     could = mask_and(could, mask_and(less_equal(F(0.0f), place), less_equal(place, window.length_u)));
   could = mask_and(could, mask_and(less(F(0.5f), slope), less(F(0.0f), t)));
   if (!any(could)) return F(1.0f);
