@@ -7,6 +7,7 @@
 #include "app/text/progress.h"
 #include "app/text/standard_streams.h"
 #include "core/accuracy/estimate.h"
+#include "core/base/seconds.h"
 #include "core/system/processors.h"
 #include "core/system/signals.h"
 
@@ -98,7 +99,6 @@ class ChartJob {
             }};
   }
 
-  using Clock = std::chrono::steady_clock;
   const CommandRequest& command_;
   const SignalWatch& signals_;
   ProgressReport report_;

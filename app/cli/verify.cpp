@@ -16,8 +16,6 @@
 namespace tyndall {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// A seed from a case's name, so that it stays the same when other cases are added. Fowler, Noll, Vo: The FNV
 /// Non-Cryptographic Hash Algorithm.
 std::uint32_t seed_of(const std::string& name) {

@@ -112,7 +112,6 @@ Arrival ArrivingPicture::arrival() const {
 }
 
 void ArrivingPicture::read() {
-  using Clock = std::chrono::steady_clock;
   // To show a pixel takes some 0.07 µs, so that this leaves the program three quarters of a core at the least.
   const double period = std::max(0.1, 3e-7 * static_cast<double>(pixels_->width * pixels_->height));
   take(std::exchange(bytes_, {}));

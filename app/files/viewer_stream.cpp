@@ -1,6 +1,7 @@
 #include "app/files/viewer_stream.h"
 
 #include "core/base/error.h"
+#include "core/base/seconds.h"
 #include "core/base/text.h"
 #include "core/system/connection.h"
 #include "core/system/locks.h"
@@ -17,7 +18,6 @@
 namespace tyndall {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr auto look_interval = 50ms;          // how often a waiting thread looks whether it is to stop

@@ -1,10 +1,10 @@
 #pragma once
+#include "core/base/seconds.h"
 #include "core/render/frame.h"
 #include "core/render/prepare.h"
 #include "core/system/locks.h"
 
 #include <atomic>
-#include <chrono>
 #include <functional>
 #include <future>
 #include <mutex>
@@ -13,8 +13,6 @@
 
 /// Passes messages between the threads that use a Renderer and the renderer's own thread.
 namespace tyndall {
-
-using Clock = std::chrono::steady_clock;
 
 /// A request as the render loop receives it.
 struct ReceivedRequest {

@@ -1,11 +1,11 @@
 #pragma once
 #include "core/accuracy/estimate.h"
+#include "core/base/seconds.h"
 #include "core/compile/render_scene.h"
 #include "core/render/pass.h"
 #include "core/render/single_pixels.h"
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -133,7 +133,6 @@ class Progression {
   bool estimate_is_new() const { return estimate_of_ == taken() && taken() >= 2 && !within_pass(); }
 
  private:
-  using Clock = std::chrono::steady_clock;
   /// Where the picture stands between the passes that it needs.
   struct Schedule {
     std::unique_ptr<Pass> pass;  ///< null between passes
