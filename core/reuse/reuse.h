@@ -77,4 +77,22 @@ TYNDALL_INLINE void note_vertices(const Paths<F>& p, const Event<F>& e, MaskOf<F
   }
 }
 
+template <class F>
+TYNDALL_INLINE void note_first(const auto& s, const Paths<F>& p, const Event<F>& e, MaskOf<F> lanes,
+                               ReusedPaths& reused) {
+  note_vertices<F>(p, e, lanes, 0.25f, e.from, weighed(s, p, p.throughput * e.colour), reused.first, reused.albedo);
+}
+
+/// Stores the second vertices of the paths in `lanes`, and what the paths have gathered before them. From here on these
+/// paths gather what leaves the second vertex. They carry a grey throughput, as if the first vertex were white, so that
+/// no colour is lost that the first vertex of another path may reflect.
+template <class F>
+TYNDALL_INLINE void note_second(const auto& s, Paths<F>& p, const Event<F>& e, MaskOf<F> lanes, ReusedPaths& reused) {
+  const IntOf<F> element = select(e.surface, e.at.element, IntOf<F>(-1));
+  note_vertices<F>(p, e, lanes, 1.0f, element, weighed(s, p, p.radiance), reused.second, reused.own);
+  const F grey = max_component(p.throughput);
+  p.throughput = select(lanes, Vec3<F>{grey, grey, grey}, p.throughput);
+  p.radiance = select(lanes, zero3<F>(), p.radiance);
+}
+
 }  // namespace tyndall

@@ -48,18 +48,27 @@ class ReuseGroups {
     index_ = ~0u, last_ = 0;
     for (int y = y_; y < y_ + block_height; ++y)
       for (int x = x_; x < x_ + block_width; ++x) {
+        if (!in_tile(x, y)) continue;
         const int i = place(x, y);
-        if (i < 0 || job_.first_of[i] >= job_.last_of[i]) continue;
+        if (job_.first_of[i] >= job_.last_of[i]) continue;
         if (job_.first_of[i] < index_) index_ = job_.first_of[i];
         if (job_.last_of[i] > last_) last_ = job_.last_of[i];
       }
   }
 
-  /// Index within the tile; -1: outside of it.
   TYNDALL_INLINE int place(int x, int y) const {
-    const Region& t = job_.tile;
-    const bool inside = x >= t.x0 && x < t.x1 && y >= t.y0 && y < t.y1;
-    return inside ? (y - t.y0) * (t.x1 - t.x0) + x - t.x0 : -1;
+    return (y - job_.tile.y0) * (job_.tile.x1 - job_.tile.x0) + x - job_.tile.x0;
+  }
+
+  TYNDALL_INLINE bool in_tile(int x, int y) const {
+    return x >= job_.tile.x0 && x < job_.tile.x1 && y >= job_.tile.y0 && y < job_.tile.y1;
+  }
+
+  TYNDALL_INLINE bool wants(int x, int y) const {
+    if (!in_tile(x, y)) return false;
+    if (!job_.first_of) return true;
+    const int i = place(x, y);
+    return index_ >= job_.first_of[i] && index_ < job_.last_of[i];
   }
 
   /// Adds the group if some of its pixels want the current sample.
@@ -69,10 +78,12 @@ class ReuseGroups {
     bool wanted = false;
     for (int k = 0; k < group_size; ++k) {
       const int x = left + k % group_columns * group_spacing, y = top + k / group_columns * group_spacing;
-      const int i = place(x, y), slot = k * ReusedPaths::max_groups + at;
-      const bool wants_this = i >= 0 && (!job_.first_of || (index_ >= job_.first_of[i] && index_ < job_.last_of[i]));
+      const bool wants_this = wants(x, y);
       wanted = wanted || wants_this;
-      paths.pixel[slot] = wants_this ? i : x < width_ && y < height_ ? ReusedPaths::unwanted : ReusedPaths::outside;
+      const int slot = k * ReusedPaths::max_groups + at;
+      paths.pixel[slot] = wants_this                  ? place(x, y)
+                          : x < width_ && y < height_ ? ReusedPaths::unwanted
+                                                      : ReusedPaths::outside;
     }
     if (!wanted) return;
     paths.x[at] = left, paths.y[at] = top, paths.index[at] = index_;
@@ -115,29 +126,17 @@ class GroupSamples {
     }
   }
 
-  /// Stores the second vertices, and what the paths have gathered before them. From here on these paths gather what
-  /// leaves the second vertex. They carry a grey throughput, as if the first vertex were white, so that no colour is
-  /// lost that the first vertex of another path may reflect.
   template <class F>
   TYNDALL_INLINE void on_event(const auto& s, Paths<F>& p, const Event<F>& e, MaskOf<F> met) {
     const auto second =
         mask_and(mask_and(met, is_diffuse(s, e)), mask_and(equal(p.depth, IntOf<F>(1)), mask_from_bits<F>(p.first)));
-    if (!any(second)) return;
-    const IntOf<F> element = select(e.surface, e.at.element, IntOf<F>(-1));
-    note_vertices<F>(p, e, second, 1.0f, element, weighed(s, p, p.radiance), shared_.second, shared_.own);
-    const F grey = max_component(p.throughput);
-    p.throughput = select(second, Vec3<F>{grey, grey, grey}, p.throughput);
-    p.radiance = select(second, zero3<F>(), p.radiance);
-    p.second |= bits(second);
+    if (any(second)) note_second(s, p, e, second, shared_), p.second |= bits(second);
   }
-  /// Stores first vertices, and exempts paths from roulette there, so that their second vertex can be reused.
+  /// Exempts paths from roulette at their first vertex, so that their second vertex can be reused.
   template <class F>
   TYNDALL_INLINE MaskOf<F> on_scatter(const auto& s, Paths<F>& p, const Event<F>& e, MaskOf<F> scattering) {
     const auto first = mask_and(mask_and(scattering, is_diffuse(s, e)), equal(p.depth, IntOf<F>(0)));
-    if (!any(first)) return first;
-    const Vec3<F> colour = weighed(s, p, p.throughput * e.colour);
-    note_vertices<F>(p, e, first, 0.25f, e.from, colour, shared_.first, shared_.albedo);
-    p.first |= bits(first);
+    if (any(first)) note_first(s, p, e, first, shared_), p.first |= bits(first);
     return first;
   }
   template <class F>
@@ -271,6 +270,17 @@ TYNDALL_INLINE void add_specular_paths_to_leaving(const auto& s, ReusedPaths& re
       reused.leaving[c][slot] += reused.by_specular_paths[c][slot];
 }
 
+/// Adds the samples of the groups to the tile job's film.
+TYNDALL_INLINE void add_groups(const ReusedPaths& reused, const TileFilm& film) {
+  for (int slot = 0; slot < ReusedPaths::room; ++slot) {
+    const int pixel = reused.pixel[slot];
+    if (pixel < 0) continue;
+    const std::uint32_t half = reused.index[slot % ReusedPaths::max_groups] & 1u;
+    add_sample(film.pixels[pixel], half, {reused.own[0][slot], reused.own[1][slot], reused.own[2][slot]},
+               film.per_quantum);
+  }
+}
+
 /// Renders a tile job whose paths reuse second vertices. follow(samples): takes all samples of a GroupSamples.
 template <class F>
 TYNDALL_INLINE void render_tile_reusing(const auto& s, const TileJob& job, const TileFilm& film, const auto& follow) {
@@ -284,13 +294,7 @@ TYNDALL_INLINE void render_tile_reusing(const auto& s, const TileJob& job, const
     follow(samples);
     add_specular_paths_to_leaving(s, reused);
     reuse_second_vertices<F>(s, reused, film.counts);
-    for (int slot = 0; slot < ReusedPaths::room; ++slot) {
-      const int pixel = reused.pixel[slot];
-      if (pixel < 0) continue;
-      const std::uint32_t half = reused.index[slot % ReusedPaths::max_groups] & 1u;
-      add_sample(film.pixels[pixel], half, {reused.own[0][slot], reused.own[1][slot], reused.own[2][slot]},
-                 film.per_quantum);
-    }
+    add_groups(reused, film);
   }
 }
 

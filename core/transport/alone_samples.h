@@ -55,12 +55,7 @@ struct AloneSamples {
     store(r, sample.x), store(g, sample.y), store(b, sample.z), store(slot, p.slot);
     store(carried, has_sample_weights(s) ? p.weight * left : left);
     const std::uint32_t straight = film.emission ? p.straight : 0;
-    // Which samples a film accepts: ScaledSample::fits(), in lanes. A quantum is a power of two, so that the limit is a
-    // float without rounding, or infinite where every finite number is below it.
-    const F limit = splat<F>(static_cast<float>(sample_limit / film.per_quantum));
-    const auto fits =
-        mask_and(less(abs(sample.x), limit), mask_and(less(abs(sample.y), limit), less(abs(sample.z), limit)));
-    const std::uint32_t unusual = ~bits(fits) | straight | cut;
+    const std::uint32_t unusual = ~bits(fits_film(sample, film.per_quantum)) | straight | cut;
     for (; ended; ended &= ended - 1) {
       const int lane = __builtin_ctz(ended);
       FilmPixel& pixel = film.pixels[slot[lane] >> 1];
@@ -80,6 +75,13 @@ struct AloneSamples {
     }
   }
 
+  /// The lanes whose samples a film accepts: ScaledSample::fits(), in lanes. A quantum is a power of two, so that the
+  /// limit is a float without rounding, or infinite where every finite number is below it.
+  template <class F>
+  TYNDALL_INLINE static MaskOf<F> fits_film(const Vec3<F>& sample, double per_quantum) {
+    const F limit = splat<F>(static_cast<float>(sample_limit / per_quantum));
+    return mask_and(less(abs(sample.x), limit), mask_and(less(abs(sample.y), limit), less(abs(sample.z), limit)));
+  }
   TYNDALL_INLINE void add(std::int32_t slot, Vec3f light) {
     add_sample(film.pixels[slot >> 1], static_cast<std::uint32_t>(slot) & 1u, light, film.per_quantum);
   }

@@ -59,6 +59,17 @@ struct LightQuery {
   bool by_angle;           ///< the flight was ended by angle, for this very light
 };
 
+/// Ray::from of a shadow ray in `direction`.
+template <class F>
+TYNDALL_INLINE IntOf<F> shadow_ray_from(const auto& s, const Event<F>& e, Vec3<F> direction) {
+  if constexpr (samples_lights_behind<decltype(s)>) {
+    const auto behind = mask_and(e.surface, less(dot(direction, e.incident.facing), F(0.0f)));
+    return select(behind, through_surface<F>(e.from), e.from);
+  } else {
+    return e.from;
+  }
+}
+
 /// Radiance of a sampled direction to a light or to the sky.
 template <class F>
 TYNDALL_INLINE Vec3<F> radiance_of_sample(const auto& s, IntOf<F> light, Vec3<F> point, const LightSample<F>& sample,
@@ -95,11 +106,7 @@ TYNDALL_INLINE Vec3<F> direct_light(const auto& s, const Paths<F>& p, const Even
   const auto useful = mask_and(lanes, mask_and(less(F(0.0f), scattered.value), less(F(0.0f), chosen)));
   if (!any(useful)) return zero3<F>();
   shadow_rays += static_cast<std::uint32_t>(__builtin_popcount(bits(useful)));
-  Ray<F> ray{e.point, sample.direction, p.ray.time, e.from};
-  if constexpr (samples_lights_behind<decltype(s)>) {
-    const auto behind = mask_and(e.surface, less(dot(sample.direction, e.incident.facing), F(0.0f)));
-    ray.from = select(behind, through_surface<F>(e.from), e.from);
-  }
+  const Ray<F> ray{e.point, sample.direction, p.ray.time, shadow_ray_from(s, e, sample.direction)};
   const IntOf<F> element = element_of_light<F>(s, choice.light);
   const auto arrives = mask_and_not(useful, blocked(s, ray, sample.distance, element, useful));
   if (!any(arrives)) return zero3<F>();

@@ -114,25 +114,28 @@ TYNDALL_INLINE void each_part(const auto& s, Paths<F>& p, const auto& number, co
   IntOf<F> low = as_int(p.sampler.low), high = as_int(p.sampler.high);
   integer(0, low), integer(1, high), integer(2, p.slot), integer(3, p.depth), integer(4, p.ray.from);
   p.sampler.low = as_uint(low), p.sampler.high = as_uint(high);
-  const auto vector = [&](int row, Vec3<F>& v) __attribute__((always_inline)) {
-    number(row, v.x), number(row + 1, v.y), number(row + 2, v.z);
-  };
-  vector(0, p.ray.origin), vector(3, p.ray.direction), number(6, p.ray.time), number(7, p.pdf);
-  vector(8, p.throughput), vector(11, p.radiance);
+  number(0, p.ray.origin.x), number(1, p.ray.origin.y), number(2, p.ray.origin.z);
+  number(3, p.ray.direction.x), number(4, p.ray.direction.y), number(5, p.ray.direction.z);
+  number(6, p.ray.time), number(7, p.pdf);
+  number(8, p.throughput.x), number(9, p.throughput.y), number(10, p.throughput.z);
+  number(11, p.radiance.x), number(12, p.radiance.y), number(13, p.radiance.z);
   if (s.has_specular_paths()) {
-    vector(14, p.trail.start), number(17, p.trail.pdf);
+    number(14, p.trail.start.x), number(15, p.trail.start.y), number(16, p.trail.start.z);
+    number(17, p.trail.pdf);
     integer(5, p.trail.met.packed), integer(6, p.route.packed);
   }
   if (has_sample_weights(s)) number(18, p.weight);
   if (s.has_lights_in_media()) {
     MediumFlight<F>& f = p.flight;
-    vector(19, f.origin), vector(22, f.direction);
+    number(19, f.origin.x), number(20, f.origin.y), number(21, f.origin.z);
+    number(22, f.direction.x), number(23, f.direction.y), number(24, f.direction.z);
     number(25, f.begin), number(26, f.end), number(27, f.distance), number(28, f.pdf);
     integer(7, f.medium);
   }
   if (s.has_guide()) {
     GuideTrail<F>& g = p.guide;
-    vector(29, g.start), vector(32, g.direction), number(35, g.pdf);
+    number(29, g.start.x), number(30, g.start.y), number(31, g.start.z);
+    number(32, g.direction.x), number(33, g.direction.y), number(34, g.direction.z), number(35, g.pdf);
     integer(9, g.events.low), integer(10, g.events.high);
   }
   if (s.has_reuse() || s.has_lights() || s.has_splitting()) {

@@ -147,8 +147,8 @@ CORE = [
     ("links do not weaken with the distance", "core/reuse/reuse_tile.h", "F pdf = leaves * arrives / «square → distance»;", "render/sharing"),
     ("a group's samples of the second half go to the first", "core/reuse/reuse_tile.h",
      "const std::uint32_t half = «reused.index[slot % ReusedPaths::max_groups] & 1u → 0u»;", "render/sharing targets/kernel_sets"),
-    ("shared light takes the colour of the path that found it", "core/reuse/reuse_tile.h",
-     "p.throughput = select(second, «Vec3<F>{grey, grey, grey} → p.throughput», p.throughput);", "render/sharing"),
+    ("shared light takes the colour of the path that found it", "core/reuse/reuse.h",
+     "p.throughput = select(lanes, «Vec3<F>{grey, grey, grey} → p.throughput», p.throughput);", "render/sharing"),
     ("rays between vertices cost nothing in the probe", "core/reuse/probe.cpp", "1 + «between → 0.0» / rays_alone / 2", "render/sharing"),
     ("links pass through walls", "core/reuse/reuse_tile.h", "lanes = «mask_and_not(lanes, blocked_towards(s, ray, distance, "
      "load_int<F>(p.second.surface + to), -1, lanes)) → lanes»;", "render/sharing"),

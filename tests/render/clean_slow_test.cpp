@@ -1,5 +1,5 @@
-#include "core/accuracy/estimate.h"
 #include "core/accuracy/error.h"
+#include "core/accuracy/estimate.h"
 #include "core/scene/load.h"
 #include "tests/support/hard_for_filters.h"
 #include "tests/support/prepared.h"
