@@ -184,8 +184,8 @@ std::vector<Receiver> list_receivers(const Flattened& flat, const Scene& scene) 
 
 LightBounds light_bounds(const RenderScene& scene, std::size_t k) {
   const Lights& lights = scene.lights;
-  return {to_double(lights.center[k]) + scene.origin,
-          std::sqrt(static_cast<double>(lights.reach2[k])), static_cast<double>(lights.power[k])};
+  return {to_double(lights.center[k]) + scene.origin, std::sqrt(static_cast<double>(lights.reach2[k])),
+          static_cast<double>(lights.power[k])};
 }
 
 double worth_of(const FlatMirror& m, const LightBounds& light) {

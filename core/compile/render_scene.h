@@ -224,7 +224,7 @@ struct FlatRecord {
   float size[3];    ///< of a mirror the lengths of the first two rows; of a slab half the lengths of the edges
   // Of a slab alone.
   float index, medium_density;  ///< of refraction; density of media within
-  std::int32_t closed;          ///< bit 2 · edge + (1: the upper face of the two at its ends): something else touches that face
+  std::int32_t closed;  ///< bit 2 · edge + (1: the upper face of the two at its ends): something else touches that face
 };
 
 /// Glass spheres, mirror spheres, flat mirrors and slabs, and for each the lights to which integrator mis solves for

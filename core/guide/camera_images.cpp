@@ -34,7 +34,9 @@ Beam camera_beam(const SceneView& s, double x, double y, double& step) {
 bool reflect_at(const SceneView& s, const Thing& thing, Beam& beam) {
   const Ray<double> ray = beam.path();
   const Hit<double> hit = closest<double>(s, ray, true);
-  if (hit.element != thing.element || !has_trait<&BsdfTraits::glossy>(s, s.materials.kind[s.elements.material[hit.element]])) return false;
+  if (hit.element != thing.element ||
+      !has_trait<&BsdfTraits::glossy>(s, s.materials.kind[s.elements.material[hit.element]]))
+    return false;
   const SurfacePoint<double> p = surface_at<double>(s, ray, hit.t, hit.element);
   const bool inside = (dot(ray.direction, p.normal) > 0) != p.inverted;
   if (thing.is_sphere && inside) return false;

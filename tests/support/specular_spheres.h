@@ -18,7 +18,7 @@ SpecularSphere<F> sphere_of(double index, double inner_radius) {
 
 template <class F>
 Deflection<F> deflection_between(const SpecularSphere<F>& b, const EventSequence<F>& sequence, F near, F far,
-                                         EndSigns<F> sign = {F(1), F(1)}) {
+                                 EndSigns<F> sign = {F(1), F(1)}) {
   SpecularPairs view{};
   view.shells = b.hollow;
   return deflection_of(view, b, ends_of(b, near, far), sequence, sign);
