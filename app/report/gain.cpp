@@ -4,7 +4,6 @@
 #include "core/render/render.h"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 namespace tyndall {
@@ -61,7 +60,7 @@ KernelGain measure_kernel_gain(const PreparedScene& scene, const Kernels& kernel
   if (kernels.set_for(scene.view()) == KernelSet::everything) return result;
   RenderScene columns = scene.columns();
   columns.kernel = KernelSet::everything;
-  const PreparedScene full(std::make_shared<const Scene>(scene.scene()), std::move(columns));
+  const PreparedScene full(std::make_shared<const Scene>(scene.scene()), columns);
   const std::uint32_t spp = enough_samples(scene, isa, 1, seconds_of_pair);
   std::vector<double> gains;
   for (result.pairs = 0; result.pairs < pairs; ++result.pairs) {

@@ -73,6 +73,16 @@ void grow(std::vector<float>& numbers, std::size_t count, const std::atomic<bool
   if (numbers.size() > count) numbers.resize(count);
 }
 
+/// The errors of the pixels in a band of rows.
+ErrorSum errors_in_band(const FilterView& v, int band) {
+  ErrorSum sum;
+  for (int y = band * cell_edge; y < std::min((band + 1) * cell_edge, v.height); ++y)
+    for (int x = 0; x < v.width; ++x)
+      sum.add({static_cast<std::size_t>(y) * static_cast<std::size_t>(v.width) + static_cast<std::size_t>(x),
+               static_cast<double>(v.error[y * v.stride + x])});
+  return sum;
+}
+
 }  // namespace
 
 Cleaner::Cleaner(Target target)
@@ -150,14 +160,7 @@ bool Cleaner::run(const CleanInput& input, ThreadPool& thread_pool, const std::a
                      each(cells_y_, [&](int row) { steps_.predict(v, row); }) && mix(Rival::blurred) &&
                      mix(Rival::raw) && each_pixel_row([&](int y) { steps_.judge(v, y); });
   std::vector<ErrorSum> bands(static_cast<std::size_t>(cells_y_));
-  const auto sum_errors = [&](int band) {
-    ErrorSum sum;
-    for (int y = band * cell_edge; y < std::min((band + 1) * cell_edge, v.height); ++y)
-      for (int x = 0; x < v.width; ++x)
-        sum.add({static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x),
-                 static_cast<double>(v.error[y * v.stride + x])});
-    bands[static_cast<std::size_t>(band)] = std::move(sum);
-  };
+  const auto sum_errors = [&](int band) { bands[static_cast<std::size_t>(band)] = errors_in_band(v, band); };
   if (!whole || !each(cells_y_, sum_errors)) return false;
   ErrorSum errors;
   for (const ErrorSum& band : bands) errors.add(band);

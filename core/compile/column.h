@@ -80,7 +80,7 @@ TYNDALL_INLINE LanesFrom<F, T> lookup(const Column<T>& table, int count, IntOf<F
 /// A column of vectors, component by component, so that lookup() serves them as it serves numbers.
 struct VectorColumn {
   Column<float> x, y, z;
-  TYNDALL_INLINE Vec3f operator[](std::ptrdiff_t k) const { return {x[k], y[k], z[k]}; }
+  TYNDALL_INLINE Vec3f operator[](auto k) const { return {x[k], y[k], z[k]}; }
   std::size_t size() const { return x.size(); }
   void set(std::size_t k, Vec3f v) { x[k] = v.x, y[k] = v.y, z[k] = v.z; }
   void push_back(Vec3f v) { x.push_back(v.x), y.push_back(v.y), z.push_back(v.z); }

@@ -40,7 +40,7 @@ struct Writer {
     put(out, "type", Kind::type);
     if constexpr (requires { kind.file; }) put(out, "file", kind.file);
     if constexpr (requires { Kind::colour_name; })
-      if (Kind::colour_name) put(out, Kind::colour_name, colour_json(colour));
+      if constexpr (Kind::colour_name != nullptr) put(out, Kind::colour_name, colour_json(colour));
     if constexpr (requires { fields(&kind); }) put_fields(out, fields_of<Kind>(), kind);
   }
 

@@ -17,7 +17,7 @@ cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DTYNDALL_QUICK
 if grep -q tyndall_shader_header "$build/build.ninja"; then
   cmake --build "$build" --target tyndall_shader_header tyndall_glad >/dev/null # headers that are generated
 fi
-sed -i -E 's/ -(flive-range-shrinkage|fno-gcse-after-reload|m(move|store)-max=[0-9]+)//g' "$build/compile_commands.json" # options of GCC alone
+sed -i -E 's/ -(flive-range-shrinkage|fno-gcse-after-reload|m(move|store)-max=[0-9]+|-param=[^ ]+)//g' "$build/compile_commands.json" # options of GCC alone
 python3 - "$build/compile_commands.json" >"$scratch/files" <<'PYTHON'
 import json, re, sys
 for entry in json.load(open(sys.argv[1])):
