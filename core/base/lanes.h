@@ -60,7 +60,7 @@ TYNDALL_INLINE F splat(float value) {
   return F(value);
 }
 template <class F>
-TYNDALL_INLINE IntOf<F> splat_int(std::int32_t value) {
+TYNDALL_INLINE IntOf<F> splat(std::int32_t value) {
   return IntOf<F>(value);
 }
 

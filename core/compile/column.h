@@ -2,8 +2,12 @@
 #include "core/base/vec.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <limits>
 #include <memory>
+#include <new>
+#include <utility>
 #include <vector>
 
 /// What compiled scenes are made of, for whoever fills it and for kernels.
@@ -22,50 +26,70 @@ class Column {
     resize(values.size());
     std::copy(values.begin(), values.end(), first_);
   }
-  Column(const Column&) = default;  // moved by copying, so that what is left behind stays valid
-  Column& operator=(const Column&) = default;
+  Column(const Column& other) : first_(other.first_), count_(other.count_) {
+    if (first_) ++head()->users;
+  }
+  Column& operator=(Column other) {
+    std::swap(first_, other.first_);
+    std::swap(count_, other.count_);
+    return *this;
+  }
+  ~Column() {
+    if (!first_ || --head()->users > 0) return;
+    std::destroy_n(first_, head()->room);
+    ::operator delete(head());
+  }
 
   /// The first value: column[i], and tables for gather() and lookup().
   TYNDALL_INLINE operator const T*() const { return first_; }
-  TYNDALL_INLINE int count() const { return static_cast<int>(size_); }
-  TYNDALL_INLINE bool empty() const { return size_ == 0; }
-  std::size_t size() const { return size_; }
+  TYNDALL_INLINE int count() const { return count_; }
+  TYNDALL_INLINE bool empty() const { return count_ == 0; }
+  std::size_t size() const { return static_cast<std::size_t>(count_); }
   const T* begin() const { return first_; }
-  const T* end() const { return first_ + size_; }
+  const T* end() const { return first_ + count_; }
   bool operator==(const Column& other) const { return std::equal(begin(), end(), other.begin(), other.end()); }
 
   // The functions below give the column values of its own before they are changed.
-  operator T*() { return own(size_); }
-  T* begin() { return own(size_); }
-  T* end() { return own(size_) + size_; }
+  operator T*() { return own(size()); }
+  T* begin() { return own(size()); }
+  T* end() { return own(size()) + count_; }
   T& back() { return end()[-1]; }
   void reserve(std::size_t room) { own(room); }
-  void push_back(const T& value) { resize(size_ + 1, value); }
+  void push_back(const T& value) { resize(size() + 1, value); }
   void resize(std::size_t size, T value = {}) {
     own(size);
-    if (size > size_) std::fill(first_ + size_, first_ + size, value);
-    size_ = size;
+    if (size > this->size()) std::fill(first_ + count_, first_ + size, value);
+    count_ = static_cast<int>(size);
   }
   void assign(std::size_t size, const T& value) {
-    size_ = 0;
+    count_ = 0;
     resize(size, value);
   }
 
  private:
+  /// What lies before the first value.
+  struct alignas(std::max_align_t) Head {
+    std::atomic<int> users;  ///< columns that share the values
+    std::size_t room;        ///< values that were constructed, those beyond count_ as well
+  };
+  Head* head() const { return reinterpret_cast<Head*>(first_) - 1; }
+
   /// Memory that no other column shares, with room for at least so many values.
   T* own(std::size_t room) {
-    if (room > room_ || memory_.use_count() > 1) {
-      if (room > room_) room_ = std::max(room, 2 * size_);
-      const std::shared_ptr<T[]> memory(new T[room_]());
-      std::copy_n(first_, size_, memory.get());
-      memory_ = memory, first_ = memory.get();
-    }
+    const std::size_t had = first_ ? head()->room : 0;
+    if (room <= had && (!first_ || head()->users == 1)) return first_;
+    room = room > had ? std::max(room, 2 * size()) : had;
+    if (room > std::numeric_limits<int>::max()) throw std::bad_alloc();
+    Column larger;
+    larger.first_ = reinterpret_cast<T*>(new (::operator new(sizeof(Head) + room * sizeof(T))) Head{1, room} + 1);
+    std::uninitialized_value_construct_n(larger.first_, room);
+    std::copy_n(first_, size(), larger.first_);
+    std::swap(first_, larger.first_);
     return first_;
   }
 
   T* first_ = nullptr;
-  std::size_t size_ = 0, room_ = 0;
-  std::shared_ptr<T[]> memory_;
+  int count_ = 0;
 };
 
 template <class F, class T>

@@ -41,7 +41,7 @@ template <class F>
 TYNDALL_INLINE IntOf<F> find_slot(const Guide& g, Vec3<F> point, int level, MaskOf<F> wanted) {
   using I = IntOf<F>;
   const UintOf<F> name = tag_of<F>(cell_at(g, point, level), level);
-  const I tag = as_int(name), mask = splat_int<F>(g.slot_mask);
+  const I tag = as_int(name), mask = splat<F>(g.slot_mask);
   I at = as_int(shift_right<1>(name)) & mask, found = I(-1);
   for (auto open = wanted; any(open); at = (at + I(1)) & mask) {
     const I here = record_in<F>(g.cells, at)(&GuideCell::tag);

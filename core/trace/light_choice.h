@@ -14,27 +14,15 @@ struct LightColumns {
   F length_u, length_v, area;
 };
 
-/// Value of a column of lights in each lane.
-template <class F>
-TYNDALL_INLINE F light_value(const Lights& l, const float* column, IntOf<F> k) {
-  return l.count() == 1 ? splat<F>(column[0]) : lookup<F>(column, l.count(), k);
-}
-
-template <class F>
-TYNDALL_INLINE Vec3<F> light_value(const Lights& l, const VectorColumn& column, IntOf<F> k) {
-  return l.count() == 1 ? splat<F>(column[0]) : lookup<F>(column, l.count(), k);
-}
-
 template <class F>
 TYNDALL_INLINE LightColumns<F> load_light(const Lights& l, IntOf<F> k) {
-  return {l.count() == 1 ? IntOf<F>(l.kind[0]) : lookup<F>(l.kind, l.count(), k),
-          light_value<F>(l, l.corner, k),
-          light_value<F>(l, l.edge_u, k),
-          light_value<F>(l, l.edge_v, k),
-          light_value<F>(l, l.normal, k),
-          light_value<F>(l, l.length_u, k),
-          light_value<F>(l, l.length_v, k),
-          light_value<F>(l, l.area, k)};
+  const auto light = [&](const auto& value) __attribute__((always_inline)) {
+    return LightColumns<F>{value(l.kind),   value(l.corner),   value(l.edge_u),   value(l.edge_v),
+                           value(l.normal), value(l.length_u), value(l.length_v), value(l.area)};
+  };
+  if (l.count() == 1)
+    return light([](const auto& column) __attribute__((always_inline)) { return splat<F>(column[0]); });
+  return light([&](const auto& column) __attribute__((always_inline)) { return lookup<F>(column, l.count(), k); });
 }
 
 /// Where u in [0, 1)² lies on the flat light k, as fractions of its edges, uniformly by area. kind: of the light.
@@ -42,7 +30,7 @@ template <class F>
 TYNDALL_INLINE Pair<F> on_flat_light(const auto& s, IntOf<F> k, IntOf<F> kind, Pair<F> u) {
   if (!s.has_outlined_lights()) return u;
   const auto triangle = equal(kind, IntOf<F>(Lights::triangle)), ring = equal(kind, IntOf<F>(Lights::ring));
-  const Pair<F> folded = in_triangle(u), round = in_ring(light_value<F>(s.lights, s.lights.inner, k), u);
+  const Pair<F> folded = in_triangle(u), round = in_ring(lookup<F>(s.lights.inner, s.lights.count(), k), u);
   return {select(triangle, folded.x, select(ring, round.x, u.x)),
           select(triangle, folded.y, select(ring, round.y, u.y))};
 }

@@ -63,7 +63,7 @@ TYNDALL_INLINE void test_spheres(const Spheres& s, int first, int last, const Ra
   for (int i = first; i < last; ++i) {
     Vec3<F> center = splat<F>(s.center[i]);
     if constexpr (moving) center = point_at(center, ray.time, splat<F>(s.move[i]));
-    test_sphere(center, splat<F>(s.radius[i]), splat_int<F>(s.element[i]), ray, query, best);
+    test_sphere(center, splat<F>(s.radius[i]), splat<F>(s.element[i]), ray, query, best);
   }
 }
 
@@ -73,7 +73,7 @@ template <bool outlined, class F, class Q>
 TYNDALL_INLINE void test_flats(const Flats& f, int first, int last, const Ray<F>& ray, const Q& query, Hit<F>& best) {
   for (int i = first; i < last; ++i) {
     if (Q::shadow && f.element[i] == query.common_aim) continue;
-    const auto element = splat_int<F>(f.element[i]);
+    const auto element = splat<F>(f.element[i]);
     QuadHit<F> h;
     if constexpr (outlined)
       h = hit_outlined(f.map[i], f.outline[i], ray.origin, ray.direction, best.t);
@@ -128,7 +128,7 @@ TYNDALL_INLINE void test_box(const auto& map, IntOf<F> element, Start<F> start, 
 template <class F, class Q>
 TYNDALL_INLINE void test_boxes(const Flats& b, int first, int last, const Ray<F>& ray, const Q& query, Hit<F>& best) {
   for (int i = first; i < last; ++i)
-    test_box(b.map[i], splat_int<F>(b.element[i]), start_on<F>(ray.from, b.element[i], 6), ray, query, best);
+    test_box(b.map[i], splat<F>(b.element[i]), start_on<F>(ray.from, b.element[i], 6), ray, query, best);
 }
 
 template <class F, class Q>

@@ -110,7 +110,7 @@ struct SingleRay {
       const std::int32_t other = elements[__builtin_ctz(nearest)];
       element = other < element ? other : element;
     }
-    best = {splat<R>(t), splat_int<R>(element)};
+    best = {splat<R>(t), splat<R>(element)};
   }
 
   template <bool moving>
@@ -209,10 +209,10 @@ template <class F, class Q>
     return Vec3<R>{splat<R>(column[0][k]), splat<R>(column[1][k]), splat<R>(column[2][k])};
   };
   SingleRay<R, RayQuery<R, Q::shadow, true>> single;
-  single.ray = {row3(rays.origin), row3(rays.direction), splat<R>(rays.time[k]), splat_int<R>(rays.from[k])};
+  single.ray = {row3(rays.origin), row3(rays.direction), splat<R>(rays.time[k]), splat<R>(rays.from[k])};
   single.slopes = {row3(rays.slope), row3(rays.start)};
-  single.query = {splat<R>(rays.near[k]), splat_int<R>(rays.aim[k]), rays.common_aim};
-  single.best = {splat<R>(rays.t[k]), splat_int<R>(rays.element[k])};
+  single.query = {splat<R>(rays.near[k]), splat<R>(rays.aim[k]), rays.common_aim};
+  single.best = {splat<R>(rays.t[k]), splat<R>(rays.element[k])};
   single.node = node, single.near = rays.near[k];
   single.run(s);
   alignas(64) std::int32_t elements[lanes_of<R>];

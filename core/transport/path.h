@@ -37,8 +37,9 @@ template <class F>
 TYNDALL_INLINE void add_direct_light(const auto& s, Paths<F>& p, Event<F>& e, MaskOf<F> scattering, auto& samples,
                                      WaitingRequests<F>& waiting, auto& recorder, std::uint32_t& shadow_rays) {
   if (s.light_sampling && any(scattering)) {
-    const LightQuery<F> query{choose_light_or_sky(s, e.point, p.sampler.next_1d(dimension::light_choice)),
-                              p.sampler.next_2d(dimension::light_point), p.flight, false};
+    const F choice = s.samples_sky() || s.lights.count() > 1 ? p.sampler.next_1d(dimension::light_choice) : F(0.0f);
+    const LightQuery<F> query{choose_light_or_sky(s, e.point, choice), p.sampler.next_2d(dimension::light_point),
+                              p.flight, false};
     Vec3<F> light = direct_light(s, p, e, scattering, query, shadow_rays);
     if (s.has_guide()) light = weigh_beside_guide(s, p, e, light);
     p.radiance = p.radiance + light;

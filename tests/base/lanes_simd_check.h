@@ -197,7 +197,7 @@ void check_lookup(Differences& d, const Inputs& in, const T* table, int count) {
     store(got, splat<Wide>(in.a[0]));
     for (float& e : expected) e = in.a[0];
     d.expect(got, expected);
-    store(whole, splat_int<Wide>(in.i[0]));
+    store(whole, splat<Wide>(in.i[0]));
     for (std::int32_t& p : plain) p = in.i[0];
     d.expect(whole, plain);
   }
