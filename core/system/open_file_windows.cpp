@@ -45,24 +45,6 @@ OVERLAPPED lock_place() {
   return place;
 }
 
-/// What is no pipe can be read at once.
-bool has_bytes_now(int file) {
-  DWORD bytes = 0;
-  return !PeekNamedPipe(handle_of(file), nullptr, 0, nullptr, &bytes, nullptr) || bytes > 0;
-}
-
-/// Pipes cannot be waited for, so this asks now and then. seconds: < 0: as long as it takes.
-template <class Question>
-bool ask_until(double seconds, const Question& holds) {
-  const auto start = std::chrono::steady_clock::now();
-  while (!holds()) {
-    const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
-    if (seconds >= 0 && waited.count() >= seconds) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return true;
-}
-
 }  // namespace
 
 int last_error_number(DWORD error) {
@@ -96,24 +78,12 @@ OpenFile::OpenFile(const std::filesystem::path& file, OpenFor purpose, unsigned)
   descriptor_ = open_for_all(file, access_of(purpose), disposition, attributes, flags, error_);
 }
 
-OpenFile OpenFile::copy_of_standard_output() {
-  OpenFile file(_dup(standard_output));
-  if (!file) file.error_ = errno;
-  return file;
-}
-
 OpenFile OpenFile::unnamed() {
   OpenFile file;
   file.descriptor_ =
       open_for_all(temporary_folder() / (L"tyndall-" + unique_word()), GENERIC_READ | GENERIC_WRITE | DELETE,
                    CREATE_NEW, FILE_ATTRIBUTE_TEMPORARY | FILE_FLAG_DELETE_ON_CLOSE, 0, file.error_);
   return file;
-}
-
-std::pair<OpenFile, OpenFile> OpenFile::pipe() {
-  int ends[2];
-  if (_pipe(ends, 64, _O_BINARY | _O_NOINHERIT) != 0) return {};
-  return {OpenFile(ends[0]), OpenFile(ends[1])};
 }
 
 int OpenFile::close() { return descriptor_ > 2 ? result(_close(std::exchange(descriptor_, -1))) : 0; }
@@ -176,27 +146,16 @@ bool OpenFile::has_name() const {
 }
 
 /// A file gets what its folder says; it has no mode.
-int OpenFile::set_owner(unsigned, unsigned, unsigned) const { return 0; }
+int OpenFile::take_mode_and_owner(const std::filesystem::path&) const { return 0; }
 
-void Bell::ring() const {
-  constexpr char byte = 0;
-  [[maybe_unused]] const auto written = _write(rung_.descriptor(), &byte, 1);
-}
-
-Bell::Woken Bell::wait_for(int file, double seconds) const {
-  Woken woken = Woken::by_time;
-  ask_until(seconds, [&] {
-    if (has_bytes_now(heard_.descriptor()))
-      woken = Woken::by_bell;
-    else if (has_bytes_now(file))
-      woken = Woken::by_bytes;
-    return woken != Woken::by_time;
-  });
-  return woken;
-}
-
+/// Pipes cannot be waited for, so this asks now and then. What is no pipe can be read at once.
 bool has_bytes(int file, int milliseconds) {
-  return ask_until(1e-3 * milliseconds, [file] { return has_bytes_now(file); });
+  for (int waited = 0;; waited += 10) {
+    DWORD bytes = 0;
+    if (!PeekNamedPipe(handle_of(file), nullptr, 0, nullptr, &bytes, nullptr) || bytes > 0) return true;
+    if (waited >= milliseconds) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
 }
 
 }  // namespace tyndall

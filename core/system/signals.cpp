@@ -1,7 +1,5 @@
 #include "core/system/signals.h"
 
-#include "core/system/open_file.h"
-
 #include <signal.h>
 #include <time.h>
 #include <unistd.h>
@@ -20,7 +18,6 @@ static_assert(signal_kill == SIGKILL && signal_terminate == SIGTERM);
 std::atomic<int> received_signal{0};
 std::atomic<std::int64_t> received_at{0};  ///< milliseconds
 std::atomic<bool> save_request{false};
-std::atomic<const Bell*> bell{nullptr};
 std::atomic<int> watches{0};  ///< that live
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
 
@@ -38,7 +35,6 @@ void ask_for_end(int number) {
   int none = 0;
   if (!received_signal.compare_exchange_strong(none, number)) return;
   received_at = now_ms();
-  if (const Bell* one = bell) one->ring();
 }
 
 void ask_for_end_or_end(int number) {
@@ -66,20 +62,13 @@ const Watched watched[] = {{SIGINT, {ask_for_end, ask_for_end_or_end, ask_for_en
 
 struct SignalWatch::Before {
   struct sigaction actions[std::size(watched)];
-  Bell bell;
 };
 
 SignalWatch::SignalWatch(WatchedSignals signals, std::function<void()> on_end)
     : signals_(signals), before_(std::make_unique<Before>()) {
   if (signals_ == WatchedSignals::none) return;
   if (watches++ == 0) received_signal = 0, received_at = 0, save_request = false;
-  if (on_end) {
-    bell = &before_->bell;
-    thread_ = std::thread([this, call = std::move(on_end)] {
-      before_->bell.wait();
-      if (received_signal != 0) call();
-    });
-  }
+  if (on_end) thread_ = std::thread([this, call = std::move(on_end)] { tell_end(call); });
   for (std::size_t k = 0; k < std::size(watched); ++k) {
     struct sigaction action {};
     action.sa_handler = watched[k].handlers[static_cast<int>(signals_) - static_cast<int>(WatchedSignals::end)];
@@ -94,10 +83,8 @@ SignalWatch::~SignalWatch() {
   if (signals_ == WatchedSignals::none) return;
   for (std::size_t k = 0; k < std::size(watched); ++k) sigaction(watched[k].number, &before_->actions[k], nullptr);
   --watches;
-  if (!thread_.joinable()) return;
-  bell = nullptr;
-  before_->bell.ring();
-  thread_.join();
+  ends_ = true;
+  if (thread_.joinable()) thread_.join();
 }
 
 int SignalWatch::received() const { return signals_ == WatchedSignals::none ? 0 : received_signal.load(); }

@@ -188,10 +188,10 @@ CORE = [
     ("normals in place of colours", "core/api/picture.cpp", "data_->layers()[«0 → 1»].values; });\n}\nconst std::vector<float>& Picture::normal()", "library/library python"),
 
     ("a variable of a child stands there twice", "core/system/child.cpp", "if («!replaced → true») all.push_back(variable);", "system/child"),
-    ("a child's last words are cut, not its first ones", "core/system/child.cpp", "if («keep_last → !keep_last»)\n", "system/child"),
+    ("a child's last words are cut, not its first ones", "core/system/child.cpp", "if («plan.keep_last_errors → !plan.keep_last_errors»)\n", "system/child"),
     ("a quota of one and a half processors is one", "core/system/processors.cpp", "time / period + «(time % period > 0) → 0»;", "system/processors"),
     ("the widest quota counts", "core/system/processors.cpp", "minimum = «std::min(*quota, minimum.value_or(*quota)) → "
      "std::max(*quota, minimum.value_or(*quota))»;", "system/processors"),
-    ("places with spaces are not found", "core/system/process.cpp", "«if (code) i += 3; → »", "system/processors"),
-    ("a change of a file is not told of", "core/system/file_watch.cpp", "moments = 0;\n        «on_change(); → »", "system/file_watch"),
+    ("places with spaces are not found", "core/system/processors.cpp", "«if (code) i += 3; → »", "system/processors"),
+    ("a change of a file is not told of", "core/system/file_watch.cpp", "moments = 0;\n      «on_change_(); → »", "system/file_watch"),
 ]
