@@ -4,10 +4,6 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <unistd.h>
-#ifdef __linux__
-#include <linux/magic.h>
-#include <sys/statfs.h>
-#endif
 #if defined(__GLIBC__) || defined(__APPLE__)
 #include <dlfcn.h>
 #endif
@@ -125,9 +121,8 @@ fs::path folder_of_user(const std::string& below_home) {
 
 bool is_open_file(const fs::path& link) {
 #ifdef __linux__
-  struct statfs system {};
-  const fs::path folder = link.has_parent_path() ? link.parent_path() : ".";
-  return statfs(folder.c_str(), &system) == 0 && system.f_type == PROC_SUPER_MAGIC;
+  std::error_code error;
+  return fs::canonical(link.has_parent_path() ? link.parent_path() : ".", error).string().starts_with("/proc/");
 #else
   return link.string().starts_with("/dev/");
 #endif

@@ -122,7 +122,7 @@ int OpenFile::take_mode_and_owner(const std::filesystem::path& other) const {
   struct stat now {
   }, old{};
   if (fstat(descriptor_, &now) != 0) return errno;
-  if (stat(other.c_str(), &old) != 0) return 0;
+  if (stat(other.c_str(), &old) != 0) return errno == ENOENT ? 0 : errno;
   mode_t mode = old.st_mode & 07777u;
   const bool same_group = now.st_gid == old.st_gid || fchown(descriptor_, now.st_uid, old.st_gid) == 0;
   if (!same_group) mode = (mode & ~070u) | ((mode & 7u) << 3);

@@ -39,25 +39,17 @@ int processors_of_affinity() {
   return processors_of_machine();
 }
 
-/// The first numbers in a file; absent: it begins with none, as "max 100000" and missing files do.
-struct Numbers {
-  std::optional<std::int64_t> first, second;
-};
-Numbers numbers_in(const fs::path& file) {
-  Numbers numbers;
-  std::ifstream in(file);
-  std::int64_t number = 0;
-  if (in >> number) numbers.first = number;
-  if (numbers.first && in >> number) numbers.second = number;
-  return numbers;
-}
-
-/// The quota that one group sets.
+/// The quota that one group sets. Files that are not there, and "max", leave the numbers as they are.
 std::optional<int> quota_of(const fs::path& folder) {
-  Numbers quota = numbers_in(folder / "cpu.max");
-  if (!quota.first)
-    quota = {numbers_in(folder / "cpu.cfs_quota_us").first, numbers_in(folder / "cpu.cfs_period_us").first};
-  const std::int64_t time = quota.first.value_or(0), period = quota.second.value_or(100'000);
+  std::int64_t time = 0, period = 100'000;
+  std::ifstream file(folder / "cpu.max");
+  if (file >> time) {
+    file >> period;
+  } else {
+    time = 0;
+    std::ifstream(folder / "cpu.cfs_quota_us") >> time;
+    std::ifstream(folder / "cpu.cfs_period_us") >> period;
+  }
   if (time <= 0 || period <= 0) return std::nullopt;  // -1: none
   const std::int64_t rounded_up = time / period + (time % period > 0);
   return static_cast<int>(std::clamp<std::int64_t>(rounded_up, 1, 1 << 20));
