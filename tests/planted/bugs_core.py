@@ -174,10 +174,10 @@ CORE = [
     ("what was merged from an unfinished film says that it is whole", "core/files/film_files.cpp",
      "«a.unfinished || b.unfinished → a.unfinished && b.unfinished»", "files/film_files"),
     ("films of other numbers of samples do not fit", "core/files/film_files.cpp", "«scene.render.spp.reset(); → »", "files/film_files"),
-    ("the variance of one half, not of the mean", "core/files/stats.cpp", "const Vec3f half = «0.5f → 1.0f» * (half_mean", "files/layers"),
+    ("the variance of one half, not of the mean", "core/files/stats.cpp", "const Vec3f half = «0.5f → 1.0f» * (half_mean", "files/film_files"),
     ("the sky is at distance 0", "core/files/stats.cpp",
-     "depth.push_back(«hit.element < 0 ? std::numeric_limits<float>::infinity() : hit.depth → hit.depth»);", "files/layers"),
-    ("rates count the samples of earlier runs", "core/files/stats.cpp", "per_second(sum.samples - «run.samples_before → 0», run.result.seconds)", "files/stats"),
+     "depth.push_back(«hit.element < 0 ? std::numeric_limits<float>::infinity() : hit.depth → hit.depth»);", "files/film_files"),
+    ("rates count the samples of earlier runs", "core/files/stats.cpp", "per_second(sum.samples - «run.samples_before → 0», run.result.seconds)", "files/film_files"),
     ("an older film's caustics as of today", "core/files/film_files.cpp", "if («!find(render, \"caustics\") → false») scene", "files/film_files"),
 
     ("first_sample is lost", "core/api/picture.cpp", "«core.first_sample = options.first_sample; → »", "library/library python"),
