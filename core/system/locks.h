@@ -35,7 +35,6 @@ class Condition {
   Condition& operator=(const Condition&) = delete;
   void notify_one();
   void notify_all();
-  void wait(std::unique_lock<Mutex>& lock) { sleep(lock, forever); }
   template <class Predicate>
   void wait(std::unique_lock<Mutex>& lock, Predicate predicate) {
     while (!predicate()) sleep(lock, forever);

@@ -1,11 +1,10 @@
 #include "core/system/signals.h"
 
 #include <signal.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <atomic>
-#include <cstdint>
+#include <chrono>
 #include <iterator>
 #include <utility>
 
@@ -14,31 +13,29 @@ namespace {
 
 static_assert(signal_kill == SIGKILL && signal_terminate == SIGTERM);
 
+using Clock = std::chrono::steady_clock;
+
 // A signal handler can reach nothing but globals; lock-free atomics are safe there.
 std::atomic<int> received_signal{0};
-std::atomic<std::int64_t> received_at{0};  ///< milliseconds
+std::atomic<Clock::rep> received_at{0};
 std::atomic<bool> save_request{false};
 std::atomic<int> watches{0};  ///< that live
-static_assert(std::atomic<int>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<Clock::rep>::is_always_lock_free);
 
 /// A program such as timeout signals the process and then its group: what comes within this time is the same request.
-constexpr std::int64_t same_request_ms = 200;
+constexpr Clock::rep same_request = Clock::duration(std::chrono::milliseconds(200)).count();
 
-std::int64_t now_ms() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1000000;
-}
+Clock::rep now() { return Clock::now().time_since_epoch().count(); }
 
 /// Asks for an end. SIGXCPU comes again every second, SIGHUP from the shell and from the terminal: no reason to hurry.
 void ask_for_end(int number) {
   int none = 0;
   if (!received_signal.compare_exchange_strong(none, number)) return;
-  received_at = now_ms();
+  received_at = now();
 }
 
 void ask_for_end_or_end(int number) {
-  if (received_signal != 0 && received_at != 0 && now_ms() - received_at > same_request_ms) _exit(128 + number);
+  if (received_signal != 0 && received_at != 0 && now() - received_at > same_request) _exit(128 + number);
   ask_for_end(number);
 }
 

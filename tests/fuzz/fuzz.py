@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Runs the targets for libFuzzer on all readers; fails when an input crashes one, hangs it or takes too much memory.
+"""Runs the target for libFuzzer on all readers; fails when an input crashes one, hangs it or takes too much memory.
 
 Usage: fuzz.py ROOT BUILD SCRATCH [--runs N] [--jobs N] [--only NAME...]
 
-ROOT: the source tree. BUILD: where the targets are built, with Clang, if they are not yet. SCRATCH: gets the inputs, and
-what crashes. --runs: executions of all targets together. Exit code 77 (skipped) without Clang.
+ROOT: the source tree. BUILD: where the target is built, with Clang, if it is not yet. SCRATCH: gets the inputs, and
+what crashes. --runs: executions of all readers together. Exit code 77 (skipped) without Clang.
 """
 import argparse
 import concurrent.futures
@@ -15,7 +15,7 @@ import shutil
 import subprocess
 import sys
 
-# What is read, and the target that reads it. Images have one target, which tells formats by their first bytes.
+# What is read, and what reads it. Images have one reader, which tells formats by their first bytes.
 READERS = {"scene": "scene", "set": "set", "png": "image", "jpeg": "image", "hdr": "image", "pfm": "image",
            "ppm": "image", "bmp": "image", "tga": "image",
            "exr": "image", "film": "film", "merge": "merge", "arguments": "arguments", "compare": "compare"}
@@ -59,10 +59,10 @@ def fuzz(reader, root, folder, scratch, runs):
     inputs, found = scratch / "inputs" / reader, scratch / "found" / reader
     inputs.mkdir(parents=True)
     found.mkdir(parents=True)
-    command = [folder / f"fuzz_{READERS[reader]}", inputs, scratch / "seeds" / reader, f"-runs={runs}", "-timeout=20",
+    command = [folder / "fuzz", inputs, scratch / "seeds" / reader, f"-runs={runs}", "-timeout=20",
                f"-max_len={LONGEST.get(reader, 8192)}", f"-dict={root}/tests/fuzz/words.dict", "-malloc_limit_mb=256",
                "-rss_limit_mb=2048", f"-artifact_prefix={found}/", "-print_final_stats=1", "-verbosity=1"]
-    environment = {**os.environ, "ASAN_OPTIONS": "allocator_may_return_null=0:detect_leaks=1"}
+    environment = {**os.environ, "TYNDALL_FUZZ": READERS[reader], "ASAN_OPTIONS": "allocator_may_return_null=0:detect_leaks=1"}
     done = subprocess.run(command, cwd=scratch, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                           stderr=subprocess.PIPE)
     log = done.stderr.decode(errors="replace")
