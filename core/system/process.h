@@ -1,12 +1,10 @@
 #pragma once
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
-#include <limits>
 #include <string>
 #include <vector>
 
-/// This process: its standard streams, what it has used, and its limits.
+/// This process: its standard streams, its memory pages, its priority. What it may use: see processors.h.
 namespace tyndall {
 
 /// Call first. Where the caller closed one of the standard streams, the next file that the program opens would get its
@@ -38,16 +36,6 @@ inline constexpr std::size_t large_page = std::size_t{2} << 20;
 void ask_for_large_pages(void* begin, std::size_t bytes);
 /// Memory for std::free(); null: there is none.
 void* allocate_aligned(std::size_t bytes, std::size_t alignment);
-
-/// The soft limit of something; no_limit: there is none.
-enum class Limit { address_space, data, threads };
-inline constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
-std::uint64_t limit_of(Limit limit);
-
-/// Memory that is free on this machine, bytes; no_limit: the system does not say.
-std::uint64_t memory_of_machine();
-/// The most memory that the process has had at a time, bytes.
-std::size_t peak_memory();
 
 /// From now on the calling thread, and those that it starts, give way to others, as "nice" does. (On Linux a priority
 /// belongs to one thread, which cannot take it back; elsewhere this changes nothing.)

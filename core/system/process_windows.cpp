@@ -1,5 +1,6 @@
 #include "core/system/process.h"
 
+#include "core/system/processors.h"
 #include "core/system/windows_api.h"
 
 #include <fcntl.h>

@@ -1,7 +1,5 @@
 #include "core/system/processors.h"
 
-#include "core/system/process.h"
-
 #ifdef __linux__
 #include <sched.h>
 #endif

@@ -1,6 +1,8 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -26,6 +28,16 @@ ThreadCount thread_count(int requested = 0, const std::filesystem::path& root = 
 /// (version 2) and of cpu.cfs_quota_us over cpu.cfs_period_us (version 1), from its own group up. For example 2 for a
 /// quota of 1.5 processors. Absent: there is no quota.
 std::optional<int> processor_quota(const std::filesystem::path& root = "/");
+
+/// The soft limit of something; no_limit: there is none.
+enum class Limit { address_space, data, threads };
+inline constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
+std::uint64_t limit_of(Limit limit);
+
+/// Memory that is free on this machine, bytes; no_limit: the system does not say.
+std::uint64_t memory_of_machine();
+/// The most memory that the process has had at a time, bytes.
+std::size_t peak_memory();
 
 /// Memory that this process could still take, bytes, and what limits it, such as "left by ulimit -v".
 struct FreeMemory {

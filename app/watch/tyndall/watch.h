@@ -84,11 +84,11 @@ auto numbers(R r, G g, B b)
 template <class C>
 constexpr bool always_false = false;
 
-/// Takes a colour apart by the first of these ways that compile for its type.
-template <class C, class Way, class... Others>
-std::array<double, 3> apart(C& colour, Way way, Others... others) {
-  if constexpr (std::is_invocable_v<Way, C&>)
-    return way(colour);
+/// Takes a colour apart by the first of these functions that compiles for its type.
+template <class C, class Parts, class... Others>
+std::array<double, 3> apart(C& colour, Parts parts, Others... others) {
+  if constexpr (std::is_invocable_v<Parts, C&>)
+    return parts(colour);
   else if constexpr (sizeof...(others) > 0)
     return apart(colour, others...);
   else
