@@ -17,21 +17,24 @@ namespace {
 
 HANDLE handle_of(int file) { return reinterpret_cast<HANDLE>(_get_osfhandle(file)); }
 
-DWORD access_of(OpenFor purpose) {
-  if (purpose == OpenFor::reading || purpose == OpenFor::folder) return GENERIC_READ;
-  if (purpose == OpenFor::appending || purpose == OpenFor::adding) return FILE_APPEND_DATA | SYNCHRONIZE;
-  if (purpose == OpenFor::writing) return GENERIC_WRITE | FILE_READ_ATTRIBUTES;
-  return GENERIC_READ | GENERIC_WRITE;
-}
+struct HowToOpen {
+  DWORD access, disposition, attributes;
+  int flags;
+};
 
-DWORD disposition_of(OpenFor purpose) {
-  if (purpose == OpenFor::creating) return CREATE_NEW;
-  return purpose == OpenFor::changing || purpose == OpenFor::adding ? OPEN_ALWAYS : OPEN_EXISTING;
-}
-
-DWORD attributes_of(OpenFor purpose) {
-  if (purpose == OpenFor::folder) return FILE_FLAG_BACKUP_SEMANTICS;
-  return purpose == OpenFor::looking ? FILE_FLAG_OPEN_REPARSE_POINT : FILE_ATTRIBUTE_NORMAL;
+HowToOpen how_to_open(OpenFor purpose) {
+  constexpr DWORD all = GENERIC_READ | GENERIC_WRITE, append = FILE_APPEND_DATA | SYNCHRONIZE;
+  constexpr HowToOpen table[] = {
+      {GENERIC_READ, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, 0},                          // reading
+      {GENERIC_WRITE | FILE_READ_ATTRIBUTES, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, 0},  // writing
+      {append, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, _O_APPEND},                        // appending
+      {append, OPEN_ALWAYS, FILE_ATTRIBUTE_NORMAL, _O_APPEND},                          // adding
+      {all, OPEN_ALWAYS, FILE_ATTRIBUTE_NORMAL, 0},                                     // changing
+      {all, CREATE_NEW, FILE_ATTRIBUTE_NORMAL, 0},                                      // creating
+      {all, OPEN_EXISTING, FILE_FLAG_OPEN_REPARSE_POINT, 0},                            // looking
+      {GENERIC_READ, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, 0},                     // folder
+  };
+  return table[static_cast<int>(purpose)];
 }
 
 int result(long long value) { return value < 0 ? errno : 0; }
@@ -72,10 +75,8 @@ std::string error_text(int number) {
 }
 
 OpenFile::OpenFile(const std::filesystem::path& file, OpenFor purpose, unsigned) {
-  const bool appends = purpose == OpenFor::appending || purpose == OpenFor::adding;
-  const DWORD disposition = disposition_of(purpose), attributes = attributes_of(purpose);
-  const int flags = appends ? _O_APPEND : 0;
-  descriptor_ = open_for_all(file, access_of(purpose), disposition, attributes, flags, error_);
+  const HowToOpen how = how_to_open(purpose);
+  descriptor_ = open_for_all(file, how.access, how.disposition, how.attributes, how.flags, error_);
 }
 
 OpenFile OpenFile::unnamed() {
