@@ -6,7 +6,7 @@
 #include "core/base/text.h"
 #include "core/system/child.h"
 #include "core/system/open_file.h"
-#include "core/system/process.h"
+#include "core/system/processors.h"
 #include "core/system/signals.h"
 
 #include <fmt/core.h>

@@ -96,13 +96,11 @@ ArrivingPicture::ArrivingPicture(int file, const std::string& begin, const std::
 void ArrivingPicture::start(std::function<void()> on_news) {
   pixels_->rgb.resize(3 * pixels_->width * pixels_->height);
   on_news_ = std::move(on_news);
-  if (!leave_.ready()) throw IoError("no pipe can be opened");
-  thread_.emplace([this](const StopToken&) { read(); });
+  thread_.emplace([this] { read(); });
 }
 
 void ArrivingPicture::stop() {
-  if (!thread_) return;
-  leave_.ring();
+  leave_ = true;
   thread_.reset();
 }
 
@@ -117,15 +115,14 @@ void ArrivingPicture::read() {
   take(std::exchange(bytes_, {}));
   tell();
   Clock::time_point told = Clock::now();
-  for (bool news = false;;) {
-    const Bell::Woken woken = leave_.wait_for(file_, news ? std::max(0.0, period - seconds_since(told)) : -1);
-    if (woken == Bell::Woken::by_bell) return;
-    if (woken == Bell::Woken::by_bytes) {
+  for (bool news = false; !leave_;) {
+    if (has_bytes(file_, 50)) {
       if (!take_bytes()) break;
       news = true;
     }
     if (news && seconds_since(told) >= period) tell(), told = Clock::now(), news = false;
   }
+  if (leave_) return;
   end();
   tell();
 }

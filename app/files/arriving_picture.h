@@ -4,6 +4,7 @@
 #include "core/system/locks.h"
 #include "core/system/open_file.h"
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -76,8 +77,8 @@ class ArrivingPicture {
   std::function<void()> on_news_;
   mutable Mutex mutex_;  ///< guards arrival_
   Arrival arrival_;
-  Bell leave_;
-  std::optional<StoppableThread> thread_;
+  std::atomic<bool> leave_ = false;
+  std::optional<JoinedThread> thread_;
 };
 
 }  // namespace tyndall

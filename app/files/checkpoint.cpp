@@ -71,7 +71,7 @@ bool Checkpoints::write_in_background(const Film& film, ThreadPool& thread_pool)
   try {
     copy(film, copy_, thread_pool);
     writing_ = true;
-    writer_.emplace([this](const StopToken&) {
+    writer_.emplace([this] {
       write(copy_);
       writing_ = false;
     });

@@ -57,7 +57,7 @@ class Checkpoints {
   std::optional<double> interval_;
   std::function<Embedded(const Film&)> embedded_;
   Film copy_;
-  std::optional<StoppableThread> writer_;
+  std::optional<JoinedThread> writer_;
   std::atomic<bool> writing_ = false;
   Clock::time_point taken_ = Clock::now();  ///< when the last one was taken, at first the start
   std::atomic<double> cost_ = 0;            ///< seconds that the last one took

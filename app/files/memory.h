@@ -1,6 +1,6 @@
 #pragma once
 #include "app/files/outputs.h"
-#include "core/system/process.h"
+#include "core/system/processors.h"
 
 #include <cstdint>
 #include <string>

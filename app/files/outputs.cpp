@@ -6,6 +6,7 @@
 #include "core/base/text.h"
 #include "core/film/film.h"
 #include "core/image/whole_file.h"
+#include "core/system/files.h"
 #include "core/system/process.h"
 
 #include <algorithm>

@@ -38,11 +38,10 @@ std::string Y4mFile::header() const {
 
 Y4mFile::Y4mFile(const std::filesystem::path& file, const Y4mFormat& format, bool fresh)
     : file_(file), format_(format), stream_(is_stream(file)) {
-  if (file == "-") {
-    bytes_ = OpenFile::copy_of_standard_output();
-  } else {
+  if (file == "-")
+    bytes_ = OpenFile(standard_output);
+  else
     bytes_ = OpenFile(file, stream_ ? OpenFor::writing : OpenFor::changing);
-  }
   check(bytes_.error());
   if (!stream_) go_on_with_file(fresh);
   if (frames_ == 0) write(header());

@@ -4,8 +4,11 @@
 #include <pybind11/stl.h>
 #include <tyndall/tyndall.h>
 
+#include <cstdint>
 #include <exception>
 #include <initializer_list>
+#include <optional>
+#include <string>
 
 /// The classes of the Python package; app/python/tyndall/__init__.py adds what is simpler to say in Python. Numbers and
 /// pictures are not copied: arrays look into the picture, which they keep alive.
@@ -161,20 +164,14 @@ void add_picture(py::module_& module) {
 }
 
 void add_render(py::module_& module) {
-  using tyndall::RenderOptions;
-  py::class_<RenderOptions>(module, "RenderOptions")
-      .def(py::init<>())
-      .def_readwrite("spp", &RenderOptions::spp)
-      .def_readwrite("time", &RenderOptions::time)
-      .def_readwrite("target_error", &RenderOptions::target_error)
-      .def_readwrite("clean", &RenderOptions::clean)
-      .def_readwrite("threads", &RenderOptions::threads)
-      .def_readwrite("isa", &RenderOptions::isa)
-      .def_readwrite("first_sample", &RenderOptions::first_sample)
-      .def_readwrite("film", &RenderOptions::film)
-      .def("set_region", [](RenderOptions& options, int x0, int y0, int x1, int y1) {
-        options.region = tyndall::Region{x0, y0, x1, y1};
-      });
+  using tyndall::Region;
+  py::class_<Region>(module, "Region").def(py::init([](int x0, int y0, int x1, int y1) {
+    return Region{x0, y0, x1, y1};
+  }));
+  // In the order of the members.
+  py::class_<tyndall::RenderOptions>(module, "RenderOptions")
+      .def(py::init<std::uint32_t, double, double, bool, int, std::string, std::optional<Region>, std::uint32_t,
+                    std::optional<tyndall::Film>>());
   module.def("render", &render);
 }
 

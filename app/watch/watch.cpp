@@ -55,56 +55,39 @@ class Host {
   using Function = void (*)(void* user, double x, double y, std::uint64_t sample, double rgb[3]);
 
   /// The program's function, and its first argument.
-  Host(Function called, void* argument);
-  ~Host();
+  Host(Function called, void* argument)
+      : called_(called), argument_(argument), differs_(std::fegetround() != FE_TONEAREST || flushes_to_zero()) {
+    const char* name = std::setlocale(LC_CTYPE, nullptr);
+    character_type_ = name ? name : "C";
+    std::fegetenv(&arithmetic_);
+    std::fesetenv(FE_DFL_ENV);
+  }
+  ~Host() {
+    std::fesetenv(&arithmetic_);
+    std::setlocale(LC_CTYPE, character_type_.c_str());
+  }
   Host(const Host&) = delete;
   Host& operator=(const Host&) = delete;
 
   /// What calls the program's function with the program's own arithmetic, and its first argument. From any thread.
-  Function function() const;
-  void* user();
+  Function function() const { return differs_ ? call_in_its_arithmetic : called_; }
+  void* user() { return differs_ ? this : argument_; }
 
  private:
-  Function called_;
-  void* argument_;
-  bool differs_ = false;  ///< in arithmetic
-  std::fenv_t arithmetic_{};
-  std::string character_type_;
-};
-
-Host::Host(Function called, void* argument)
-    : called_(called), argument_(argument), differs_(std::fegetround() != FE_TONEAREST || flushes_to_zero()) {
-  const char* name = std::setlocale(LC_CTYPE, nullptr);
-  character_type_ = name ? name : "C";
-  std::fegetenv(&arithmetic_);
-  std::fesetenv(FE_DFL_ENV);
-}
-
-Host::~Host() {
-  std::fesetenv(&arithmetic_);
-  std::setlocale(LC_CTYPE, character_type_.c_str());
-}
-
-void* Host::user() { return differs_ ? this : argument_; }
-
-Host::Function Host::function() const {
-  if (!differs_) return called_;
-  return [](void* user, double x, double y, std::uint64_t sample, double rgb[3]) {
+  static void call_in_its_arithmetic(void* user, double x, double y, std::uint64_t sample, double rgb[3]) {
     struct Back {
       ~Back() { std::fesetenv(FE_DFL_ENV); }
     } back;
     const Host& host = *static_cast<const Host*>(user);
     std::fesetenv(&host.arithmetic_);
     host.called_(host.argument_, x, y, sample, rgb);
-  };
-}
+  }
 
-/// What the caller wants, checked and complete.
-struct Order {
-  std::shared_ptr<WatchedFunction> function;
-  LoadedScene loaded;  ///< has the picture's size and the settings of its samples, and no objects
-  int threads = 1;
-  std::filesystem::path output, reference;
+  Function called_;
+  void* argument_;
+  bool differs_;  ///< in arithmetic
+  std::fenv_t arithmetic_{};
+  std::string character_type_;
 };
 
 std::string text(const char* option) { return option ? option : ""; }
@@ -131,30 +114,30 @@ void check(int width, int height, bool has_function, const tyndall_watch_options
   if (options.spp > max_samples) refuse(fmt::format("spp: found {}, expected at most {}", options.spp, max_samples));
 }
 
-Order order_of(int width, int height, const tyndall_watch_options& options, Host& host) {
-  Order order;
+/// What the caller wants. The scene has the picture's size and the settings of its samples, and no objects.
+WindowOptions order_of(int width, int height, const tyndall_watch_options& options, Host& host) {
+  WindowOptions order;
   order.function = std::make_shared<WatchedFunction>(host.function(), host.user());
   order.threads = std::max(options.threads, 1);
-  order.output = text(options.output);
-  order.reference = text(options.reference);
-  order.loaded.name = options.title && *options.title ? options.title : "watch";
-  order.loaded.folder = ".";
-  order.loaded.is_picture = true;
-  Scene& scene = order.loaded.scene;
+  order.hosted = true;
+  order.scene.name = options.title && *options.title ? options.title : "watch";
+  order.scene.folder = ".";
+  order.scene.is_picture = true;
+  Scene& scene = order.scene.scene;
   scene.width = width, scene.height = height;
   scene.render.seed = options.seed;
   if (options.spp > 0) scene.render.spp = static_cast<int>(options.spp);
   return order;
 }
 
-void write_picture(const Order& order) {
-  const Scene& scene = order.loaded.scene;
-  if (!order.reference.empty())
-    throw UsageError("watch: reference: found " + in_quotes(order.reference.string()) +
+void write_picture(const WindowOptions& order, const std::string& output, const std::string& reference) {
+  const Scene& scene = order.scene.scene;
+  if (!reference.empty())
+    throw UsageError("watch: reference: found " + in_quotes(reference) +
                      ", expected none beside output: only the window compares");
-  const std::vector<std::filesystem::path> files{order.output};
+  const std::vector<std::filesystem::path> files{output};
   check_image_names(files);
-  check_can_write(order.output);
+  check_can_write(output);
   check_memory({.width = scene.width, .height = scene.height, .place = "watch", .files = files}, free_memory());
   const std::shared_ptr<const PreparedScene> prepared = prepare(scene);
   RenderOptions options;
@@ -176,17 +159,16 @@ bool is_picture_file(const std::filesystem::path& name) {
          image_kind(read_bytes(file, kind_size)) != ImageKind::unknown;
 }
 
-[[maybe_unused]] void add_reference(const Order& order, WindowOptions& options) {
-  if (order.reference.empty()) return;
-  if (is_picture_file(order.reference)) {
-    options.reference = order.reference;
+[[maybe_unused]] void add_reference(const std::string& reference, WindowOptions& order) {
+  if (is_picture_file(reference)) {
+    order.reference = reference;
     return;
   }
   SceneRequest request;
-  request.what = order.reference.string();
-  options.reference_scene = open_scene(request);
-  options.reference_scene->scene.width = order.loaded.scene.width;
-  options.reference_scene->scene.height = order.loaded.scene.height;
+  request.what = reference;
+  order.reference_scene = open_scene(request);
+  order.reference_scene->scene.width = order.scene.scene.width;
+  order.reference_scene->scene.height = order.scene.scene.height;
 }
 
 #ifdef TYNDALL_WINDOW
@@ -200,20 +182,14 @@ struct OnlyWindow {
 };
 #endif
 
-void show_window([[maybe_unused]] const Order& order) {
+void show_window([[maybe_unused]] WindowOptions& order, [[maybe_unused]] const std::string& reference) {
 #ifdef TYNDALL_WINDOW
   const OnlyWindow only;
-  const Scene& scene = order.loaded.scene;
-  check_memory(WindowPlan{scene.width, scene.height}, free_memory(), "");
-  WindowOptions options;
-  options.scene = order.loaded;
-  options.threads = order.threads;
-  options.function = order.function;
-  options.hosted = true;
-  if (const char* log = std::getenv("TYNDALL_UI_LOG")) options.ui_log = log;  // for tests
-  add_reference(order, options);
+  check_memory(WindowPlan{order.scene.scene.width, order.scene.scene.height}, free_memory(), "");
+  if (const char* log = std::getenv("TYNDALL_UI_LOG")) order.ui_log = log;  // for tests
+  if (!reference.empty()) add_reference(reference, order);
   try {
-    run_window(options);
+    run_window(order);
   } catch (const IoError& error) {
     throw IoError(error.what() + std::string(no_window));
   }
@@ -222,23 +198,20 @@ void show_window([[maybe_unused]] const Order& order) {
 #endif
 }
 
-/// Tells how many samples have failed, if it was more than the one that was told already. Returns whether any have.
-bool tell_failures(const WatchedFunction& function) {
-  if (function.problems() > 1)
-    complain(fmt::format("{} samples have failed; the first: {}", function.problems(), function.first_problem()));
-  return function.problems() > 0;
-}
-
 int run(int width, int height, tyndall_watch_function function, void* user, const tyndall_watch_options* given) {
   const tyndall_watch_options options = whole(given);
   check(width, height, function != nullptr, options);
   Host host(function, user);
-  const Order order = order_of(width, height, options, host);
-  if (order.output.empty())
-    show_window(order);
+  WindowOptions order = order_of(width, height, options, host);
+  const std::string output = text(options.output), reference = text(options.reference);
+  if (output.empty())
+    show_window(order, reference);
   else
-    write_picture(order);
-  return tell_failures(*order.function) ? 1 : 0;
+    write_picture(order, output, reference);
+  const auto failures = order.function->problems();
+  if (failures > 1)  // one was told already
+    complain(fmt::format("{} samples have failed; the first: {}", failures, order.function->first_problem()));
+  return failures > 0 ? 1 : 0;
 }
 
 }  // namespace

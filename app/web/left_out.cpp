@@ -4,7 +4,6 @@
 
 namespace tyndall {
 
-struct FileWatch::State {};
 FileWatch::FileWatch(const std::vector<std::filesystem::path>&, std::function<void()>) {}
 FileWatch::~FileWatch() = default;
 

@@ -1,7 +1,7 @@
 #include "core/base/error.h"
 
 #include "core/base/text.h"
-#include "core/system/process.h"
+#include "core/system/processors.h"
 
 #include <array>
 #include <cstdint>

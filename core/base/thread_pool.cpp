@@ -14,15 +14,19 @@ namespace tyndall {
 ThreadPool::ThreadPool(int size) {
   const int wanted = thread_count(size).count;
   try {
-    for (int i = 0; i < wanted; ++i) threads_.emplace_back([this](const StopToken& stop) { work(stop); });
+    for (int i = 0; i < wanted; ++i) threads_.emplace_back([this] { work(); });
   } catch (const std::system_error& error) {
+    stop();
     throw IoError("cannot start thread " + std::to_string(threads_.size() + 1) + " of " + std::to_string(wanted) +
                   ": " + error.code().message() + thread_limit_text() + "; --threads says how many to start");
   }
 }
 
-ThreadPool::~ThreadPool() {
-  for (auto& thread : threads_) thread.request_stop();
+ThreadPool::~ThreadPool() { stop(); }
+
+void ThreadPool::stop() {
+  const std::lock_guard lock(mutex_);
+  stops_ = true;
   wake_.notify_all();
 }
 
@@ -65,12 +69,13 @@ std::shared_ptr<void>& thread_pool_memory() {
   return *memory_of_thread;
 }
 
-void ThreadPool::work(const StopToken& stop) {
+void ThreadPool::work() {
   std::shared_ptr<void> memory;
   memory_of_thread = &memory;
   for (std::uint64_t seen = 0;;) {
     std::unique_lock lock(mutex_);
-    if (!wake_.wait(lock, stop, [&] { return round_ != seen; })) return;
+    wake_.wait(lock, [&] { return stops_ || round_ != seen; });
+    if (stops_) return;
     seen = round_;
     const auto& job = *job_;
     const int count = count_;

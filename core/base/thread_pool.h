@@ -30,16 +30,18 @@ class ThreadPool {
   void for_each(int count, const std::function<void(int)>& job, const std::function<void()>& poll = {});
 
  private:
-  void work(const StopToken& stop);
+  void work();
+  void stop();
 
   Mutex mutex_;
-  StoppableCondition wake_, done_;
+  Condition wake_, done_;
+  bool stops_ = false;
   const std::function<void(int)>* job_ = nullptr;
   int count_ = 0, busy_ = 0;
   std::uint64_t round_ = 0;
   std::atomic<int> next_ = 0;
-  std::exception_ptr failure_;            ///< what a job of this round threw first
-  std::vector<StoppableThread> threads_;  // declared last, so that the threads end before what they use goes
+  std::exception_ptr failure_;         ///< what a job of this round threw first
+  std::vector<JoinedThread> threads_;  // declared last, so that the threads end before what they use goes
 };
 
 /// Returns the pointer in which jobs keep memory on the calling pool thread from one job to the next; null at first.

@@ -5,7 +5,7 @@
 #include "core/render/plan.h"
 #include "core/scene/json_tree.h"
 #include "core/scene/place.h"
-#include "core/system/process.h"
+#include "core/system/processors.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -4,7 +4,7 @@
 #include "core/base/text.h"
 #include "core/image/image_io_file.h"
 #include "core/system/files.h"
-#include "core/system/process.h"
+#include "core/system/processors.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -83,7 +83,6 @@ FilePlace find_place(const fs::path& file) {
   if (!there && !place.folder_problem.empty()) cannot_write(file, place.folder_problem);
   if (!there) return place;
   place.exists = true;
-  place.mode = static_cast<unsigned>(status.permissions()), place.owner = owner_of(file);
   if (fs::is_directory(status)) cannot_write(file, error_text(EISDIR));
   const bool once = fs::is_fifo(status) || fs::is_character_file(status) || fs::is_symlink(place.target, error);
   if (!once && !fs::is_regular_file(status)) cannot_write(file, "not an ordinary file");
@@ -227,7 +226,7 @@ void WholeFile::commit() {
     return check(to.close());
   }
   if (place_.method == WriteMethod::in_place) return overwrite();
-  if (place_.exists) check(bytes_.set_owner(place_.mode, place_.owner.user, place_.owner.group));
+  if (place_.exists) check(bytes_.take_mode_and_owner(place_.target));
   check(bytes_.synchronise());
   check(replace_file(temporary_, place_.target));
   temporary_.clear();

@@ -1,6 +1,5 @@
 #pragma once
 #include "core/image/image.h"
-#include "core/system/files.h"
 #include "core/system/open_file.h"
 
 #include <cstddef>
@@ -28,8 +27,6 @@ struct FilePlace {
   /// Why the folder takes no new files, which is known for certain when a WholeFile was made there; "": it does.
   std::string folder_problem{};
   bool exists = false;
-  unsigned mode = 0;  ///< of the file that exists
-  FileOwner owner;
 };
 
 /// Looks at a file, which need not exist. "-" is standard output. Nothing is written. Ordinary files are replaced,

@@ -71,12 +71,12 @@ std::future<Film> Mailbox::ask_for_film() {
   return answer;
 }
 
-bool Mailbox::wait(const StopToken& stop, const std::function<bool(std::uint32_t limit)>& unfinished) {
+bool Mailbox::wait(const std::function<bool(std::uint32_t limit)>& unfinished) {
   std::unique_lock lock(mutex_);
-  const bool news = news_.wait(lock, stop, [&] {
-    return change_between(taken_, newest_).any() || !films_.empty() || unfinished(newest_.limit());
+  news_.wait(lock, [&] {
+    return stops_ || change_between(taken_, newest_).any() || !films_.empty() || unfinished(newest_.limit());
   });
-  return news && !stop.stop_requested();
+  return !stops_;
 }
 
 void Mailbox::post(std::shared_ptr<Frame> frame) {

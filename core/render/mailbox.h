@@ -60,7 +60,7 @@ class Mailbox {
 
   /// Sleeps until the request has changed, a film was requested, or `unfinished`, called with the limit in samples a
   /// pixel, returns true. Returns false if the thread is to stop.
-  bool wait(const StopToken& stop, const std::function<bool(std::uint32_t limit)>& unfinished);
+  bool wait(const std::function<bool(std::uint32_t limit)>& unfinished);
   /// Returns the newest request, and clears give_up().
   ReceivedRequest take() {
     const std::lock_guard lock(mutex_);
@@ -77,11 +77,13 @@ class Mailbox {
   std::optional<double> wait_until_shown(std::uint64_t pass);
   /// True as soon as a caller wants something that cannot wait for the end of the current pass.
   const std::atomic<bool>& give_up() const { return give_up_; }
-  /// Makes the thread that renders leave its pass and check its stop token.
-  void interrupt() {
-    give_up_ = true;
+  /// Makes the thread that renders leave its pass and stop.
+  void stop() {
+    const std::lock_guard lock(mutex_);
+    give_up_ = stops_ = true;
     news_.notify_one();
   }
+  bool stops() const { return stops_; }
   /// Publishes a frame. Sets Frame::finished, as the limit may have changed since the frame was begun.
   void post(std::shared_ptr<Frame> frame);
   void post(RenderProblem problem) {
@@ -96,9 +98,9 @@ class Mailbox {
   void post(std::shared_ptr<const PreparedScene> scene);
 
  private:
-  mutable Mutex mutex_;  ///< guards all but give_up_
-  StoppableCondition news_;
-  std::atomic<bool> give_up_ = false;
+  mutable Mutex mutex_;  ///< guards all but give_up_ and stops_
+  Condition news_;
+  std::atomic<bool> give_up_ = false, stops_ = false;
 
   ReceivedRequest newest_, taken_;
   std::vector<std::promise<Film>> films_;

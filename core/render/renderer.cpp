@@ -32,12 +32,11 @@ Renderer::Renderer(const Options& options, std::function<void()> on_frame)
       on_frame_(std::move(on_frame)),
       thread_pool_(std::make_unique<ThreadPool>(options.threads)),
       clean_(kernels_),
-      thread_([this](const StopToken& stop) { run(stop); }) {}
+      thread_([this] { run(); }) {}
 
 Renderer::~Renderer() {
-  thread_.request_stop();
-  mail_.interrupt();
-  thread_.join();
+  mail_.stop();
+  thread_.reset();
   for (auto& request : mail_.take_film_requests()) request.set_value({});  // so that no caller waits forever
 }
 
@@ -58,13 +57,13 @@ Renderer::Pick Renderer::pick(int x, int y) const {
 }
 
 /// Renders until a stop is requested.
-void Renderer::run(const StopToken& stop) {
-  while (mail_.wait(stop, [this](std::uint32_t limit) { return !stalled_ && (unfinished(limit) || clean_is_due()); })) {
+void Renderer::run() {
+  while (mail_.wait([this](std::uint32_t limit) { return !stalled_ && (unfinished(limit) || clean_is_due()); })) {
     stalled_ = false;
     try {
       const ReceivedRequest next = mail_.take();
       tell_if_it_fails(next.edit, [&] { follow(next); });
-      if (stop.stop_requested()) return;
+      if (mail_.stops()) return;
       tell_if_it_fails(shown_.edit, [this] { go_on(); });
     } catch (...) {  // not even the message fits into memory: the next request is a new attempt
       stalled_ = true;

@@ -50,7 +50,7 @@ class Renderer {
 
  private:
   // The thread that takes requests from the mailbox, renders pass by pass, and publishes frames.
-  void run(const StopToken& stop);
+  void run();
   void go_on();
   bool run_pass(std::uint32_t limit);
   void tell_if_it_fails(std::uint64_t edit, const std::function<void()>& step);
@@ -95,7 +95,7 @@ class Renderer {
   double budget_ = 0;        ///< seconds for the first picture of the newest edit
   std::uint64_t frames_ = 0;
   std::optional<double> first_picture_ms_;  ///< absent until the newest edit or restart has its first picture
-  StoppableThread thread_;                  ///< declared last, so that it ends before the members that it uses
+  std::optional<JoinedThread> thread_;      ///< declared last, so that it ends before the members that it uses
 };
 
 }  // namespace tyndall

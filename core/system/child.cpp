@@ -18,6 +18,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <initializer_list>
 #include <iterator>
 #include <utility>
 
@@ -28,14 +29,17 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What the new process needs, made before it begins: there only functions that are safe in handlers may be called.
-struct ProcessStart {
-  std::vector<std::string> environment;
-  std::vector<char*> arguments, variables;
-  std::string folder;
-  Guard guard;
-  int input, errors, channel, report;  ///< descriptors; channel: -1, none
-  std::size_t max_memory, max_file;
+/// The ends of a pipe; error: why there is none, or 0.
+struct Pipe {
+  Pipe() {
+    int ends[2];
+    error = pipe(ends) == 0 ? 0 : errno;
+    if (error != 0) return;
+    for (const int end : ends) fcntl(end, F_SETFD, FD_CLOEXEC);
+    from = OpenFile(ends[0]), to = OpenFile(ends[1]);
+  }
+  OpenFile from, to;
+  int error;
 };
 
 std::vector<char*> pointers(std::vector<std::string>& arguments) {
@@ -58,6 +62,30 @@ std::vector<std::string> with(const std::vector<std::string>& additions) {
   return all;
 }
 
+/// What the new process needs, made before it begins: there only functions that are safe in handlers may be called.
+struct ProcessStart {
+  explicit ProcessStart(const ChildPlan& p) : plan(p), guard(p.guard, p.own_folder.string()), command(p.command) {
+    std::vector<std::string> additions = p.environment;
+    if (p.channel >= 0) additions.push_back(p.channel_variable + "=" + std::to_string(p.channel));
+    environment = with(additions);
+    arguments = pointers(command), variables = pointers(environment);
+  }
+  const ChildPlan& plan;
+  Guard guard;
+  std::vector<std::string> command, environment;
+  std::vector<char*> arguments, variables;
+  Pipe input, errors, report;
+};
+
+/// Signals that wait from now on; all others come.
+sigset_t hold_back(std::initializer_list<int> signals) {
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int number : signals) sigaddset(&set, number);
+  sigprocmask(SIG_SETMASK, &set, nullptr);
+  return set;
+}
+
 void die_with_parent(int signal) {
 #ifdef __linux__
   prctl(PR_SET_PDEATHSIG, signal);
@@ -67,7 +95,8 @@ void die_with_parent(int signal) {
 /// Closes all but the standard streams and the ends of pipes that are needed; those of other children would not end.
 void close_others(const ProcessStart& start) {
 #ifdef __linux__
-  int kept[] = {start.input, start.errors, start.channel, start.report};
+  int kept[] = {start.input.from.descriptor(), start.errors.to.descriptor(), start.plan.channel,
+                start.report.to.descriptor()};
   std::sort(std::begin(kept), std::end(kept));
   int from = 3;
   for (const int end : kept) {
@@ -79,31 +108,25 @@ void close_others(const ProcessStart& start) {
 }
 
 /// Tells run_child() the number of the program's process, or that of an error, negative.
-void report(const ProcessStart& start, int number) {
-  [[maybe_unused]] const auto told = write(start.report, &number, sizeof number);
-}
-
-/// Sets a limit that there is.
-template <class Resource>
-void limit(Resource resource, std::size_t bytes) {
-  const rlimit most{bytes, bytes};
-  if (bytes > 0) setrlimit(resource, &most);
-}
+void report(const ProcessStart& start, int number) { start.report.to.write(&number, sizeof number); }
 
 /// The new process becomes the program.
 [[noreturn]] void become(const ProcessStart& start) {
   setsid();  // no terminal
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ}) std::signal(number, SIG_DFL);
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
-  dup2(start.input, STDIN_FILENO);
+  hold_back({});
+  dup2(start.input.from.descriptor(), STDIN_FILENO);
   dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDOUT_FILENO);
-  dup2(start.errors, STDERR_FILENO);
-  limit(RLIMIT_AS, start.max_memory), limit(RLIMIT_FSIZE, start.max_file);
-  if (start.channel >= 0) fcntl(start.channel, F_SETFD, 0);
+  dup2(start.errors.to.descriptor(), STDERR_FILENO);
+  const ChildPlan& plan = start.plan;
+  for (const auto& [resource, bytes] :
+       {std::pair(RLIMIT_AS, plan.max_memory), std::pair(RLIMIT_FSIZE, plan.max_file)}) {
+    const rlimit most{bytes, bytes};
+    if (bytes > 0) setrlimit(resource, &most);
+  }
+  if (plan.channel >= 0) fcntl(plan.channel, F_SETFD, 0);
   int error = EPERM;
-  if (chdir(start.folder.c_str()) != 0) {
+  if (chdir(plan.folder.c_str()) != 0) {
     error = errno;
   } else if (start.guard.restrict_self() == 0) {
     die_with_parent(SIGKILL);
@@ -137,25 +160,24 @@ int wait_for(pid_t program, const sigset_t& watched) {
   setsid();
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
-  sigset_t watched;
-  sigemptyset(&watched);
-  for (const int number : {SIGTERM, SIGCHLD}) std::signal(number, SIG_DFL), sigaddset(&watched, number);
-  sigprocmask(SIG_SETMASK, &watched, nullptr);
+  for (const int number : {SIGTERM, SIGCHLD}) std::signal(number, SIG_DFL);
+  const sigset_t watched = hold_back({SIGTERM, SIGCHLD});
   die_with_parent(SIGTERM);
   int life = -1;
   if (getppid() != parent || start.guard.enter_namespaces(life) != 0) report(start, -EPERM), _exit(127);
   const pid_t program = fork();
   if (program == 0) become(start);
   report(start, program > 0 ? program : -errno);
-  for (const int end : {start.input, start.errors, start.channel, start.report}) close(end);
+  for (const int end :
+       {start.input.from.descriptor(), start.errors.to.descriptor(), start.plan.channel, start.report.to.descriptor()})
+    close(end);
   const int status = program > 0 ? wait_for(program, watched) : 0;
   close(life);
   while (life >= 0 && waitpid(-1, nullptr, 0) > 0) {  // the namespaces' first process ends last
   }
   if (!WIFSIGNALED(status)) _exit(WEXITSTATUS(status));
   std::signal(WTERMSIG(status), SIG_DFL);
-  sigemptyset(&watched);
-  sigprocmask(SIG_SETMASK, &watched, nullptr);
+  hold_back({});
   kill(getpid(), WTERMSIG(status));
   _exit(127);
 }
@@ -175,7 +197,7 @@ bool next_number(const OpenFile& from, int& number) {
 }
 
 /// Appends what the pipe has; closes it at its end.
-void drain(OpenFile& from, std::string& text, std::size_t limit, bool keep_last) {
+void drain(OpenFile& from, std::string& text, const ChildPlan& plan) {
   char buffer[65536];
   std::size_t size = 0;
   if (from.read(buffer, sizeof buffer, size) != 0 || size == 0) {
@@ -183,60 +205,38 @@ void drain(OpenFile& from, std::string& text, std::size_t limit, bool keep_last)
     return;
   }
   text.append(buffer, size);
-  if (text.size() <= limit) return;
-  if (keep_last)
-    text.erase(0, text.size() - limit);
+  if (text.size() <= plan.max_errors) return;
+  if (plan.keep_last_errors)
+    text.erase(0, text.size() - plan.max_errors);
   else
-    text.resize(limit);
+    text.resize(plan.max_errors);
 }
 
-class Child {
- public:
-  Child(const ChildPlan& plan, pid_t supervisor, pid_t program, OpenFile& errors)
-      : plan_(plan), supervisor_(supervisor), program_(program), errors_(errors) {}
-
-  /// Until it has ended, or is to be ended.
-  void follow(ChildEnd& end) {
-    const Clock::time_point start = Clock::now();
-    int waits = 0;  // how often in a row it was seen to wait for input
-    while (!collect(end)) {
-      take(end, 20);
-      waits = awaits_input(program_) ? waits + 1 : 0;
-      end.given_up = plan_.go_on && !plan_.go_on();
-      end.timed_out = std::chrono::duration<double>(Clock::now() - start).count() > plan_.seconds;
-      end.awaited_input = waits > 5;
-      if (end.ended()) return;
-    }
+/// Takes what the program writes, until it has ended, or is to be ended; then ends all processes.
+void follow(const ChildPlan& plan, pid_t supervisor, pid_t program, OpenFile& errors, ChildEnd& end) {
+  const auto take = [&](int milliseconds) {
+    if (has_bytes(errors.descriptor(), errors ? milliseconds : 1)) drain(errors, end.errors, plan);
+  };
+  const Clock::time_point start = Clock::now();
+  int status = 0, waits = 0;  // how often in a row it was seen to wait for input
+  bool is_gone = false;
+  while (end.start_error == 0 && !end.ended()) {
+    is_gone = waitpid(supervisor, &status, WNOHANG) == supervisor;
+    if (is_gone) break;
+    take(20);
+    waits = awaits_input(program) ? waits + 1 : 0;
+    end.given_up = plan.go_on && !plan.go_on();
+    end.timed_out = std::chrono::duration<double>(Clock::now() - start).count() > plan.seconds;
+    end.awaited_input = waits > 5;
   }
-  /// Ends all processes, and takes what they have written.
-  void finish(ChildEnd& end) {
-    if (!ended_) kill(supervisor_, SIGTERM);
-    int status = 0;
-    while (!ended_ && waitpid(supervisor_, &status, 0) < 0 && errno == EINTR) {
-    }
-    const Clock::time_point deadline = Clock::now() + std::chrono::milliseconds(500);
-    while (errors_ && Clock::now() < deadline) take(end, 50);
+  if (is_gone && WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
+  if (is_gone && WIFSIGNALED(status)) end.signal = WTERMSIG(status);
+  if (!is_gone) kill(supervisor, SIGTERM);
+  while (!is_gone && waitpid(supervisor, &status, 0) < 0 && errno == EINTR) {
   }
-
- private:
-  bool collect(ChildEnd& end) {
-    int status = 0;
-    if (waitpid(supervisor_, &status, WNOHANG) != supervisor_) return false;
-    ended_ = true;
-    if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
-    if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
-    return true;
-  }
-  void take(ChildEnd& end, int milliseconds) {
-    if (has_bytes(errors_.descriptor(), errors_ ? milliseconds : 1))
-      drain(errors_, end.errors, plan_.max_errors, plan_.keep_last_errors);
-  }
-
-  const ChildPlan& plan_;
-  pid_t supervisor_, program_;
-  OpenFile& errors_;
-  bool ended_ = false;
-};
+  const Clock::time_point deadline = Clock::now() + std::chrono::milliseconds(500);
+  while (errors && Clock::now() < deadline) take(50);
+}
 
 }  // namespace
 
@@ -244,37 +244,21 @@ bool runs_children() { return true; }
 
 ChildEnd run_child(const ChildPlan& plan) {
   ChildEnd end;
-  auto [input, no_input] = OpenFile::pipe();
-  auto [errors, to_errors] = OpenFile::pipe();
-  auto [reports, to_reports] = OpenFile::pipe();
-  for (const OpenFile* file : {&input, &errors, &reports}) end.start_error = std::max(end.start_error, file->error());
+  ProcessStart start(plan);
+  for (const Pipe* one : {&start.input, &start.errors, &start.report})
+    end.start_error = std::max(end.start_error, one->error);
   if (end.start_error != 0) return end;
-  std::vector<std::string> command = plan.command, additions = plan.environment;
-  if (plan.channel >= 0) additions.push_back(plan.channel_variable + "=" + std::to_string(plan.channel));
-  ProcessStart start{with(additions),
-                     pointers(command),
-                     {},
-                     plan.folder.string(),
-                     Guard(plan.guard, plan.own_folder.string()),
-                     input.descriptor(),
-                     to_errors.descriptor(),
-                     plan.channel,
-                     to_reports.descriptor(),
-                     plan.max_memory,
-                     plan.max_file};
-  start.variables = pointers(start.environment);
   const pid_t parent = getpid(), supervisor = fork();
   if (supervisor == 0) supervise(start, parent);
   if (supervisor < 0) {
     end.start_error = errno;
     return end;
   }
-  to_errors.close(), to_reports.close();
+  start.errors.to.close(), start.report.to.close();
   pid_t program = 0;
-  for (int number = 0; next_number(reports, number);) (number > 0 ? program : end.start_error) = std::abs(number);
-  Child child(plan, supervisor, program, errors);
-  if (end.start_error == 0) child.follow(end);
-  child.finish(end);
+  for (int number = 0; next_number(start.report.from, number);)
+    (number > 0 ? program : end.start_error) = std::abs(number);
+  follow(plan, supervisor, program, start.errors.from, end);
   return end;
 }
 

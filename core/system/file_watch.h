@@ -1,7 +1,9 @@
 #pragma once
+#include "core/system/files.h"
+#include "core/system/locks.h"
+
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <vector>
 
 namespace tyndall {
@@ -18,8 +20,16 @@ class FileWatch {
   ~FileWatch();
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::vector<FileTrace> traces() const;
+  void look_on();
+
+  std::vector<std::filesystem::path> files_;
+  std::function<void()> on_change_;
+  std::vector<FileTrace> seen_;
+  Mutex mutex_;
+  Condition wake_;
+  bool stops_ = false;
+  JoinedThread thread_;  // declared last, because it uses the others
 };
 
 }  // namespace tyndall

@@ -4,10 +4,6 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <unistd.h>
-#ifdef __linux__
-#include <linux/magic.h>
-#include <sys/statfs.h>
-#endif
 #if defined(__GLIBC__) || defined(__APPLE__)
 #include <dlfcn.h>
 #endif
@@ -123,17 +119,10 @@ fs::path folder_of_user(const std::string& below_home) {
   return home.empty() ? home : home / below_home;
 }
 
-FileOwner owner_of(const fs::path& file) {
-  struct stat status {};
-  if (stat(file.c_str(), &status) != 0) return {};
-  return {status.st_uid, status.st_gid};
-}
-
 bool is_open_file(const fs::path& link) {
 #ifdef __linux__
-  struct statfs system {};
-  const fs::path folder = link.has_parent_path() ? link.parent_path() : ".";
-  return statfs(folder.c_str(), &system) == 0 && system.f_type == PROC_SUPER_MAGIC;
+  std::error_code error;
+  return fs::canonical(link.has_parent_path() ? link.parent_path() : ".", error).string().starts_with("/proc/");
 #else
   return link.string().starts_with("/dev/");
 #endif
@@ -150,10 +139,12 @@ std::string protection_of([[maybe_unused]] const fs::path& file) {
 }
 
 bool is_kept_by_sticky_folder(const fs::path& file, const fs::path& folder) {
-  struct stat status {};
+  struct stat status {
+  }, of_file{};
   if (stat(folder.c_str(), &status) != 0 || (status.st_mode & S_ISVTX) == 0) return false;
-  const unsigned me = geteuid(), user = owner_of(file).user;
-  return user != me && status.st_uid != me && !overrides_owner(user);
+  if (stat(file.c_str(), &of_file) != 0) return false;
+  const unsigned me = geteuid();
+  return of_file.st_uid != me && status.st_uid != me && !overrides_owner(of_file.st_uid);
 }
 
 int writing_error(const fs::path& file) { return access(file.c_str(), W_OK) == 0 ? 0 : errno; }

@@ -41,11 +41,6 @@ std::filesystem::path home_folder();
 /// Where programs keep what is one user's: such as ".config" in the home folder, %APPDATA% on Windows; empty: nowhere.
 std::filesystem::path folder_of_user(const std::string& below_home);
 
-struct FileOwner {
-  unsigned user = 0, group = 0;
-};
-FileOwner owner_of(const std::filesystem::path& file);
-
 /// Whether the link stands for a file that is open, not for a name: those of /proc/self/fd, which /dev/stdout leads to.
 bool is_open_file(const std::filesystem::path& link);
 /// What the file system lets nobody do with a file or folder (chattr +a and +i), as the end of "it may ..."; "":

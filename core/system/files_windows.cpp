@@ -157,7 +157,6 @@ fs::path own_file() {
 fs::path home_folder() { return path_in(L"USERPROFILE"); }
 fs::path folder_of_user(const std::string&) { return path_in(L"APPDATA"); }
 
-FileOwner owner_of(const fs::path&) { return {}; }
 bool is_open_file(const fs::path&) { return false; }
 
 /// Of a folder the mark means something else.

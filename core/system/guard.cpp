@@ -188,8 +188,7 @@ class CallFilter {
 /// Linux 5.0 is all that the program sees: what came later has ways around filters (io_uring), old ways under new
 /// numbers (fchmodat2, setxattrat), or handles of other processes. Libraries do without.
 void refuse_in_any_case(CallFilter& filter) {
-  constexpr std::uint32_t first_of_5_1 = 424;  // on all architectures
-  filter.end_at(first_of_5_1);
+  filter.end_at(424);  // the first call of Linux 5.1, on all architectures
   filter.refuse({SYS_socket, SYS_socketpair, SYS_add_key, SYS_request_key, SYS_keyctl});
 }
 
@@ -242,19 +241,15 @@ bool works(const GuardLayers& layers, const char* folder) {
   return status == 0;
 }
 
-GuardLayers find_layers() {
-  const auto landlock =
-      static_cast<int>(syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION));
-  GuardLayers layers;
-  layers.namespaces = works({true, 0}, "/dev/null");
-  if (landlock > 0 && works({false, landlock}, "/")) layers.landlock = landlock;
-  return layers;
-}
-
 }  // namespace
 
 const GuardLayers& available_guard() {
-  static const GuardLayers layers = find_layers();
+  static const GuardLayers layers = [] {
+    const long landlock = syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
+    GuardLayers found{works({true, 0}, "/dev/null"), static_cast<int>(landlock)};
+    if (landlock <= 0 || !works({false, found.landlock}, "/")) found.landlock = 0;
+    return found;
+  }();
   return layers;
 }
 

@@ -1,6 +1,8 @@
 #include "core/system/windows_api.h"
 
+#include <algorithm>
 #include <cwchar>
+#include <utility>
 
 namespace tyndall {
 
@@ -14,49 +16,25 @@ std::string utf8_of(const wchar_t* text) { return std::filesystem::path(text).st
 // is no letter becomes U+FFFD, so that a damaged name is one of no file and no error.
 #ifndef _UCRT
 
-namespace {
-
-constexpr auto not_whole = static_cast<std::size_t>(-2);
-
-std::size_t bad_letter(wchar_t* to) {
-  if (to) *to = L'\ufffd';
-  return 1;
-}
-
-/// Bytes of the letter that this one begins; 0: none begins so.
-std::size_t length_of(unsigned first) {
-  if (first < 0x80) return 1;
-  if (first < 0xc2 || first > 0xf4) return 0;
-  return first < 0xe0 ? 2 : (first < 0xf0 ? 3 : 4);
-}
-
-}  // namespace
-
 /// A letter beyond the basic plane becomes two: the first takes three bytes and leaves the second one in the state.
 extern "C" std::size_t mbrtowc(wchar_t* to, const char* from, std::size_t size, std::mbstate_t* state) {
   if (!from) return 0;
-  if (size == 0) return not_whole;
+  if (size == 0) return static_cast<std::size_t>(-2);
+  wchar_t letters[2] = {L'\ufffd'};
+  std::size_t bytes = 1;
   if (state && *state != 0) {
-    if (to) *to = static_cast<wchar_t>(*state);
-    *state = 0;
-    return 1;
+    letters[0] = static_cast<wchar_t>(std::exchange(*state, 0));
+  } else {
+    int made = 0;
+    for (int length = 1; made == 0 && length <= static_cast<int>(std::min<std::size_t>(size, 4)); ++length) {
+      made = MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, from, length, letters, 2);
+      if (made > 0) bytes = static_cast<std::size_t>(length);
+    }
+    if (made == 0) letters[0] = L'\ufffd';
+    if (made == 2 && state) *state = static_cast<std::mbstate_t>(letters[1]), bytes = 3;
   }
-  const auto* bytes = reinterpret_cast<const unsigned char*>(from);
-  const std::size_t length = length_of(bytes[0]);
-  if (length == 0 || size < length) return bad_letter(to);
-  unsigned code = length == 1 ? bytes[0] : bytes[0] & (0x7fu >> length);
-  for (std::size_t k = 1; k < length; ++k) {
-    if ((bytes[k] & 0xc0) != 0x80) return bad_letter(to);
-    code = code << 6 | (bytes[k] & 0x3fu);
-  }
-  if (length == 4 && state) {
-    code -= 0x10000;
-    if (to) *to = static_cast<wchar_t>(0xd800 + (code >> 10));
-    *state = static_cast<std::mbstate_t>(0xdc00 + (code & 0x3ff));
-    return 3;
-  }
-  if (to) *to = static_cast<wchar_t>(code);
-  return code == 0 ? 0 : length;
+  if (to) *to = letters[0];
+  return letters[0] == 0 ? 0 : bytes;
 }
 
 extern "C" std::size_t mbrlen(const char* from, std::size_t size, std::mbstate_t* state) {

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cmath>
 #include <cstdio>
 #include <system_error>
 
@@ -45,29 +44,12 @@ std::string error_text(int number) { return std::generic_category().message(numb
 OpenFile::OpenFile(const std::filesystem::path& file, OpenFor purpose, unsigned mode)
     : descriptor_(open(file.c_str(), flags_of(purpose) | O_CLOEXEC, mode)), error_(descriptor_ < 0 ? errno : 0) {}
 
-OpenFile OpenFile::copy_of_standard_output() {
-  OpenFile file(fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3));
-  if (!file) file.error_ = errno;
-  return file;
-}
-
 OpenFile OpenFile::unnamed() {
   std::FILE* stream = std::tmpfile();
   OpenFile file(stream ? fcntl(fileno(stream), F_DUPFD_CLOEXEC, 3) : -1);
   if (!file) file.error_ = errno;
   if (stream) std::fclose(stream);
   return file;
-}
-
-std::pair<OpenFile, OpenFile> OpenFile::pipe() {
-  std::pair<OpenFile, OpenFile> made;
-  int ends[2];
-  if (::pipe(ends) != 0) {
-    made.first.error_ = made.second.error_ = errno;
-    return made;
-  }
-  for (const int end : ends) fcntl(end, F_SETFD, FD_CLOEXEC);
-  return {OpenFile(ends[0]), OpenFile(ends[1])};
 }
 
 int OpenFile::close() { return descriptor_ > STDERR_FILENO ? result(::close(std::exchange(descriptor_, -1))) : 0; }
@@ -136,28 +118,18 @@ bool OpenFile::has_name() const {
   return fstat(descriptor_, &status) != 0 || status.st_nlink > 0;
 }
 
-int OpenFile::set_owner(unsigned mode, unsigned user, unsigned group) const {
-  struct stat now {};
+int OpenFile::take_mode_and_owner(const std::filesystem::path& other) const {
+  struct stat now {
+  }, old{};
   if (fstat(descriptor_, &now) != 0) return errno;
-  const bool same_group = now.st_gid == group || fchown(descriptor_, now.st_uid, group) == 0;
+  if (stat(other.c_str(), &old) != 0) return errno == ENOENT ? 0 : errno;
+  mode_t mode = old.st_mode & 07777u;
+  const bool same_group = now.st_gid == old.st_gid || fchown(descriptor_, now.st_uid, old.st_gid) == 0;
   if (!same_group) mode = (mode & ~070u) | ((mode & 7u) << 3);
-  const bool same_user = now.st_uid == user || fchown(descriptor_, user, static_cast<gid_t>(-1)) == 0;
+  const bool same_user = now.st_uid == old.st_uid || fchown(descriptor_, old.st_uid, static_cast<gid_t>(-1)) == 0;
   if (!same_user || !same_group) mode &= 0777u;  // nobody becomes what the old owner was by running the file
   if ((now.st_mode & 07777u) == mode || fchmod(descriptor_, mode) == 0) return 0;
   return errno == EPERM || errno == ENOTSUP ? 0 : errno;  // these two: the file system has no modes
-}
-
-void Bell::ring() const {
-  constexpr char byte = 0;
-  [[maybe_unused]] const auto written = write(rung_.descriptor(), &byte, 1);
-}
-
-Bell::Woken Bell::wait_for(int file, double seconds) const {
-  pollfd watched[] = {{file, POLLIN, 0}, {heard_.descriptor(), POLLIN, 0}};
-  const int milliseconds = seconds < 0 ? -1 : static_cast<int>(std::ceil(1000 * seconds));
-  const bool woken = poll(watched, 2, milliseconds) > 0;
-  if (woken && watched[1].revents != 0) return Woken::by_bell;
-  return woken ? Woken::by_bytes : Woken::by_time;
 }
 
 bool has_bytes(int file, int milliseconds) {

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <tuple>
 #include <utility>
 
 namespace tyndall {
@@ -43,11 +42,8 @@ class OpenFile {
   }
   ~OpenFile() { close(); }
 
-  /// Standard output under a number of its own, and a temporary file without a name.
-  static OpenFile copy_of_standard_output();
+  /// A temporary file without a name.
   static OpenFile unnamed();
-  /// The ends of a pipe, to read from and to write to.
-  static std::pair<OpenFile, OpenFile> pipe();
 
   explicit operator bool() const { return descriptor_ >= 0; }
   int descriptor() const { return descriptor_; }
@@ -71,36 +67,15 @@ class OpenFile {
   void wait_for_lock() const;
   /// Whether it still stands in a folder: it was not removed.
   bool has_name() const;
-  /// Gives the file these, as far as that is permitted. What a group was allowed is not given to another group.
-  int set_owner(unsigned mode, unsigned user, unsigned group) const;
+  /// Gives the file the mode, and as far as that is permitted the owner and the group of another one, if there is one.
+  /// What a group was allowed is not given to another group.
+  int take_mode_and_owner(const std::filesystem::path& other) const;
 
  private:
   int descriptor_ = -1, error_ = 0;
 };
 
-/// Wakes a thread that waits; also from a handler of signals.
-class Bell {
- public:
-  /// ready(): whether the system had what it takes.
-  Bell() { std::tie(heard_, rung_) = OpenFile::pipe(); }
-  bool ready() const { return static_cast<bool>(heard_); }
-  void ring() const;
-  /// Until it rings.
-  void wait() const {
-    char byte = 0;
-    std::size_t got = 0;
-    heard_.read(&byte, 1, got);
-  }
-  /// What ends the waiting for a file's next bytes.
-  enum class Woken { by_bytes, by_bell, by_time };
-  /// seconds: that it waits at most; < 0: as long as it takes.
-  Woken wait_for(int file, double seconds) const;
-
- private:
-  OpenFile heard_, rung_;
-};
-
-/// Whether a file has bytes to be read, or has ended, within this time; < 0: as long as it takes.
+/// Whether a file has bytes to be read, or has ended, within this time.
 bool has_bytes(int file, int milliseconds);
 
 }  // namespace tyndall

@@ -17,21 +17,24 @@ namespace {
 
 HANDLE handle_of(int file) { return reinterpret_cast<HANDLE>(_get_osfhandle(file)); }
 
-DWORD access_of(OpenFor purpose) {
-  if (purpose == OpenFor::reading || purpose == OpenFor::folder) return GENERIC_READ;
-  if (purpose == OpenFor::appending || purpose == OpenFor::adding) return FILE_APPEND_DATA | SYNCHRONIZE;
-  if (purpose == OpenFor::writing) return GENERIC_WRITE | FILE_READ_ATTRIBUTES;
-  return GENERIC_READ | GENERIC_WRITE;
-}
+struct HowToOpen {
+  DWORD access, disposition, attributes;
+  int flags;
+};
 
-DWORD disposition_of(OpenFor purpose) {
-  if (purpose == OpenFor::creating) return CREATE_NEW;
-  return purpose == OpenFor::changing || purpose == OpenFor::adding ? OPEN_ALWAYS : OPEN_EXISTING;
-}
-
-DWORD attributes_of(OpenFor purpose) {
-  if (purpose == OpenFor::folder) return FILE_FLAG_BACKUP_SEMANTICS;
-  return purpose == OpenFor::looking ? FILE_FLAG_OPEN_REPARSE_POINT : FILE_ATTRIBUTE_NORMAL;
+HowToOpen how_to_open(OpenFor purpose) {
+  constexpr DWORD all = GENERIC_READ | GENERIC_WRITE, append = FILE_APPEND_DATA | SYNCHRONIZE;
+  constexpr HowToOpen table[] = {
+      {GENERIC_READ, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, 0},                          // reading
+      {GENERIC_WRITE | FILE_READ_ATTRIBUTES, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, 0},  // writing
+      {append, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, _O_APPEND},                        // appending
+      {append, OPEN_ALWAYS, FILE_ATTRIBUTE_NORMAL, _O_APPEND},                          // adding
+      {all, OPEN_ALWAYS, FILE_ATTRIBUTE_NORMAL, 0},                                     // changing
+      {all, CREATE_NEW, FILE_ATTRIBUTE_NORMAL, 0},                                      // creating
+      {all, OPEN_EXISTING, FILE_FLAG_OPEN_REPARSE_POINT, 0},                            // looking
+      {GENERIC_READ, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, 0},                     // folder
+  };
+  return table[static_cast<int>(purpose)];
 }
 
 int result(long long value) { return value < 0 ? errno : 0; }
@@ -43,24 +46,6 @@ OVERLAPPED lock_place() {
   OVERLAPPED place{};
   place.Offset = 0xfffffffe, place.OffsetHigh = 0x7fffffff;
   return place;
-}
-
-/// What is no pipe can be read at once.
-bool has_bytes_now(int file) {
-  DWORD bytes = 0;
-  return !PeekNamedPipe(handle_of(file), nullptr, 0, nullptr, &bytes, nullptr) || bytes > 0;
-}
-
-/// Pipes cannot be waited for, so this asks now and then. seconds: < 0: as long as it takes.
-template <class Question>
-bool ask_until(double seconds, const Question& holds) {
-  const auto start = std::chrono::steady_clock::now();
-  while (!holds()) {
-    const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
-    if (seconds >= 0 && waited.count() >= seconds) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return true;
 }
 
 }  // namespace
@@ -90,16 +75,8 @@ std::string error_text(int number) {
 }
 
 OpenFile::OpenFile(const std::filesystem::path& file, OpenFor purpose, unsigned) {
-  const bool appends = purpose == OpenFor::appending || purpose == OpenFor::adding;
-  const DWORD disposition = disposition_of(purpose), attributes = attributes_of(purpose);
-  const int flags = appends ? _O_APPEND : 0;
-  descriptor_ = open_for_all(file, access_of(purpose), disposition, attributes, flags, error_);
-}
-
-OpenFile OpenFile::copy_of_standard_output() {
-  OpenFile file(_dup(standard_output));
-  if (!file) file.error_ = errno;
-  return file;
+  const HowToOpen how = how_to_open(purpose);
+  descriptor_ = open_for_all(file, how.access, how.disposition, how.attributes, how.flags, error_);
 }
 
 OpenFile OpenFile::unnamed() {
@@ -108,12 +85,6 @@ OpenFile OpenFile::unnamed() {
       open_for_all(temporary_folder() / (L"tyndall-" + unique_word()), GENERIC_READ | GENERIC_WRITE | DELETE,
                    CREATE_NEW, FILE_ATTRIBUTE_TEMPORARY | FILE_FLAG_DELETE_ON_CLOSE, 0, file.error_);
   return file;
-}
-
-std::pair<OpenFile, OpenFile> OpenFile::pipe() {
-  int ends[2];
-  if (_pipe(ends, 64, _O_BINARY | _O_NOINHERIT) != 0) return {};
-  return {OpenFile(ends[0]), OpenFile(ends[1])};
 }
 
 int OpenFile::close() { return descriptor_ > 2 ? result(_close(std::exchange(descriptor_, -1))) : 0; }
@@ -176,27 +147,16 @@ bool OpenFile::has_name() const {
 }
 
 /// A file gets what its folder says; it has no mode.
-int OpenFile::set_owner(unsigned, unsigned, unsigned) const { return 0; }
+int OpenFile::take_mode_and_owner(const std::filesystem::path&) const { return 0; }
 
-void Bell::ring() const {
-  constexpr char byte = 0;
-  [[maybe_unused]] const auto written = _write(rung_.descriptor(), &byte, 1);
-}
-
-Bell::Woken Bell::wait_for(int file, double seconds) const {
-  Woken woken = Woken::by_time;
-  ask_until(seconds, [&] {
-    if (has_bytes_now(heard_.descriptor()))
-      woken = Woken::by_bell;
-    else if (has_bytes_now(file))
-      woken = Woken::by_bytes;
-    return woken != Woken::by_time;
-  });
-  return woken;
-}
-
+/// Pipes cannot be waited for, so this asks now and then. What is no pipe can be read at once.
 bool has_bytes(int file, int milliseconds) {
-  return ask_until(1e-3 * milliseconds, [file] { return has_bytes_now(file); });
+  for (int waited = 0;; waited += 10) {
+    DWORD bytes = 0;
+    if (!PeekNamedPipe(handle_of(file), nullptr, 0, nullptr, &bytes, nullptr) || bytes > 0) return true;
+    if (waited >= milliseconds) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
 }
 
 }  // namespace tyndall

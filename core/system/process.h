@@ -1,15 +1,10 @@
 #pragma once
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
-#include <filesystem>
-#include <limits>
 #include <string>
 #include <vector>
 
-/// This process: its standard streams, what it has used, and what it may still take. What is mounted where, and control
-/// groups (cgroups), which containers and batch systems use to limit a group of processes; they are read where they are
-/// mounted.
+/// This process: its standard streams, its memory pages, its priority. What it may use: see processors.h.
 namespace tyndall {
 
 /// Call first. Where the caller closed one of the standard streams, the next file that the program opens would get its
@@ -41,43 +36,6 @@ inline constexpr std::size_t large_page = std::size_t{2} << 20;
 void ask_for_large_pages(void* begin, std::size_t bytes);
 /// Memory for std::free(); null: there is none.
 void* allocate_aligned(std::size_t bytes, std::size_t alignment);
-
-/// The soft limit of something; no_limit: there is none.
-enum class Limit { address_space, data, threads };
-inline constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
-std::uint64_t limit_of(Limit limit);
-
-/// A line of /proc/self/mountinfo, see proc(5).
-struct Mount {
-  std::string root;   ///< the part of the file system that is mounted: "/", or below it for a bind mount
-  std::string point;  ///< where, absolute
-  std::string type;   ///< of the file system, such as "cgroup2"
-  std::string options;
-};
-
-/// All mounts that this process sees, in the order in which they were made. root: the folder whose proc/self says so;
-/// tests have one of their own. Empty where the system does not say.
-std::vector<Mount> mounts(const std::filesystem::path& root = "/");
-
-/// Whether something is mounted at the file, so that it cannot be replaced by another one.
-bool is_mount_point(const std::filesystem::path& file);
-
-/// The folders of the groups that this process belongs to, from its own up to the topmost one that is mounted here,
-/// where each may set a limit of its own. Both versions of control groups are looked at: those of version 2, and those
-/// of version 1 that have the controller, for example "cpu" or "memory". A folder need not exist: a container may be
-/// told a path that it cannot see. root: the folder whose proc/self says so; tests have one of their own.
-std::vector<std::filesystem::path> cgroup_folders(const std::string& controller,
-                                                  const std::filesystem::path& root = "/");
-
-/// Memory that this process could still take, bytes, and what limits it, such as "left by ulimit -v".
-struct FreeMemory {
-  std::uint64_t bytes = 0;
-  std::string limit;
-};
-/// root: see cgroup_folders().
-FreeMemory free_memory(const std::filesystem::path& root = "/");
-/// The most memory that the process has had at a time, bytes.
-std::size_t peak_memory();
 
 /// From now on the calling thread, and those that it starts, give way to others, as "nice" does. (On Linux a priority
 /// belongs to one thread, which cannot take it back; elsewhere this changes nothing.)

@@ -1,5 +1,6 @@
 #include "core/system/process.h"
 
+#include "core/system/processors.h"
 #include "core/system/windows_api.h"
 
 #include <fcntl.h>
@@ -79,15 +80,11 @@ void ask_for_large_pages(void*, std::size_t) {}  // only for accounts with a pri
 
 std::uint64_t limit_of(Limit) { return no_limit; }
 
-std::vector<Mount> mounts(const std::filesystem::path&) { return {}; }
-bool is_mount_point(const std::filesystem::path&) { return false; }
-std::vector<std::filesystem::path> cgroup_folders(const std::string&, const std::filesystem::path&) { return {}; }
-
 /// What may still be committed: more than that is refused at once, not when it is touched.
-FreeMemory free_memory(const std::filesystem::path&) {
+std::uint64_t memory_of_machine() {
   MEMORYSTATUSEX status{};
   status.dwLength = sizeof status;
-  return {GlobalMemoryStatusEx(&status) ? status.ullAvailPageFile : no_limit, "free on this machine"};
+  return GlobalMemoryStatusEx(&status) ? status.ullAvailPageFile : no_limit;
 }
 
 std::size_t peak_memory() {

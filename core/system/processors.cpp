@@ -1,7 +1,5 @@
 #include "core/system/processors.h"
 
-#include "core/system/process.h"
-
 #ifdef __linux__
 #include <sched.h>
 #endif
@@ -9,8 +7,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
+#include <sstream>
+#include <system_error>
 #include <thread>
+#include <vector>
 
 namespace tyndall {
 namespace {
@@ -35,28 +37,105 @@ int processors_of_affinity() {
   return processors_of_machine();
 }
 
-/// The first numbers in a file; absent: it begins with none, as "max 100000" and missing files do.
-struct Numbers {
-  std::optional<std::int64_t> first, second;
-};
-Numbers numbers_in(const fs::path& file) {
-  Numbers numbers;
-  std::ifstream in(file);
-  std::int64_t number = 0;
-  if (in >> number) numbers.first = number;
-  if (numbers.first && in >> number) numbers.second = number;
-  return numbers;
-}
-
-/// The quota that one group sets.
+/// The quota that one group sets. Files that are not there, and "max", leave the numbers as they are.
 std::optional<int> quota_of(const fs::path& folder) {
-  Numbers quota = numbers_in(folder / "cpu.max");
-  if (!quota.first)
-    quota = {numbers_in(folder / "cpu.cfs_quota_us").first, numbers_in(folder / "cpu.cfs_period_us").first};
-  const std::int64_t time = quota.first.value_or(0), period = quota.second.value_or(100'000);
+  std::int64_t time = 0, period = 100'000;
+  std::ifstream file(folder / "cpu.max");
+  if (file >> time) {
+    file >> period;
+  } else {
+    time = 0;
+    std::ifstream(folder / "cpu.cfs_quota_us") >> time;
+    std::ifstream(folder / "cpu.cfs_period_us") >> period;
+  }
   if (time <= 0 || period <= 0) return std::nullopt;  // -1: none
   const std::int64_t rounded_up = time / period + (time % period > 0);
   return static_cast<int>(std::clamp<std::int64_t>(rounded_up, 1, 1 << 20));
+}
+
+/// A line of /proc/self/mountinfo, see proc(5).
+struct Mount {
+  std::string root;   ///< the part of the file system that is mounted: "/", or below it for a bind mount
+  std::string point;  ///< where, absolute
+  std::string type;   ///< of the file system, such as "cgroup2"
+  std::string options;
+};
+
+/// Spaces and the like are written there as a backslash and three octal digits.
+std::string unescaped(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool code = text[i] == '\\' && i + 3 < text.size();
+    out += code ? static_cast<char>(std::strtol(text.substr(i + 1, 3).c_str(), nullptr, 8)) : text[i];
+    if (code) i += 3;
+  }
+  return out;
+}
+
+std::optional<Mount> mount_of(const std::string& line) {
+  Mount mount;
+  std::istringstream words(line);
+  std::string word;
+  words >> word >> word >> word >> mount.root >> mount.point;
+  while (words >> word && word != "-") continue;  // optional fields
+  words >> mount.type >> word >> mount.options;
+  mount.root = unescaped(mount.root), mount.point = unescaped(mount.point);
+  return mount.options.empty() || !mount.point.starts_with('/') ? std::nullopt : std::optional(mount);
+}
+
+bool names(const std::string& list, const std::string& word) {
+  return ("," + list + ",").find("," + word + ",") != std::string::npos;
+}
+
+/// The group's path as a line of proc/self/cgroup has it ("3:cpu,cpuacct:/a/b"; "0::/a/b" for version 2), if the line
+/// is of the hierarchy that is mounted.
+std::optional<std::string> group_in(const std::string& line, const Mount& mount, const std::string& controller) {
+  const std::size_t first = line.find(':'), second = line.find(":/", first + 1);
+  if (first == line.npos || second == line.npos) return std::nullopt;
+  const std::string controllers = line.substr(first + 1, second - first - 1);
+  const bool fits = mount.type == "cgroup2" ? controllers.empty() : names(controllers, controller);
+  return fits ? std::optional(line.substr(second + 1)) : std::nullopt;
+}
+
+/// The part of the path that lies below the mounted root; "": the group is the root, or cannot be seen here.
+std::string below(const std::string& group, const std::string& root) {
+  if (group.find("/..") != std::string::npos) return "";
+  if (root == "/") return group.substr(1);
+  return group.starts_with(root + "/") ? group.substr(root.size() + 1) : "";
+}
+
+/// All mounts that this process sees, in the order in which they were made.
+std::vector<Mount> mounts(const fs::path& root) {
+  std::vector<Mount> found;
+  std::ifstream in(root / "proc/self/mountinfo");
+  for (std::string line; std::getline(in, line);)
+    if (const auto mount = mount_of(line)) found.push_back(*mount);
+  return found;
+}
+
+/// The folders of the groups that this process belongs to, from its own up to the topmost one that is mounted here,
+/// where each may set a limit of its own: those of version 2, and those of version 1 that have the controller, for
+/// example "cpu" or "memory". A folder need not exist: a container may be told a path that it cannot see.
+std::vector<fs::path> cgroup_folders(const std::string& controller, const fs::path& root) {
+  std::vector<fs::path> folders;
+  for (const Mount& mount : mounts(root)) {
+    const bool version_1 = mount.type == "cgroup" && names(mount.options, controller);
+    if (!version_1 && mount.type != "cgroup2") continue;
+    const fs::path top = root / mount.point.substr(1);
+    std::ifstream groups(root / "proc/self/cgroup");
+    for (std::string line; std::getline(groups, line);) {
+      const auto group = group_in(line, mount, controller);
+      if (!group) continue;
+      for (fs::path rest = below(*group, mount.root); !rest.empty(); rest = rest.parent_path())
+        folders.push_back(top / rest);
+      folders.push_back(top);
+    }
+  }
+  return folders;
+}
+
+std::uint64_t less(std::uint64_t limit, std::uint64_t used) {
+  return limit == no_limit ? no_limit : limit - std::min(limit, used);
 }
 
 }  // namespace
@@ -74,6 +153,41 @@ ThreadCount thread_count(int requested, const fs::path& root) {
   const int quota = processor_quota(root).value_or(bound);
   if (quota < bound) return {quota, "quota"};
   return {bound, bound < machine ? "affinity" : "machine"};
+}
+
+std::uint64_t system_number(const fs::path& file, const std::string& key, std::uint64_t unit) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with(key)) continue;
+    const std::size_t digits = line.find_first_of("0123456789", key.size());
+    return digits == line.npos ? no_limit : unit * std::strtoull(line.c_str() + digits, nullptr, 10);
+  }
+  return no_limit;
+}
+
+FreeMemory free_memory(const fs::path& root) {
+  FreeMemory free{memory_of_machine(), "free on this machine"};
+  const auto at_most = [&free](std::uint64_t bytes, const char* limit) {
+    if (bytes < free.bytes) free = {bytes, limit};
+  };
+  for (const fs::path& group : cgroup_folders("memory", root)) {
+    constexpr const char* files[][2] = {{"memory.max", "memory.current"},
+                                        {"memory.limit_in_bytes", "memory.usage_in_bytes"}};
+    for (const auto& [limit, used] : files)
+      at_most(less(system_number(group / limit, ""), system_number(group / used, "")),
+              "left to this group of processes (cgroup)");
+  }
+  at_most(less(limit_of(Limit::address_space), system_number("/proc/self/status", "VmSize:", 1024)),
+          "left by ulimit -v");
+  at_most(less(limit_of(Limit::data), system_number("/proc/self/status", "VmData:", 1024)), "left by ulimit -d");
+  return free;
+}
+
+bool is_mount_point(const fs::path& file) {
+  std::error_code error;
+  const fs::path place = fs::canonical(file, error);
+  const std::vector<Mount> all = error ? std::vector<Mount>() : mounts("/");
+  return std::any_of(all.begin(), all.end(), [&](const Mount& mount) { return mount.point == place; });
 }
 
 }  // namespace tyndall

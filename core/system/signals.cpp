@@ -1,13 +1,10 @@
 #include "core/system/signals.h"
 
-#include "core/system/open_file.h"
-
 #include <signal.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <atomic>
-#include <cstdint>
+#include <chrono>
 #include <iterator>
 #include <utility>
 
@@ -16,33 +13,29 @@ namespace {
 
 static_assert(signal_kill == SIGKILL && signal_terminate == SIGTERM);
 
+using Clock = std::chrono::steady_clock;
+
 // A signal handler can reach nothing but globals; lock-free atomics are safe there.
 std::atomic<int> received_signal{0};
-std::atomic<std::int64_t> received_at{0};  ///< milliseconds
+std::atomic<Clock::rep> received_at{0};
 std::atomic<bool> save_request{false};
-std::atomic<const Bell*> bell{nullptr};
 std::atomic<int> watches{0};  ///< that live
-static_assert(std::atomic<int>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<Clock::rep>::is_always_lock_free);
 
 /// A program such as timeout signals the process and then its group: what comes within this time is the same request.
-constexpr std::int64_t same_request_ms = 200;
+constexpr Clock::rep same_request = Clock::duration(std::chrono::milliseconds(200)).count();
 
-std::int64_t now_ms() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1000000;
-}
+Clock::rep now() { return Clock::now().time_since_epoch().count(); }
 
 /// Asks for an end. SIGXCPU comes again every second, SIGHUP from the shell and from the terminal: no reason to hurry.
 void ask_for_end(int number) {
   int none = 0;
   if (!received_signal.compare_exchange_strong(none, number)) return;
-  received_at = now_ms();
-  if (const Bell* one = bell) one->ring();
+  received_at = now();
 }
 
 void ask_for_end_or_end(int number) {
-  if (received_signal != 0 && received_at != 0 && now_ms() - received_at > same_request_ms) _exit(128 + number);
+  if (received_signal != 0 && received_at != 0 && now() - received_at > same_request) _exit(128 + number);
   ask_for_end(number);
 }
 
@@ -66,20 +59,13 @@ const Watched watched[] = {{SIGINT, {ask_for_end, ask_for_end_or_end, ask_for_en
 
 struct SignalWatch::Before {
   struct sigaction actions[std::size(watched)];
-  Bell bell;
 };
 
 SignalWatch::SignalWatch(WatchedSignals signals, std::function<void()> on_end)
     : signals_(signals), before_(std::make_unique<Before>()) {
   if (signals_ == WatchedSignals::none) return;
   if (watches++ == 0) received_signal = 0, received_at = 0, save_request = false;
-  if (on_end) {
-    bell = &before_->bell;
-    thread_ = std::thread([this, call = std::move(on_end)] {
-      before_->bell.wait();
-      if (received_signal != 0) call();
-    });
-  }
+  if (on_end) thread_ = std::thread([this, call = std::move(on_end)] { tell_end(call); });
   for (std::size_t k = 0; k < std::size(watched); ++k) {
     struct sigaction action {};
     action.sa_handler = watched[k].handlers[static_cast<int>(signals_) - static_cast<int>(WatchedSignals::end)];
@@ -94,10 +80,8 @@ SignalWatch::~SignalWatch() {
   if (signals_ == WatchedSignals::none) return;
   for (std::size_t k = 0; k < std::size(watched); ++k) sigaction(watched[k].number, &before_->actions[k], nullptr);
   --watches;
-  if (!thread_.joinable()) return;
-  bell = nullptr;
-  before_->bell.ring();
-  thread_.join();
+  ends_ = true;
+  if (thread_.joinable()) thread_.join();
 }
 
 int SignalWatch::received() const { return signals_ == WatchedSignals::none ? 0 : received_signal.load(); }

@@ -1,4 +1,6 @@
 #pragma once
+#include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -41,8 +43,15 @@ class SignalWatch {
 
  private:
   struct Before;
+  /// The work of the thread. A handler of signals can wake none, so it looks some times a second.
+  void tell_end(const std::function<void()>& on_end) const {
+    while (!ends_ && received() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    if (received() != 0) on_end();
+  }
+
   WatchedSignals signals_;
   std::unique_ptr<Before> before_;
+  std::atomic<bool> ends_ = false;
   std::thread thread_;
 };
 

@@ -1,6 +1,5 @@
 #include "core/system/signals.h"
 
-#include "core/system/open_file.h"
 #include "core/system/windows_api.h"
 
 #include <atomic>
@@ -12,8 +11,7 @@ namespace tyndall {
 namespace {
 
 std::atomic<int> received_signal{0};
-std::atomic<ULONGLONG> received_at{0};  ///< milliseconds
-std::atomic<const Bell*> bell{nullptr};
+std::atomic<ULONGLONG> received_at{0};            ///< milliseconds
 std::atomic<int> watches{0}, patient_watches{0};  ///< that live; those of them that no second event ends
 
 /// What comes within this time is the same request.
@@ -28,7 +26,6 @@ BOOL WINAPI take_event(DWORD event) {
   int none = 0;
   if (received_signal.compare_exchange_strong(none, number)) {
     received_at = GetTickCount64();
-    if (const Bell* one = bell) one->ring();
   } else if (patient_watches == 0 && GetTickCount64() - received_at > same_request_ms) {
     std::_Exit(128 + number);
   }
@@ -38,21 +35,12 @@ BOOL WINAPI take_event(DWORD event) {
 
 }  // namespace
 
-struct SignalWatch::Before {
-  Bell bell;
-};
+struct SignalWatch::Before {};
 
-SignalWatch::SignalWatch(WatchedSignals signals, std::function<void()> on_end)
-    : signals_(signals), before_(std::make_unique<Before>()) {
+SignalWatch::SignalWatch(WatchedSignals signals, std::function<void()> on_end) : signals_(signals) {
   if (signals_ == WatchedSignals::none) return;
   if (watches == 0) received_signal = 0;
-  if (on_end) {
-    bell = &before_->bell;
-    thread_ = std::thread([this, call = std::move(on_end)] {
-      before_->bell.wait();
-      if (received_signal != 0) call();
-    });
-  }
+  if (on_end) thread_ = std::thread([this, call = std::move(on_end)] { tell_end(call); });
   if (signals_ == WatchedSignals::end) ++patient_watches;
   if (watches++ == 0) SetConsoleCtrlHandler(take_event, TRUE);
 }
@@ -60,11 +48,8 @@ SignalWatch::SignalWatch(WatchedSignals signals, std::function<void()> on_end)
 SignalWatch::~SignalWatch() {
   if (signals_ == WatchedSignals::none) return;
   if (signals_ == WatchedSignals::end) --patient_watches;
-  if (thread_.joinable()) {
-    bell = nullptr;
-    before_->bell.ring();
-    thread_.join();
-  }
+  ends_ = true;
+  if (thread_.joinable()) thread_.join();
   if (--watches == 0) SetConsoleCtrlHandler(take_event, FALSE);
 }
 

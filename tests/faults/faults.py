@@ -10,10 +10,8 @@ with one error and another, once and for good. After each of them the same comma
 had been. --kills N: that many kills at random times, of a render with checkpoints. It writes into memory where the system
 has a folder for that: a disk may take seconds for what a program waits for, and this is to tell what the program costs.
 """
-import argparse
 import errno
 import json
-import os
 import pathlib
 import random
 import re
@@ -24,6 +22,8 @@ import subprocess
 import sys
 import tempfile
 import time
+
+from program import Program, arguments
 
 SMALL = ["--size", "16x16", "-t", "1", "-q"]
 ERRORS = ["EIO", "ENOSPC", "EACCES"]
@@ -58,61 +58,37 @@ def scenarios():
     yield Scenario("scene", ["convert", box, "-o", "a.json"], [["convert", "showroom", "-o", "a.json"]], ["a.json"])
 
 
-class Faults:
+class Faults(Program):
     def __init__(self, tyndall, shim, scratch):
-        self.tyndall, self.shim, self.scratch = tyndall, shim, scratch
+        super().__init__(tyndall, shim, scratch / "work")
         self.log = scratch / "calls.log"
-        self.folder = scratch / "work"
         self.elsewhere = scratch / "elsewhere"  # where the program puts what cannot be written where it belongs
-        self.problems, self.cases, self.crashes, self.errors = [], 0, 0, 0
-
-    def fail(self, where, text):
-        self.problems.append(f"{where}: {text}")
-        print("FAIL:", self.problems[-1], flush=True)
+        self.cases, self.crashes = 0, 0
 
     def run(self, command, **fault):
         self.log.unlink(missing_ok=True)
-        environment = {**os.environ, "LD_PRELOAD": str(self.shim), "FAULT_UNDER": str(self.folder),
-                       "FAULT_LOG": str(self.log), "TMPDIR": str(self.elsewhere)}
-        environment |= {"FAULT_" + key.upper(): str(value) for key, value in fault.items()}
-        done = subprocess.run([self.tyndall, *command], cwd=self.folder, env=environment, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        return done.returncode, done.stderr.decode(errors="replace").strip()
+        return super().run(command, FAULT_UNDER=self.folder, FAULT_LOG=self.log, TMPDIR=self.elsewhere,
+                           **{"FAULT_" + key.upper(): value for key, value in fault.items()})
 
     def calls(self):
         return self.log.read_text().split("\n")[:-1] if self.log.exists() else []
 
-    def start(self, kept):
-        """The folder as it is before the command."""
-        shutil.rmtree(self.folder, ignore_errors=True)
+    def start(self, kept=None):
+        super().start(kept)
         shutil.rmtree(self.elsewhere, ignore_errors=True)
         self.elsewhere.mkdir()
-        if kept and kept.exists():
-            shutil.copytree(kept, self.folder)
-        else:
-            self.folder.mkdir()
-
-    def contents(self, names):
-        return {n: (self.folder / n).read_bytes() if (self.folder / n).exists() else None for n in names}
-
-    def strays(self):
-        return sorted(p.name for p in self.folder.iterdir() if ".tmp-" in p.name)
 
     def prepare(self, scenario):
-        self.start(None)
+        self.start()
         for command in scenario.before:
             if command[0] == "killed":
                 code, text = self.run(command[1], at=self.second_checkpoint(command[1]), mode="after")
                 assert code == -signal.SIGKILL, text
             else:
-                code, text = self.run(command)
-                assert code == 0, text
-        kept = self.scratch / ("kept-" + scenario.name)
-        shutil.rmtree(kept, ignore_errors=True)
-        shutil.copytree(self.folder, kept)
+                self.succeed(command)
+        kept = self.keep(scenario.name)
         old = self.contents(scenario.outputs())
-        code, text = self.run(scenario.command)
-        assert code == 0, text
+        self.succeed(scenario.command)
         self.check_order(scenario, self.calls())
         return kept, old, self.contents(scenario.outputs()), self.calls()
 
@@ -124,16 +100,14 @@ class Faults:
             before = [c for c in calls[:at] if c in ("write", "fsync")]
             after = [c for c in calls[at + 1:] if c in ("write", "rename", "fsync")]
             if before[-1:] != ["fsync"] or after[:1] != ["fsync"]:
-                self.fail(scenario.name, "a file is renamed that is not on the disk, or its folder is not put there")
+                self.fail(f"{scenario.name}: a file is renamed that is not on the disk, or its folder is not put there")
         if "rename" not in calls:
-            self.fail(scenario.name, "no file is renamed")
+            self.fail(f"{scenario.name}: no file is renamed")
 
     def second_checkpoint(self, command):
-        code, text = self.run(command)
-        assert code == 0, text
+        self.succeed(command)
         renames = [i for i, call in enumerate(self.calls(), 1) if call == "rename"]
-        shutil.rmtree(self.folder)
-        self.folder.mkdir()
+        self.start()
         return renames[1]
 
     def check_files(self, where, scenario, old, new, exact):
@@ -143,7 +117,7 @@ class Faults:
             if name in scenario.others and now[name] not in (None, old[name]):
                 known = self.is_json(now[name])
             if not known and exact:
-                self.fail(where, f"{name} is neither old nor new")
+                self.fail(f"{where}: {name} is neither old nor new")
         return now
 
     @staticmethod
@@ -158,13 +132,13 @@ class Faults:
         """The same command runs again, and everything is as if nothing had been."""
         code, text = self.run(scenario.command)
         if code != 0:
-            self.fail(where, f"the next run ends with {code}: {text}")
+            self.fail(f"{where}: the next run ends with {code}: {text}")
         now = self.contents(scenario.outputs())
         for name in scenario.images:
             if now[name] != new[name]:
-                self.fail(where, f"after the next run {name} has other bits")
+                self.fail(f"{where}: after the next run {name} has other bits")
         if self.strays():
-            self.fail(where, f"after the next run there is {self.strays()}")
+            self.fail(f"{where}: after the next run there is {self.strays()}")
 
     def one(self, scenario, kept, old, new, where, **fault):
         self.cases += 1
@@ -174,24 +148,24 @@ class Faults:
         exact = scenario.name not in ("checkpoint", "resume")
         now = self.check_files(where, scenario, old, new, exact)
         if not exact and "rename" in calls and now["a.exr"] is None:
-            self.fail(where, "a checkpoint was written, and is not there")
+            self.fail(f"{where}: a checkpoint was written, and is not there")
         if fault["mode"] == "error":
             self.errors += 1
             if code < 0 or (code != 0 and not text):
-                self.fail(where, f"ends with {code}: {text or 'without a word'}")
+                self.fail(f"{where}: ends with {code}: {text or 'without a word'}")
             new_files = all(now[name] == new[name] for name in scenario.images)
             failed = [call.split()[0] for call in calls if call.endswith("failed")]
             told = code != 0 or (not exact and "no checkpoint was written" in text)
             if not told and any(call in MUST_BE_TOLD for call in failed):
-                self.fail(where, f"ends with {code}, and does not tell: {text}")
+                self.fail(f"{where}: ends with {code}, and does not tell: {text}")
             if exact and "rename" in failed and not self.rescued(text):
-                self.fail(where, f"ends with {code}, and what could not be renamed is lost: {text}")
+                self.fail(f"{where}: ends with {code}, and what could not be renamed is lost: {text}")
             if code == 0 and not new_files:
-                self.fail(where, f"ends with 0, and not all files are new: {text}")
+                self.fail(f"{where}: ends with 0, and not all files are new: {text}")
         else:
             self.crashes += code == -signal.SIGKILL
             if code not in (0, -signal.SIGKILL):
-                self.fail(where, f"ends with {code}: {text}")
+                self.fail(f"{where}: ends with {code}: {text}")
         self.check_next(where, scenario, new)
 
     def rescued(self, text):
@@ -237,20 +211,20 @@ class Faults:
                   f"{lost[len(lost) // 2]:.3f} s, of 99 % at most {lost[int(0.99 * len(lost))]:.3f} s, at most "
                   f"{lost[-1]:.3f} s; of {100 * within:.1f} % at most {INTERVAL} s")
         if judged and (judged[-1] > 2 * INTERVAL or (len(judged) >= 100 and within < ON_TIME)):
-            self.fail("kills", f"more than {INTERVAL} s of work are lost in {100 * (1 - within):.1f} % of the kills")
+            self.fail(f"kills: more than {INTERVAL} s of work are lost in {100 * (1 - within):.1f} % of the kills")
 
     def kill_at_random(self, kills):
         """Kills renders with checkpoints at random times until they are whole; then their bits must be those of one go."""
         command = ["render", "cornell-box", "--size", "24x16", "--spp", "6000", "-t", "1", "-q", "--checkpoint", str(INTERVAL),
                    "-o", "a.exr", "--stats", "a.json"]
-        self.start(None)
+        self.start()
         begin = time.monotonic()
         assert self.run(command)[0] == 0
         seconds = time.monotonic() - begin
         command[5] = str(int(6000 * max(1, 5 * INTERVAL / seconds)))
         whole, killed, finished = None, 0, 0
         lost = []
-        self.start(None)
+        self.start()
         used = self.processor_seconds()
         while killed < kills:
             started = time.time()
@@ -259,18 +233,18 @@ class Faults:
             try:
                 text = process.communicate(timeout=random.uniform(0, 4 * INTERVAL))[1]
                 if process.returncode != 0:
-                    self.fail("kills", f"ends with {process.returncode}: {text.decode()}")
+                    self.fail(f"kills: ends with {process.returncode}: {text.decode()}")
                     return
                 if self.strays():
-                    self.fail("kills", f"after {killed} kills there is {self.strays()}")
+                    self.fail(f"kills: after {killed} kills there is {self.strays()}")
                 found = self.contents(["a.exr"])
-                self.start(None)
+                self.start()
                 if whole is None:
                     assert self.run(command)[0] == 0
                     whole = self.contents(["a.exr"])
-                    self.start(None)
+                    self.start()
                 if found != whole:
-                    self.fail("kills", f"after {killed} kills the film has other bits")
+                    self.fail(f"kills: after {killed} kills the film has other bits")
                 finished += 1
             except subprocess.TimeoutExpired:
                 now = time.time()
@@ -286,28 +260,18 @@ class Faults:
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("tyndall", type=pathlib.Path)
-    parser.add_argument("shim", type=pathlib.Path)
-    parser.add_argument("scratch", type=pathlib.Path)
-    parser.add_argument("--every", type=int, default=1)
-    parser.add_argument("--kills", type=int, default=0)
-    parser.add_argument("--only", nargs="*")
-    arguments = parser.parse_args()
+    given = arguments(every=1, kills=0)
     seed = random.randrange(1 << 32)
     random.seed(seed)
     print("seed", seed)
-    scratch = arguments.scratch.resolve()
-    shutil.rmtree(scratch, ignore_errors=True)
-    scratch.mkdir(parents=True)
-    faults = Faults(arguments.tyndall.resolve(), arguments.shim.resolve(), scratch)
+    faults = Faults(given.tyndall, given.shim, given.scratch)
     for scenario in scenarios():
-        if not arguments.only or scenario.name in arguments.only:
-            faults.go_through(scenario, arguments.every)
-    if arguments.kills:
+        if not given.only or scenario.name in given.only:
+            faults.go_through(scenario, given.every)
+    if given.kills:
         with tempfile.TemporaryDirectory(prefix="tyndall-kills-", dir=MEMORY if MEMORY.is_dir() else None) as folder:
             faults.folder = pathlib.Path(folder) / "work"
-            faults.kill_at_random(arguments.kills)
+            faults.kill_at_random(given.kills)
     print(f"{faults.crashes} crash points, {faults.errors} errors: {len(faults.problems)} problems")
     return 1 if faults.problems else 0
 

@@ -6,13 +6,10 @@ Usage: memory.py TYNDALL SHIM SCRATCH [--every N] [--only NAME...]
 
 SHIM: the library of memory_shim.cpp, which counts and refuses requests. --every N: only each Nth request.
 """
-import argparse
-import os
-import pathlib
 import random
-import shutil
-import subprocess
 import sys
+
+from program import Program, arguments
 
 SCENE = """{"tyndall": 1, "image": {"width": 16, "height": 12},
   "camera": {"look_from": [0, 1, 4], "look_at": [0, 0.5, 0]},
@@ -47,41 +44,19 @@ SCENARIOS = [
 ]
 
 
-class Memory:
-    def __init__(self, tyndall, shim, folder):
-        self.tyndall, self.shim, self.folder = tyndall, shim, folder
-        self.refusals, self.errors, self.problems = 0, 0, []
+class Memory(Program):
+    refusals = 0
 
-    def run(self, command, at=0):
-        environment = {**os.environ, "LD_PRELOAD": str(self.shim), "MEMORY_AT": str(at),
-                       "MEMORY_LOG": str(self.folder.parent / "requests")}
-        done = subprocess.run([self.tyndall, *command], cwd=self.folder, env=environment, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        return done.returncode, done.stderr.decode(errors="replace").strip()
-
-    def fail(self, text):
-        self.problems.append(text)
-        print("FAIL:", text, flush=True)
-
-    def contents(self, names):
-        return {n: (self.folder / n).read_bytes() if (self.folder / n).exists() else None for n in names}
-
-    def start(self, kept):
-        shutil.rmtree(self.folder, ignore_errors=True)
-        shutil.copytree(kept, self.folder)
+    def request(self, command, at=0):
+        """Refuses this request; 0: none."""
+        return self.run(command, MEMORY_AT=at, MEMORY_LOG=self.folder.parent / "requests")
 
     def prepare(self, name, before):
-        kept = self.folder.parent / ("kept-" + name)
-        shutil.rmtree(self.folder, ignore_errors=True)
-        self.folder.mkdir()
+        self.start()
         (self.folder / "scene.json").write_text(SCENE)
-        assert self.run(["render", "cornell-box", "--size", "8x8", "--spp", "1", *QUIET, "-o", "picture.png"])[0] == 0
-        for command in before:
-            code, text = self.run(command)
-            assert code == 0, text
-        shutil.rmtree(kept, ignore_errors=True)
-        shutil.copytree(self.folder, kept)
-        return kept
+        for command in (["render", "cornell-box", "--size", "8x8", "--spp", "1", *QUIET, "-o", "picture.png"], *before):
+            self.succeed(command)
+        return self.keep(name)
 
     def check(self, where, code, text, now, old, whole):
         """whole: what images that hold no times are when all went well."""
@@ -89,7 +64,7 @@ class Memory:
         self.errors += code != 0
         if code < 0 or code > 3 or (code != 0 and not text):
             self.fail(f"{where}: ends with {code}: {text or 'without a word'}")
-        if strays := [p.name for p in self.folder.iterdir() if ".tmp-" in p.name]:
+        if strays := self.strays():
             self.fail(f"{where}: leaves {strays}")
         for name, content in now.items():
             if content != old[name] and name.endswith((".pfm", ".hdr")) and content != whole[name]:
@@ -100,31 +75,22 @@ class Memory:
     def go_through(self, name, before, command, outputs, every):
         kept = self.prepare(name, before)
         old = self.contents(outputs)
-        code, text = self.run(command)
+        code, text = self.request(command)
         assert code == 0, text
         whole, count = self.contents(outputs), int((self.folder.parent / "requests").read_text())
         for at in range(1 + random.Random(name).randrange(every), count + 1, every):
             self.start(kept)
-            code, text = self.run(command, at)
+            code, text = self.request(command, at)
             self.check(f"{name}: request {at}", code, text, self.contents(outputs), old, whole)
         print(f"{name}: {count} requests; so far {self.refusals} refused, {self.errors} ended in an error", flush=True)
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("tyndall", type=pathlib.Path)
-    parser.add_argument("shim", type=pathlib.Path)
-    parser.add_argument("scratch", type=pathlib.Path)
-    parser.add_argument("--every", type=int, default=1)
-    parser.add_argument("--only", nargs="*")
-    arguments = parser.parse_args()
-    scratch = arguments.scratch.resolve()
-    shutil.rmtree(scratch, ignore_errors=True)
-    scratch.mkdir(parents=True)
-    memory = Memory(arguments.tyndall.resolve(), arguments.shim.resolve(), scratch / "work")
+    given = arguments(every=1)
+    memory = Memory(given.tyndall, given.shim, given.scratch / "work")
     for scenario in SCENARIOS:
-        if not arguments.only or scenario[0] in arguments.only:
-            memory.go_through(*scenario, arguments.every)
+        if not given.only or scenario[0] in given.only:
+            memory.go_through(*scenario, given.every)
     print(f"{memory.refusals} refused requests: {len(memory.problems)} problems")
     return 1 if memory.problems else 0
 

@@ -5,8 +5,7 @@
 //   FAULT_LOG=FILE          gets the name of each call, a line each, when it has returned
 //   FAULT_AT=N              the call that is meant, counted from 1
 //   FAULT_MODE=MODE         before, after: the program is killed at this place, as by a power cut; half: it is killed
-//   when
-//                           half of the bytes of a write are written; error: the call fails
+//                           when half of the bytes of a write are written; error: the call fails
 //   FAULT_ERRNO=NUMBER      how it fails
 //   FAULT_FOREVER=1         all later calls fail, too
 #include <sys/file.h>
@@ -121,6 +120,13 @@ class Call {
   long number_;
 };
 
+/// A call of the system, as it is wished.
+template <class Result, class Where, class... Arguments>
+Result make(const char* name, Where where, long number, Arguments... arguments) {
+  const Call call(name, where);
+  return call.fails() ? Result(-1) : call.done(static_cast<Result>(syscall(number, arguments...)));
+}
+
 }  // namespace
 
 extern "C" {
@@ -130,9 +136,7 @@ int open(const char* path, int flags, ...) {
   va_start(rest, flags);
   const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(rest, mode_t) : 0;
   va_end(rest);
-  const Call call("open", path);
-  if (call.fails()) return -1;
-  return call.done(static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, mode)));
+  return make<int>("open", path, SYS_openat, AT_FDCWD, path, flags, mode);
 }
 
 FILE* fopen(const char* path, const char* mode) {
@@ -142,8 +146,7 @@ FILE* fopen(const char* path, const char* mode) {
 }
 
 ssize_t read(int descriptor, void* bytes, size_t count) {
-  const Call call("read", descriptor);
-  return call.fails() ? -1 : call.done(syscall(SYS_read, descriptor, bytes, count));
+  return make<ssize_t>("read", descriptor, SYS_read, descriptor, bytes, count);
 }
 
 ssize_t write(int descriptor, const void* bytes, size_t count) {
@@ -157,24 +160,16 @@ ssize_t write(int descriptor, const void* bytes, size_t count) {
 }
 
 off_t lseek(int descriptor, off_t offset, int whence) noexcept {
-  const Call call("lseek", descriptor);
-  return call.fails() ? -1 : call.done(syscall(SYS_lseek, descriptor, offset, whence));
+  return make<off_t>("lseek", descriptor, SYS_lseek, descriptor, offset, whence);
 }
 
-int fsync(int descriptor) {
-  const Call call("fsync", descriptor);
-  return call.fails() ? -1 : call.done(static_cast<int>(syscall(SYS_fsync, descriptor)));
-}
+int fsync(int descriptor) { return make<int>("fsync", descriptor, SYS_fsync, descriptor); }
 
 int rename(const char* from, const char* to) noexcept {
-  const Call call("rename", to);
-  return call.fails() ? -1 : call.done(static_cast<int>(syscall(SYS_renameat, AT_FDCWD, from, AT_FDCWD, to)));
+  return make<int>("rename", to, SYS_renameat, AT_FDCWD, from, AT_FDCWD, to);
 }
 
-int unlink(const char* path) noexcept {
-  const Call call("unlink", path);
-  return call.fails() ? -1 : call.done(static_cast<int>(syscall(SYS_unlinkat, AT_FDCWD, path, 0)));
-}
+int unlink(const char* path) noexcept { return make<int>("unlink", path, SYS_unlinkat, AT_FDCWD, path, 0); }
 
 int close(int descriptor) {
   const Call call("close", descriptor);
@@ -183,23 +178,19 @@ int close(int descriptor) {
 }
 
 int flock(int descriptor, int operation) noexcept {
-  const Call call("flock", descriptor);
-  return call.fails() ? -1 : call.done(static_cast<int>(syscall(SYS_flock, descriptor, operation)));
+  return make<int>("flock", descriptor, SYS_flock, descriptor, operation);
 }
 
 int fchmod(int descriptor, mode_t mode) noexcept {
-  const Call call("fchmod", descriptor);
-  return call.fails() ? -1 : call.done(static_cast<int>(syscall(SYS_fchmod, descriptor, mode)));
+  return make<int>("fchmod", descriptor, SYS_fchmod, descriptor, mode);
 }
 
 int fstat(int descriptor, struct stat* status) noexcept {
-  const Call call("fstat", descriptor);
-  return call.fails() ? -1 : call.done(static_cast<int>(syscall(SYS_fstat, descriptor, status)));
+  return make<int>("fstat", descriptor, SYS_fstat, descriptor, status);
 }
 
 int stat(const char* path, struct stat* status) noexcept {
-  const Call call("stat", path);
-  return call.fails() ? -1 : call.done(static_cast<int>(syscall(SYS_newfstatat, AT_FDCWD, path, status, 0)));
+  return make<int>("stat", path, SYS_newfstatat, AT_FDCWD, path, status, 0);
 }
 
 }  // extern "C"

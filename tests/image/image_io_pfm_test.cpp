@@ -32,37 +32,28 @@ TEST_CASE("pfm: header, bottom row first, exact values") {
 }
 
 TEST_CASE("pfm: grey, big endian and other scales") {
-  const fs::path file = scratch_folder("pfm_kinds") / "a.pfm";
-  write_text(file, std::string("Pf 1 2 1\n\x3f\x80\0\0\xc0\0\0\0", 17));
-  CHECK(read_image(file).rgb == std::vector<float>{-2, -2, -2, 1, 1, 1});
-  write_text(file, std::string("Pf\n1 1\n-2.5\n\0\0\x80\x3f", 16));
-  CHECK(read_image(file).rgb == std::vector<float>{2.5f, 2.5f, 2.5f});
+  CHECK(light_of(std::string("Pf 1 2 1\n\x3f\x80\0\0\xc0\0\0\0", 17)) == std::vector<float>{-2, -2, -2, 1, 1, 1});
+  CHECK(light_of(std::string("Pf\n1 1\n-2.5\n\0\0\x80\x3f", 16)) == std::vector<float>{2.5f, 2.5f, 2.5f});
 }
 
 TEST_CASE("pfm: damaged ones are refused") {
-  const fs::path file = scratch_folder("pfm_damaged") / "a.pfm";
   for (const std::string text : {"PF\n", "PF\n2 2\n", "Pf\n1 1\n0\n1234", "Pf\n1 1\nnan\n1234", "Pf\n1 1\n-inf\n1234",
                                  "PF\n2 x\n-1\n", "PF\n2 2\n-1.0\n1234", "PF\n0 2\n-1.0\n", "PF\n-1 -1\n-1.0\n",
                                  "PF\n999999999 999999999\n-1.0\n", "PF\n2147483647 1\n-1.0\n"}) {
     CAPTURE(text);
-    write_text(file, text);
-    CHECK_THROWS_AS(read_image(file), ImageFileError);
+    CHECK(message_for(text) != "");
   }
 }
 
 TEST_CASE("pfm: a header with CR LF does not move the numbers by a byte") {
-  const fs::path folder = scratch_folder("pfm_lines");
   const std::string pixels("\0\0\x80\x3f\0\0\0\x40\0\0\x40\x40", 12);
   const std::vector<float> values{1, 2, 3};
   for (const std::string header :
-       {"PF\r\n1 1\r\n-1.0\r\n", "PF\r\n1 1\r\n-1.0\n", "PF\n1 1\n-1.0\r\n", "PF\n1 1\n-1.0\n"}) {
-    write_text(folder / "a.pfm", header + pixels);
-    CHECK(read_image(folder / "a.pfm").rgb == values);
-  }
+       {"PF\r\n1 1\r\n-1.0\r\n", "PF\r\n1 1\r\n-1.0\n", "PF\n1 1\n-1.0\r\n", "PF\n1 1\n-1.0\n"})
+    CHECK(light_of(header + pixels) == values);
   // One character follows the header, and the first number begins with a line feed: nothing is left over.
   const std::string fed("\x0a\0\x80\x3f\0\0\0\x40\0\0\x40\x40", 12);
-  write_text(folder / "a.pfm", "PF\n1 1\n-1.0\r" + fed);
-  CHECK(read_image(folder / "a.pfm").rgb[1] == 2);
+  CHECK(light_of("PF\n1 1\n-1.0\r" + fed)[1] == 2);
 }
 
 TEST_CASE("pfm: bytes after the last pixel are refused") {

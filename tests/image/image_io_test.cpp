@@ -37,16 +37,6 @@ TEST_CASE("png: pixels, exposure and tone curve") {
   CHECK(bytes_in(file) == tone_map(small_image().rgb, -2, ToneMap::aces));
 }
 
-TEST_CASE("png: read as a linear image") {
-  const fs::path file = scratch_folder("png_linear") / "a.png";
-  write_png(file, small_image(), 0, ToneMap::srgb, {});
-  const LinearImage image = read_image(file);
-  CHECK(image.width == 2);
-  CHECK(image.rgb[0] == 1.0f);
-  CHECK(image.rgb[9] == doctest::Approx(srgb_decode(188.0f / 255)));
-  CHECK(image.rgb[13] == 1.0f);  // clipped
-}
-
 TEST_CASE("png: carries the scene, byte for byte") {
   const fs::path folder = scratch_folder("png_scene");
   write_png(folder / "a.png", small_image(), 0, ToneMap::srgb, notes);

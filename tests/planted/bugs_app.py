@@ -177,7 +177,7 @@ APP = [
     ("arrays of a picture can be written to", "app/python/module.cpp", "«array.attr(\"setflags\")(py::arg(\"write\") = false); → »", "python"),
     ("the reference's mean is that of the picture", "app/python/module.cpp", "channels(«c.mean_reference → c.mean_image»)", "python"),
     ("names of files that are no UTF-8 are an error", "app/python/module.cpp", "«\"surrogateescape\" → \"strict\"»", "python"),
-    ("the region ends on the right where it ends below", "app/python/module.cpp", "tyndall::Region{x0, y0, «x1 → y1», y1};", "python"),
+    ("the region ends on the right where it ends below", "app/python/module.cpp", "Region{x0, y0, «x1 → y1», y1};", "python"),
 
     ("a line that begins with a dot is a request", "app/manual/page.cpp", "if (at_start && («c == '.' → false» || c == '\\''))", "app/manual/page"),
     ("a switch wants a value in bash", "app/manual/page.cpp", "«if (option.unit.empty()) continue; → »", "app/manual/page"),
@@ -192,8 +192,8 @@ APP = [
     ("a picture that cannot be read passes", "app/comparison/baseline.cpp", "«picture.failures.emplace_back(problem.what()); → »", "app/baseline.sh"),
     ("variances pass as errors", "app/comparison/pair.cpp", "if («squared → false»)\n", "app/max_z.sh"),
 
-    ("failed samples are no failure", "app/watch/watch.cpp", "return tell_failures(*order.function) ? «1 → 0» : 0;", "app/watch.sh"),
-    ("the caller's rounding is lost", "app/watch/watch.cpp", "Host::~Host() {\n  «std::fesetenv(&arithmetic_); → »", "app/watch.sh"),
+    ("failed samples are no failure", "app/watch/watch.cpp", "return failures > 0 ? «1 → 0» : 0;", "app/watch.sh"),
+    ("the caller's rounding is lost", "app/watch/watch.cpp", "~Host() {\n    «std::fesetenv(&arithmetic_); → »", "app/watch.sh"),
     ("a seed is not handed on", "app/watch/watch.cpp", "«scene.render.seed = options.seed; → »", "app/watch.sh"),
     ("more samples than there can be are taken", "app/watch/watch.cpp",
      "«if (options.spp > max_samples) refuse(fmt::format(\"spp: found {}, expected at most {}\", options.spp, max_samples)); → »", "app/watch.sh"),

@@ -174,10 +174,10 @@ CORE = [
     ("what was merged from an unfinished film says that it is whole", "core/files/film_files.cpp",
      "«a.unfinished || b.unfinished → a.unfinished && b.unfinished»", "files/film_files"),
     ("films of other numbers of samples do not fit", "core/files/film_files.cpp", "«scene.render.spp.reset(); → »", "files/film_files"),
-    ("the variance of one half, not of the mean", "core/files/stats.cpp", "const Vec3f half = «0.5f → 1.0f» * (half_mean", "files/layers"),
+    ("the variance of one half, not of the mean", "core/files/stats.cpp", "const Vec3f half = «0.5f → 1.0f» * (half_mean", "files/film_files"),
     ("the sky is at distance 0", "core/files/stats.cpp",
-     "depth.push_back(«hit.element < 0 ? std::numeric_limits<float>::infinity() : hit.depth → hit.depth»);", "files/layers"),
-    ("rates count the samples of earlier runs", "core/files/stats.cpp", "per_second(sum.samples - «run.samples_before → 0», run.result.seconds)", "files/stats"),
+     "depth.push_back(«hit.element < 0 ? std::numeric_limits<float>::infinity() : hit.depth → hit.depth»);", "files/film_files"),
+    ("rates count the samples of earlier runs", "core/files/stats.cpp", "per_second(sum.samples - «run.samples_before → 0», run.result.seconds)", "files/film_files"),
     ("an older film's caustics as of today", "core/files/film_files.cpp", "if («!find(render, \"caustics\") → false») scene", "files/film_files"),
 
     ("first_sample is lost", "core/api/picture.cpp", "«core.first_sample = options.first_sample; → »", "library/library python"),
@@ -188,10 +188,10 @@ CORE = [
     ("normals in place of colours", "core/api/picture.cpp", "data_->layers()[«0 → 1»].values; });\n}\nconst std::vector<float>& Picture::normal()", "library/library python"),
 
     ("a variable of a child stands there twice", "core/system/child.cpp", "if («!replaced → true») all.push_back(variable);", "system/child"),
-    ("a child's last words are cut, not its first ones", "core/system/child.cpp", "if («keep_last → !keep_last»)\n", "system/child"),
+    ("a child's last words are cut, not its first ones", "core/system/child.cpp", "if («plan.keep_last_errors → !plan.keep_last_errors»)\n", "system/child"),
     ("a quota of one and a half processors is one", "core/system/processors.cpp", "time / period + «(time % period > 0) → 0»;", "system/processors"),
     ("the widest quota counts", "core/system/processors.cpp", "minimum = «std::min(*quota, minimum.value_or(*quota)) → "
      "std::max(*quota, minimum.value_or(*quota))»;", "system/processors"),
-    ("places with spaces are not found", "core/system/process.cpp", "«if (code) i += 3; → »", "system/processors"),
-    ("a change of a file is not told of", "core/system/file_watch.cpp", "moments = 0;\n        «on_change(); → »", "system/file_watch"),
+    ("places with spaces are not found", "core/system/processors.cpp", "«if (code) i += 3; → »", "system/processors"),
+    ("a change of a file is not told of", "core/system/file_watch.cpp", "moments = 0;\n      «on_change_(); → »", "system/file_watch"),
 ]

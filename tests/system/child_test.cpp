@@ -47,8 +47,11 @@ bool is_gone(int process) {
 int count_sleeping(const std::string& seconds) {
   int count = 0;
   std::error_code error;
-  for (const auto& process : std::filesystem::directory_iterator("/proc", error))
-    count += read_text(process.path() / "cmdline") == std::string("sleep\0", 6) + seconds + '\0' ? 1 : 0;
+  for (const auto& process : std::filesystem::directory_iterator("/proc", error)) {
+    std::string text;
+    std::getline(std::ifstream(process.path() / "cmdline"), text);  // throws nothing where the process ends meanwhile
+    count += text == std::string("sleep\0", 6) + seconds + '\0' ? 1 : 0;
+  }
   return count;
 }
 

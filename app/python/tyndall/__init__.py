@@ -109,93 +109,76 @@ def _adds_to(inner: type) -> Callable[[type], Any]:
     return add
 
 
-def _step(key: Any) -> str:
-    return str(key).replace("~", "~0").replace("/", "~1")
+class _Part:
+    """A part of a scene. Reading looks it up, writing changes the scene."""
 
-
-class Node(MutableMapping):
-    """A part of a scene, such as a material. Reading looks it up, writing changes the scene."""
+    _empty: type  # what it is where the scene has none
 
     def __init__(self, scene: "Scene", pointer: str):
         self._scene, self.pointer = scene, pointer
 
     @property
     def value(self) -> Any:
-        """A copy, as Python's own dict."""
+        """A copy, as Python's own dict or list."""
         try:
             return self._scene._value(self.pointer)
         except Error:
-            if self.pointer.count("/") == 1:  # the scene has no materials, no textures
-                return {}
+            if self.pointer.count("/") == 1:  # the scene has no materials, textures or objects
+                return self._empty()
             raise
 
-    def __getitem__(self, key: str) -> Any:
-        return self._scene[f"{self.pointer}/{_step(_text(self.pointer, key, 'a name'))}"]
+    def _at(self, key: Any) -> str:
+        return f"{self.pointer}/" + _text(self.pointer, key, "a name").replace("~", "~0").replace("/", "~1")
 
-    def __setitem__(self, key: str, value: Any) -> None:
-        self._scene[f"{self.pointer}/{_step(_text(self.pointer, key, 'a name'))}"] = value
+    def __getitem__(self, key: Any) -> Any:
+        return self._scene[self._at(key)]
 
-    def __delitem__(self, key: str) -> None:
-        del self._scene[f"{self.pointer}/{_step(_text(self.pointer, key, 'a name'))}"]
+    def __setitem__(self, key: Any, value: Any) -> None:
+        self._scene[self._at(key)] = value
 
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.value)
+    def __delitem__(self, key: Any) -> None:
+        del self._scene[self._at(key)]
 
     def __len__(self) -> int:
         return len(self.value)
-
-    def __contains__(self, key: object) -> bool:
-        return key in self.value
 
     def __repr__(self) -> str:
         return repr(self.value)
 
 
-class Objects(Sequence):
+class Node(_Part, MutableMapping):
+    """A part of a scene with names in it, such as a material."""
+
+    _empty = dict
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.value)
+
+    def __contains__(self, key: object) -> bool:
+        return key in self.value
+
+
+class Objects(_Part, Sequence):
     """The objects of a scene, by index or by name; `append` adds one."""
 
-    def __init__(self, scene: "Scene"):
-        self._scene = scene
+    _empty = list
 
-    @property
-    def value(self) -> list:
-        """A copy, as Python's own list."""
-        try:
-            return self._scene._value("/objects")
-        except Error:
-            return []
-
-    def _index(self, key: Union[int, str]) -> int:
+    def _at(self, key: Union[int, str]) -> str:
         objects = self.value
         if isinstance(key, str):
             for index, each in enumerate(objects):
                 if each.get("name") == key:
-                    return index
+                    return f"/objects/{index}"
             raise _fail("/objects", json.dumps(key), "the name of an object")
         if isinstance(key, bool) or not isinstance(key, (int, numpy.integer)):
             raise _fail("/objects", key, "an index or a name")
         if not -len(objects) <= key < len(objects):
             raise IndexError(f"/objects: found {key}, expected an index of {len(objects)} objects")
-        return int(key) % len(objects)
-
-    def __getitem__(self, key: Union[int, str]) -> Node:  # type: ignore[override]
-        return Node(self._scene, f"/objects/{self._index(key)}")
-
-    def __setitem__(self, key: Union[int, str], value: Any) -> None:
-        self._scene[f"/objects/{self._index(key)}"] = value
-
-    def __delitem__(self, key: Union[int, str]) -> None:
-        del self._scene[f"/objects/{self._index(key)}"]
-
-    def __len__(self) -> int:
-        return len(self.value)
+        return f"/objects/{int(key) % len(objects)}"
 
     def append(self, value: Any) -> None:
         """Adds an object, such as {"type": "sphere", "center": [0, 1, 0], "radius": 1, "material": "gold"}."""
         self._scene._add_json(_json("/objects", value))
-
-    def __repr__(self) -> str:
-        return repr(self.value)
 
 
 @_adds_to(_tyndall.Scene)
@@ -232,7 +215,7 @@ class Scene:
     @property
     def objects(self) -> Objects:
         """The objects, by index or name."""
-        return Objects(self)
+        return Objects(self, "/objects")
 
     @property
     def materials(self) -> Node:
@@ -258,24 +241,16 @@ class Scene:
         y1 in pixels, y down. first_sample: index of each pixel's first sample. film: to go on from. progress: called
         about every 50 ms; what is false stops it, but None. Other threads of Python run meanwhile, and Ctrl-C stops it.
         """
-        options = _tyndall.RenderOptions()
-        options.spp = _whole("spp", spp)
-        options.time = _number("time", time)
-        options.target_error = _number("target_error", target_error)
         if not isinstance(clean, (bool, numpy.bool_)):
             raise _fail("clean", clean, "True or False")
-        options.clean = bool(clean)
-        options.threads = _whole("threads", threads, 4096)
-        options.isa = _text("isa", isa)
-        options.first_sample = _whole("first_sample", first_sample)
-        if region is not None:
-            options.set_region(*_region(region))
-        if film is not None:
-            if not isinstance(film, Film):
-                raise _fail("film", film, "a tyndall.Film")
-            options.film = film
+        if film is not None and not isinstance(film, Film):
+            raise _fail("film", film, "a tyndall.Film")
         if progress is not None and not callable(progress):
             raise _fail("progress", progress, "a function")
+        options = _tyndall.RenderOptions(
+            _whole("spp", spp), _number("time", time), _number("target_error", target_error), bool(clean),
+            _whole("threads", threads, 4096), _text("isa", isa), None if region is None else _region(region),
+            _whole("first_sample", first_sample), film)
         return _tyndall.render(self, options, progress)
 
     def progressive(self, seconds: float = 0, spp: int = 0, **options: Any) -> Iterator["Picture"]:
@@ -312,14 +287,14 @@ def _parsed(text: str, folder: bytes) -> Scene:
     return Scene._parse(text, folder)
 
 
-def _region(region: Any) -> list:
+def _region(region: Any) -> _tyndall.Region:
     try:
         numbers = list(region)
     except TypeError:
         numbers = []
     if len(numbers) != 4:
         raise _fail("region", region, "four whole numbers: x0, y0, x1, y1")
-    return [_whole("region", number, 65536) for number in numbers]
+    return _tyndall.Region(*(_whole("region", number, 65536) for number in numbers))
 
 
 class Features(NamedTuple):

@@ -54,11 +54,12 @@ TYNDALL_WATCH_API void tyndall_watch_fail(const char* reason);
 #ifdef __cplusplus
 } /* extern "C" */
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <exception>
 #include <string>
 #include <type_traits>
-#include <utility>
 
 namespace tyndall {
 
@@ -74,61 +75,40 @@ struct WatchOptions {
 
 namespace watch_details {
 
-template <class C, class = void>
-struct HasXyz : std::false_type {};
-template <class C>
-struct HasXyz<C,
-              std::void_t<decltype(static_cast<double>(std::declval<C&>().x), static_cast<double>(std::declval<C&>().y),
-                                   static_cast<double>(std::declval<C&>().z))>> : std::true_type {};
-
-template <class C, class = void>
-struct HasXyzFunctions : std::false_type {};
-template <class C>
-struct HasXyzFunctions<C, std::void_t<decltype(static_cast<double>(std::declval<C&>().x()))>> : std::true_type {};
-
-template <class C, class = void>
-struct HasRgb : std::false_type {};
-template <class C>
-struct HasRgb<C,
-              std::void_t<decltype(static_cast<double>(std::declval<C&>().r), static_cast<double>(std::declval<C&>().g),
-                                   static_cast<double>(std::declval<C&>().b))>> : std::true_type {};
-
-template <class C, class = void>
-struct HasIndex : std::false_type {};
-template <class C>
-struct HasIndex<C, std::void_t<decltype(static_cast<double>(std::declval<C&>()[0]))>> : std::true_type {};
-
-template <class C, class = void>
-struct HasE : std::false_type {};
-template <class C>
-struct HasE<C, std::void_t<decltype(static_cast<double>(std::declval<C&>().e[0]))>> : std::true_type {};
+template <class R, class G, class B>
+auto numbers(R r, G g, B b)
+    -> decltype(std::array<double, 3>{static_cast<double>(r), static_cast<double>(g), static_cast<double>(b)}) {
+  return {static_cast<double>(r), static_cast<double>(g), static_cast<double>(b)};
+}
 
 template <class C>
 constexpr bool always_false = false;
 
-/// Takes a colour apart, whatever its type calls the parts.
-template <class C>
-void take_apart(C colour, double* rgb) {
-  const auto put = [rgb](auto r, auto g, auto b) {
-    rgb[0] = static_cast<double>(r), rgb[1] = static_cast<double>(g), rgb[2] = static_cast<double>(b);
-  };
-  if constexpr (std::is_arithmetic_v<C>)
-    put(colour, colour, colour);
-  else if constexpr (HasXyz<C>::value)
-    put(colour.x, colour.y, colour.z);
-  else if constexpr (HasXyzFunctions<C>::value)
-    put(colour.x(), colour.y(), colour.z());
-  else if constexpr (HasRgb<C>::value)
-    put(colour.r, colour.g, colour.b);
-  else if constexpr (HasIndex<C>::value)
-    put(colour[0], colour[1], colour[2]);
-  else if constexpr (HasE<C>::value)
-    put(colour.e[0], colour.e[1], colour.e[2]);
+/// Takes a colour apart by the first of these functions that compiles for its type.
+template <class C, class Parts, class... Others>
+std::array<double, 3> apart(C& colour, Parts parts, Others... others) {
+  if constexpr (std::is_invocable_v<Parts, C&>)
+    return parts(colour);
+  else if constexpr (sizeof...(others) > 0)
+    return apart(colour, others...);
   else
     static_assert(
         always_false<C>,
         "tyndall::watch: the function has to return a colour, with members x, y, z or r, g, b or e[0] to e[2], "
         "with functions x(), y(), z(), or with [0] to [2]");
+}
+
+/// Takes a colour apart, whatever its type calls the parts.
+template <class C>
+std::array<double, 3> take_apart(C colour) {
+  return apart(
+      colour,  //
+      [](auto& c) -> decltype(numbers(c.x, c.y, c.z)) { return numbers(c.x, c.y, c.z); },
+      [](auto& c) -> decltype(numbers(c.x(), c.y(), c.z())) { return numbers(c.x(), c.y(), c.z()); },
+      [](auto& c) -> decltype(numbers(c.r, c.g, c.b)) { return numbers(c.r, c.g, c.b); },
+      [](auto& c) -> decltype(numbers(c[0], c[1], c[2])) { return numbers(c[0], c[1], c[2]); },
+      [](auto& c) -> decltype(numbers(c.e[0], c.e[1], c.e[2])) { return numbers(c.e[0], c.e[1], c.e[2]); },
+      [](auto& c) -> decltype(numbers(c, c, c)) { return numbers(c, c, c); });
 }
 
 }  // namespace watch_details
@@ -138,12 +118,13 @@ void take_apart(C colour, double* rgb) {
 /// it throws means that the sample has failed. Returns what tyndall_watch() does.
 template <class Function>
 int watch(int width, int height, Function&& function, const WatchOptions& options = WatchOptions()) {
-  auto sample_of = [&function](double x, double y, std::uint64_t sample, double* rgb) {
-    watch_details::take_apart(function(x, y, sample), rgb);
+  auto sample_of = [&function](double x, double y, std::uint64_t sample) {
+    return watch_details::take_apart(function(x, y, sample));
   };
   const auto call = [](void* user, double x, double y, std::uint64_t sample, double* rgb) {
     try {
-      (*static_cast<decltype(sample_of)*>(user))(x, y, sample, rgb);
+      const std::array<double, 3> colour = (*static_cast<decltype(sample_of)*>(user))(x, y, sample);
+      std::copy(colour.begin(), colour.end(), rgb);
     } catch (const std::exception& error) {
       tyndall_watch_fail(error.what());
     } catch (...) {

@@ -5,17 +5,25 @@
 namespace tyndall {
 
 BackgroundThread::BackgroundThread(std::function<Time()> work, Time pause)
-    : thread_([this, work = std::move(work), pause](const StopToken& stop) {
+    : thread_([this, work = std::move(work), pause] {
         std::unique_lock lock(mutex_);
         Time rest = never;
-        while (wake_.wait_for(lock, stop, rest, [this] { return due_; }) || !stop.stop_requested()) {
+        for (;;) {
+          wake_.wait_for(lock, rest, [this] { return due_ || stops_; });
+          if (stops_ && !due_) return;
           due_ = false;
           lock.unlock();
           rest = work();
           lock.lock();
-          wake_.wait_for(lock, stop, pause, [] { return false; });
+          wake_.wait_for(lock, pause, [this] { return stops_; });
         }
       }) {}
+
+BackgroundThread::~BackgroundThread() {
+  const std::lock_guard lock(mutex_);
+  stops_ = true;
+  wake_.notify_one();
+}
 
 void BackgroundThread::ask() {
   const std::lock_guard lock(mutex_);

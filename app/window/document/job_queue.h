@@ -18,15 +18,17 @@ class BackgroundThread {
   /// work: returns when it is to be done again though nobody asks; must not throw. pause: least time from one time to
   /// the next.
   explicit BackgroundThread(std::function<Time()> work, Time pause = {});
+  ~BackgroundThread();
   void ask();
 
   static constexpr Time never = std::chrono::hours(10000);
 
  private:
   Mutex mutex_;
-  StoppableCondition wake_;
-  bool due_ = false;        ///< somebody asked for the work
-  StoppableThread thread_;  // declared last, because it uses the others
+  Condition wake_;
+  bool due_ = false;  ///< somebody asked for the work
+  bool stops_ = false;
+  JoinedThread thread_;  // declared last, because it uses the others
 };
 
 /// Work that must not stop the window: jobs run one after another on a thread of their own, and what they return is

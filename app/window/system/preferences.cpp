@@ -2,6 +2,7 @@
 
 #include "app/files/outputs.h"
 #include "app/text/numbers.h"
+#include "core/system/files.h"
 
 #include <fmt/core.h>
 
