@@ -8,31 +8,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace tyndall {
 namespace {
 
 std::string text_of(Vec3d v) { return fmt::format("{:.9g} {:.9g} {:.9g}", v.x, v.y, v.z); }
 
-const char* fate_text(Fate fate) {
-  switch (fate) {
-    case Fate::goes_on:
-      return "goes on";
-    case Fate::ends_at_light:
-      return "ends there";
-    case Fate::escapes:
-      return "escapes";
-    case Fate::absorbed:
-      return "is absorbed";
-    case Fate::roulette:
-      return "is ended by roulette";
-    case Fate::cut:
-      return "is cut at max_depth";
-    case Fate::lost:
-      return "is rejected, as a value is not a finite number";
-  }
-  return "";
-}
+/// In the order of Fate.
+constexpr const char* fates[] = {"goes on",
+                                 "ends there",
+                                 "escapes",
+                                 "is absorbed",
+                                 "is ended by roulette",
+                                 "is cut at max_depth",
+                                 "is rejected, as a value is not a finite number"};
+static_assert(std::size(fates) == static_cast<std::size_t>(Fate::lost) + 1);
 
 double luminance(Vec3f light) {
   const double sum = 0.2126 * static_cast<double>(light.x) + 0.7152 * static_cast<double>(light.y) +
@@ -42,7 +33,7 @@ double luminance(Vec3f light) {
 
 /// What a path met at one place and what became of it there, in a few words: "ball (gold), goes on".
 std::string vertex_text(const Scene& scene, const RenderScene& compiled, const PathVertex& vertex) {
-  std::string fate = fate_text(vertex.fate);
+  const std::string fate = fates[static_cast<std::size_t>(vertex.fate)];
   if (vertex.met == Met::nothing) return fate;
   const std::string met =
       vertex.met == Met::medium
