@@ -87,16 +87,10 @@ void Convergence::add(std::uint64_t edit, const std::string& method, ErrorPoint 
     keep_current();
     current_ = {method, {}, edit};
   }
-  const bool good = point.seconds > 0 && point.rel_mse > 0 && std::isfinite(point.rel_mse);
-  if (!good) return;
+  if (!(point.seconds > 0 && point.rel_mse > 0 && std::isfinite(point.rel_mse))) return;
   std::vector<ErrorPoint>& points = current_.points;
   if (points.size() > 1 && point.seconds < 1.04 * points[points.size() - 2].seconds) points.pop_back();
   points.push_back(point);
-}
-
-void Convergence::clear() {
-  current_ = {};
-  earlier_.clear();
 }
 
 void Convergence::keep_current() {

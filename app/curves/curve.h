@@ -85,7 +85,7 @@ class Convergence {
   /// one, because then it was not estimated anew.
   void add(std::uint64_t edit, const std::string& method, ErrorPoint point);
   /// Forgets all curves: another scene was opened.
-  void clear();
+  void clear() { *this = {}; }
 
   const ErrorCurve& current() const { return current_; }
   /// Of each method only the newest, in the place of the one before it, so that a method keeps its colour in the chart.
