@@ -8,28 +8,16 @@
 #include <iterator>
 
 namespace tyndall {
-namespace {
-
-/// The printable text with references in place of the letters that are among `special`.
-std::string with_references(std::string_view text, std::string_view special) {
-  const auto reference_of = [](char c) -> std::string_view {
-    return c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : "&#39;";
-  };
+std::string in_xml(std::string_view text) {
+  static constexpr std::string_view special = "<>&\"'";
+  static constexpr const char* references[] = {"&lt;", "&gt;", "&amp;", "&quot;", "&#39;"};
   std::string out;
   for (const char c : all_printable(text)) {
-    if (special.find(c) == special.npos)
-      out += c;
-    else
-      out += reference_of(c);
+    const std::size_t which = special.find(c);
+    out += which == special.npos ? std::string(1, c) : references[which];
   }
   return out;
 }
-
-}  // namespace
-
-std::string in_xml(std::string_view text) { return with_references(text, "<>&\"'"); }
-
-std::string in_html(std::string_view text) { return with_references(text, "<&\"'"); }
 
 std::string in_csv(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
