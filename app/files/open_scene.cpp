@@ -52,11 +52,10 @@ LoadedScene load_program_scene(const SceneRequest& request, OwnSamples& own) {
     if (request.program.differs && request.overrides.empty()) reason = request.program.differs(loaded.scene, made);
   }
   if (!reason.empty()) {
-    own.take(made.own, request.what + ": " + reason);
     loaded = LoadedScene{};
     loaded.name = request.what, loaded.folder = folder, loaded.is_picture = true;
     loaded.scene.width = made.width, loaded.scene.height = made.height, loaded.scene.render.spp = made.samples;
-    loaded.scene.render.seed = own.taken();  // another program, another picture
+    loaded.scene.render.seed = own.take(made.own, request.what + ": " + reason);  // another program, another picture
   }
   loaded.sources = made.files;
   loaded.files.insert(loaded.files.begin(), made.files.begin(), made.files.end());
@@ -74,36 +73,27 @@ void apply_options(const SceneRequest& request, LoadedScene& loaded) {
 
 }  // namespace
 
-OwnSamples::OwnSamples() : held_(std::make_shared<Held>()) {
-  const auto remove = [kept = held_](WatchedFunction* function) { delete function; };
-  function_ = {new WatchedFunction(compute, held_.get()), remove};
-}
+OwnSamples::OwnSamples()
+    : function_(std::make_shared<WatchedFunction>([its = held_](double x, double y, std::uint64_t, double rgb[3]) {
+        std::unique_lock lock(its->mutex);
+        const std::shared_ptr<OwnProgram> program = its->program;
+        lock.unlock();
+        if (!program) return;
+        const std::vector<double> colour = program->samples({x, y});
+        std::copy(colour.begin(), colour.end(), rgb);
+      })) {}
 
-void OwnSamples::compute(void* data, double x, double y, std::uint64_t, double rgb[3]) {
-  auto& its = *static_cast<Held*>(data);
-  std::unique_lock lock(its.mutex);
-  const std::shared_ptr<OwnProgram> program = its.program;
-  lock.unlock();
-  if (!program) return;
-  const std::vector<double> colour = program->samples({x, y});
-  std::copy(colour.begin(), colour.end(), rgb);
-}
-
-void OwnSamples::take(std::shared_ptr<OwnProgram> program, const std::string& reason) {
+std::uint32_t OwnSamples::take(std::shared_ptr<OwnProgram> program, const std::string& reason) {
   const std::lock_guard lock(held_->mutex);
   held_->taken += program ? 1 : 0;
   held_->program.swap(program);
   held_->reason = reason;
+  return held_->taken;
 }
 
 std::string OwnSamples::reason() const {
   const std::lock_guard lock(held_->mutex);
   return held_->reason;
-}
-
-std::uint32_t OwnSamples::taken() const {
-  const std::lock_guard lock(held_->mutex);
-  return held_->taken;
 }
 
 LoadedScene open_scene_or_samples(const SceneRequest& request, OwnSamples& own) {

@@ -56,8 +56,6 @@ std::vector<std::string> write_images(const Picture& picture, const std::vector<
 
 /// Writes text as a whole file or not at all. Throws ImageFileError.
 void write_text_file(const std::filesystem::path& file, const std::string& text);
-/// Makes `to` a copy of `from`, whole or not at all. Throws ImageFileError, IoError.
-void write_copy(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Calls write(file). Where that fails, what was computed is not to be lost: write() is called with a new name beside
 /// the file, NAME.new.ENDING, and if that fails, too, with the file's name in a folder of its own among the temporary

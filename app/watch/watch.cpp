@@ -133,7 +133,10 @@ void check(int width, int height, bool has_function, const tyndall_watch_options
 
 Order order_of(int width, int height, const tyndall_watch_options& options, Host& host) {
   Order order;
-  order.function = std::make_shared<WatchedFunction>(host.function(), host.user());
+  order.function = std::make_shared<WatchedFunction>(
+      [called = host.function(), user = host.user()](double x, double y, std::uint64_t sample, double rgb[3]) {
+        called(user, x, y, sample, rgb);
+      });
   order.threads = std::max(options.threads, 1);
   order.output = text(options.output);
   order.reference = text(options.reference);
@@ -204,7 +207,7 @@ void show_window([[maybe_unused]] const Order& order) {
 #ifdef TYNDALL_WINDOW
   const OnlyWindow only;
   const Scene& scene = order.loaded.scene;
-  check_memory(WindowPlan{scene.width, scene.height}, free_memory(), "");
+  check_memory({.width = scene.width, .height = scene.height, .window = true}, free_memory());
   WindowOptions options;
   options.scene = order.loaded;
   options.threads = order.threads;
