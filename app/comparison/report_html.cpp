@@ -43,7 +43,7 @@ std::string row(const char* name, double value, const std::optional<double>& lim
 /// A line to copy.
 std::string command_line(const char* what, const std::string& command) {
   return fmt::format("<p class=\"command\">{} <code>{}</code> <button type=\"button\">copy</button></p>\n", what,
-                     in_xml(command));
+                     in_html(command));
 }
 
 /// How the pictures are made again and compared; those that Tyndall did not make carry no scene.
@@ -106,8 +106,8 @@ std::string table_of(const CheckedPicture& picture) {
 std::string section(const CheckedPicture& picture, std::size_t number, PpmCurve ppm) {
   const bool good = picture.failures.empty();
   std::string text = fmt::format("<section id=\"p{}\" class=\"{}\"><h2>{} <em>{}</em></h2>\n", number,
-                                 good ? "good" : "failed", in_xml(picture.name), good ? "passed" : "failed");
-  for (const std::string& failure : picture.failures) text += "<p class=\"bad\">" + in_xml(failure) + "</p>\n";
+                                 good ? "good" : "failed", in_html(picture.name), good ? "passed" : "failed");
+  for (const std::string& failure : picture.failures) text += "<p class=\"bad\">" + in_html(failure) + "</p>\n";
   if (!picture.comparison) return text + "</section>\n";
   const std::string overlap = overlap_text(*picture.comparison);
   text += pictures_of(picture, ppm) + table_of(picture);
@@ -122,9 +122,9 @@ std::string summary_row(const CheckedPicture& picture, std::size_t number) {
   const auto cell = [](double value) { return fmt::format("<td>{:.4g}</td>", value); };
   const std::string none = "<td>–</td>";
   return fmt::format("<tr class=\"{}\"><th><a href=\"#p{}\">{}</a></th><td>{}</td>", good ? "good" : "bad", number,
-                     in_xml(picture.name), good ? "passed" : "failed") +
+                     in_html(picture.name), good ? "passed" : "failed") +
          (c && c->noise ? cell(c->noise->z) : none) + (c ? cell(c->flip) + cell(c->error.rel_mse) : none + none) +
-         "<td class=\"why\">" + (good ? "" : in_xml(picture.failures.front())) + "</td></tr>\n";
+         "<td class=\"why\">" + (good ? "" : in_html(picture.failures.front())) + "</td></tr>\n";
 }
 
 /// The colours of a heat map as stops of a CSS gradient.

@@ -11,9 +11,6 @@
 namespace tyndall {
 namespace {
 
-constexpr const char* expected_no_program =
-    "a scene file or an image; a program is compiled and run only where it is named on the command line";
-
 /// Programs name images by whole paths, as they run elsewhere. Those below the folder are named from there, so that the
 /// scene can be moved with them.
 Scene name_textures_from(const std::filesystem::path& folder, Scene scene) {
@@ -29,7 +26,10 @@ Scene name_textures_from(const std::filesystem::path& folder, Scene scene) {
 
 ProgramRequest program_request(const SceneRequest& request) {
   const std::filesystem::path file = request.what;
-  if (!request.program.allowed) throw SceneError(request.what, "a program", expected_no_program);
+  if (!request.program.allowed)
+    throw SceneError(
+        request.what, "a program",
+        "a scene file or an image; a program is compiled and run only where it is named on the command line");
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw SceneError(request.what, "no such file", "a C++ source file");
   ProgramRequest parts = request.program;

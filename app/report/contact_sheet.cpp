@@ -62,6 +62,22 @@ std::string plain(const std::string& text) {
   return out;
 }
 
+/// The built-in font draws letters as rectangles.
+void write_plain(ScreenPicture& picture, int left, int top, std::string letters, Colour colour, float scale) {
+  struct Corner {
+    float x, y, z;
+    unsigned char rgba[4];
+  };
+  std::vector<Corner> corners(letters.size() * 70);
+  const int quads = stb_easy_font_print(0, 0, letters.data(), nullptr, corners.data(),
+                                        static_cast<int>(corners.size() * sizeof(Corner)));
+  const auto pixel = [scale](float v) { return static_cast<int>(std::lround(v * scale)); };
+  for (std::size_t first = 0; first < 4 * static_cast<std::size_t>(quads); first += 4) {
+    const Corner &low = corners[first], &high = corners[first + 2];
+    fill(picture, left + pixel(low.x), top + pixel(low.y), left + pixel(high.x), top + pixel(high.y), colour);
+  }
+}
+
 /// A font of the system in one size, or the built-in one.
 class Lettering {
  public:
@@ -74,7 +90,6 @@ class Lettering {
   int width_of(const std::string& text) const;
   template <class Draw>
   float for_each_letter(const std::string& text, const Draw& draw) const;
-  void write_plain(ScreenPicture& picture, int left, int top, std::string letters, Colour colour) const;
 
   std::vector<unsigned char> file_{};  ///< of the font; empty: the built-in one
   stbtt_fontinfo font_{};
@@ -118,28 +133,12 @@ int Lettering::width_of(const std::string& text) const {
   return static_cast<int>(std::ceil(static_cast<float>(stb_easy_font_width(plain(text).data())) * scale_));
 }
 
-/// The built-in font draws letters as rectangles.
-void Lettering::write_plain(ScreenPicture& picture, int left, int top, std::string letters, Colour colour) const {
-  struct Corner {
-    float x, y, z;
-    unsigned char rgba[4];
-  };
-  std::vector<Corner> corners(letters.size() * 70);
-  const int quads = stb_easy_font_print(0, 0, letters.data(), nullptr, corners.data(),
-                                        static_cast<int>(corners.size() * sizeof(Corner)));
-  const auto pixel = [this](float v) { return static_cast<int>(std::lround(v * scale_)); };
-  for (std::size_t first = 0; first < 4 * static_cast<std::size_t>(quads); first += 4) {
-    const Corner &low = corners[first], &high = corners[first + 2];
-    fill(picture, left + pixel(low.x), top + pixel(low.y), left + pixel(high.x), top + pixel(high.y), colour);
-  }
-}
-
 void Lettering::write(ScreenPicture& picture, int left, int top, const std::string& text, int width,
                       Colour colour) const {
   std::string fitted = text;
   for (std::size_t size = text.size(); size > 0 && width_of(fitted) > width;)
     fitted = text.substr(0, size = size_of_letters(text, size - 1)) + "…";
-  if (file_.empty()) return write_plain(picture, left, top, plain(fitted), colour);
+  if (file_.empty()) return write_plain(picture, left, top, plain(fitted), colour, scale_);
   for_each_letter(fitted, [&](int letter, float at) {
     int columns = 0, rows = 0, x0 = 0, y0 = 0;
     const float whole = std::floor(at);

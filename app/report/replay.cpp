@@ -72,25 +72,23 @@ std::string object_text(const Scene& scene, const std::vector<int>& path) {
 }
 
 std::string replay_text(const Scene& scene, const RenderScene& compiled, const PathReplay& path) {
-  std::string text;
-  const auto row = [&text](const char* name, Vec3d v) { text += std::string("    ") + name + text_of(v) + "\n"; };
-  text += "0 camera\n";
-  row("point       ", to_double(path.origin) + compiled.origin);
+  std::string text = "0 camera\n";
+  const auto row = [&text](const char* name, const std::string& is) {
+    text += fmt::format("    {:<12}{}\n", name, is);
+  };
+  row("point", text_of(to_double(path.origin) + compiled.origin));
   int number = 0;
   for (const PathVertex& v : path.vertices) {
     text += std::to_string(++number) + " " + branch_text(v) + heading(scene, compiled, v) + "\n";
-    if (v.met != Met::nothing) row("point       ", to_double(v.point) + compiled.origin);
-    row("came by     ", to_double(v.direction));
-    row("throughput  ", to_double(v.throughput));
-    if (v.kept != 1)
-      text += fmt::format("    by smoke    {:.3g} of what it carried before\n", static_cast<double>(v.kept));
-    row("radiance    ", to_double(v.radiance));
-    if (!(v.by_specular_paths == Vec3f{})) row("by chains   ", to_double(v.by_specular_paths));
+    if (v.met != Met::nothing) row("point", text_of(to_double(v.point) + compiled.origin));
+    row("came by", text_of(to_double(v.direction)));
+    row("throughput", text_of(to_double(v.throughput)));
+    if (v.kept != 1) row("by smoke", fmt::format("{:.3g} of what it carried before", static_cast<double>(v.kept)));
+    row("radiance", text_of(to_double(v.radiance)));
+    if (!(v.by_specular_paths == Vec3f{})) row("by chains", text_of(to_double(v.by_specular_paths)));
     if (v.chance < 1)
-      text += fmt::format("    by chance   this lamp counts {:.3g}, as chains find it, too\n",
-                          static_cast<double>(v.chance));
-    text += "    dimensions  " + std::to_string(v.first_dimension) + " to " +
-            std::to_string(v.first_dimension + dimension::per_event - 1) + "\n";
+      row("by chance", fmt::format("this lamp counts {:.3g}, as chains find it, too", static_cast<double>(v.chance)));
+    row("dimensions", fmt::format("{} to {}", v.first_dimension, v.first_dimension + dimension::per_event - 1));
   }
   if (path.reused)
     text +=

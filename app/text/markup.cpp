@@ -4,20 +4,27 @@
 #include "core/base/text.h"
 #include "core/scene/load.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
 namespace tyndall {
-std::string in_xml(std::string_view text) {
-  static constexpr std::string_view special = "<>&\"'";
-  static constexpr const char* references[] = {"&lt;", "&gt;", "&amp;", "&quot;", "&#39;"};
+/// The printable text with references in place of the letters that are among `special`.
+static std::string with_references(std::string_view text, std::string_view special) {
+  static constexpr std::pair<char, const char*> references[] = {
+      {'<', "&lt;"}, {'>', "&gt;"}, {'&', "&amp;"}, {'"', "&quot;"}, {'\'', "&#39;"}};
   std::string out;
   for (const char c : all_printable(text)) {
-    const std::size_t which = special.find(c);
-    out += which == special.npos ? std::string(1, c) : references[which];
+    const auto* known =
+        std::find_if(std::begin(references), std::end(references), [c](auto r) { return r.first == c; });
+    out += special.find(c) == special.npos ? std::string(1, c) : known->second;
   }
   return out;
 }
+
+std::string in_xml(std::string_view text) { return with_references(text, "<>&\"'"); }
+
+std::string in_html(std::string_view text) { return with_references(text, "<&\"'"); }
 
 std::string in_csv(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;

@@ -23,10 +23,11 @@ Film film_of(std::uint32_t taken) {
 
 /// Checkpoints that take so long to write beside the disk's time.
 struct Kept {
-  fs::path file;
+  std::string folder;
   std::optional<double> interval = 0;
   int threads = 2;
   milliseconds delay{0};
+  fs::path file = scratch_folder(folder) / "a.exr";
   Checkpoints checkpoints{file, interval, [this](const Film&) {
                             std::this_thread::sleep_for(delay);
                             return Embedded{"{}", "", {"1", "scalar", true}};
@@ -44,8 +45,7 @@ struct Kept {
 
 TEST_SUITE("checkpoints" * doctest::skip(!has_openexr())) {
   TEST_CASE("checkpoints: the film as it was when it was taken is written, unfinished; the next one replaces it") {
-    const fs::path folder = scratch_folder("checkpoints");
-    Kept kept{folder / "a.exr"};
+    Kept kept{"checkpoints"};
     Film film = film_of(3);
     CHECK(kept.checkpoints.due());
     kept.checkpoints.take(film, kept.thread_pool);
@@ -56,11 +56,11 @@ TEST_SUITE("checkpoints" * doctest::skip(!has_openexr())) {
     kept.take(film);
     CHECK(read_film(kept.file) == film_of(9));
     CHECK_FALSE(kept.checkpoints.problem());
-    CHECK(count_files(folder) == 1);
+    CHECK(count_files(kept.file.parent_path()) == 1);
   }
 
   TEST_CASE("checkpoints: without memory for a copy the film itself is written, before the render goes on") {
-    Kept kept{scratch_folder("checkpoint_memory") / "a.exr"};
+    Kept kept{"checkpoint_memory"};
     const Film film = film_of(4);
     {
       const auto refusal = test::AllocationRefusal::of_size(film.pixels.size() * sizeof(FilmPixel));
@@ -73,8 +73,7 @@ TEST_SUITE("checkpoints" * doctest::skip(!has_openexr())) {
   }
 
   TEST_CASE("checkpoints: the first one is due after half of the interval, without an interval after 30 seconds") {
-    const fs::path file = scratch_folder("checkpoint_times") / "a.exr";
-    Kept often{file, 2}, usual{file, std::nullopt};
+    Kept often{"checkpoint_times", 2}, usual{"checkpoint_times_usual", std::nullopt};
     CHECK_FALSE(often.checkpoints.due());
     std::this_thread::sleep_for(milliseconds(1000));
     CHECK(often.checkpoints.due());
@@ -84,7 +83,7 @@ TEST_SUITE("checkpoints" * doctest::skip(!has_openexr())) {
   }
 
   TEST_CASE("checkpoints: later ones begin earlier than the interval by twice what the slowest one took") {
-    Kept kept{scratch_folder("checkpoint_early") / "a.exr", 2, 2, milliseconds(350)};
+    Kept kept{"checkpoint_early", 2, 2, milliseconds(350)};
     kept.checkpoints.take(film_of(1), kept.thread_pool);
     CHECK_FALSE(kept.checkpoints.due());  // it is being written
     kept.checkpoints.finish();
@@ -98,7 +97,7 @@ TEST_SUITE("checkpoints" * doctest::skip(!has_openexr())) {
   }
 
   TEST_CASE("checkpoints: it is told once that they take longer than half of the interval") {
-    Kept kept{scratch_folder("checkpoint_slow") / "a.exr", 0.05, 2, milliseconds(30)};
+    Kept kept{"checkpoint_slow", 0.05, 2, milliseconds(30)};
     kept.take(film_of(1));
     CHECK(kept.checkpoints.problem().value().find("--checkpoint") != std::string::npos);
     kept.take(film_of(1));
@@ -116,7 +115,7 @@ TEST_SUITE("checkpoints" * doctest::skip(!has_openexr())) {
         if (!film.emission.empty()) film.emission[i].sum[1][2] = static_cast<std::int64_t>(i);
       }
       for (const int threads : {1, 3}) {
-        Kept kept{scratch_folder("checkpoint_copy") / "a.exr", 0, threads};
+        Kept kept{"checkpoint_copy", 0, threads};
         kept.take(film);
         CHECK(read_film(kept.file) == film);
         film.planned.assign(static_cast<std::size_t>((width + 3) / 4), PlannedSamples{0, film.pixels.back().taken});
@@ -125,14 +124,14 @@ TEST_SUITE("checkpoints" * doctest::skip(!has_openexr())) {
   }
 
   TEST_CASE("checkpoints: one that fails is told once, leaves the one before it, and later ones are tried") {
-    const fs::path folder = scratch_folder("checkpoint_fails");
-    Kept kept{folder / "sub" / "a.exr"};
+    Kept kept{"checkpoint_fails"};
+    fs::remove(kept.file.parent_path());
     kept.take(film_of(1));
     CHECK(kept.checkpoints.due());
     CHECK(kept.checkpoints.problem().value().find("No such file or directory") != std::string::npos);
     kept.take(film_of(1));
     CHECK_FALSE(kept.checkpoints.problem());
-    fs::create_directory(folder / "sub");
+    fs::create_directory(kept.file.parent_path());
     kept.take(film_of(2));
     CHECK_FALSE(kept.checkpoints.problem());
     CHECK(read_film(kept.file) == film_of(2));

@@ -11,20 +11,15 @@
 #include <string>
 
 namespace tyndall::test::y4m_test {
-namespace {
-
 namespace fs = std::filesystem;
 
 const Y4mFormat format{3, 2, 24, 1, "0123456789abcdef"};
 const LinearImage white{3, 2, std::vector<float>(18, 1.0f)}, black{3, 2, std::vector<float>(18, 0.0f)};
 
-}  // namespace
-
 TEST_CASE("y4m: colours in the limited range of BT.601") {
   // ITU-R BT.601, table 2: white, black, red, green, blue in 8 bits.
-  const auto planes = ycbcr_planes({255, 255, 255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255});
-  const std::vector<std::uint8_t> expected{235, 16, 81, 145, 41, 128, 128, 90, 54, 240, 128, 128, 240, 34, 110};
-  CHECK(planes == expected);
+  CHECK(ycbcr_planes({255, 255, 255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255}) ==
+        std::vector<std::uint8_t>{235, 16, 81, 145, 41, 128, 128, 90, 54, 240, 128, 128, 240, 34, 110});
 }
 
 TEST_CASE("y4m: a film goes on where it ended, and what is left of a frame is cut off") {
@@ -55,12 +50,8 @@ TEST_CASE("y4m: a header that was cut off is begun anew; any other file is refus
   CHECK(Y4mFile(file, format, false).frames() == 0);
   Y4mFile(file, format, false).add(white, {});
   const std::string before = read_text(file);
-  Y4mFormat other = format;
-  other.mark = "0123456789abcdee";
-  CHECK_THROWS_AS(Y4mFile(file, other, false), UsageError);
-  other = format;
-  other.width = 4;
-  CHECK_THROWS_AS(Y4mFile(file, other, false), UsageError);
+  for (const Y4mFormat& other : {Y4mFormat{3, 2, 24, 1, "0123456789abcdee"}, Y4mFormat{4, 2, 24, 1, format.mark}})
+    CHECK_THROWS_AS(Y4mFile(file, other, false), UsageError);
   CHECK(read_text(file) == before);
   write_text(file, "a text that somebody needs");
   CHECK_THROWS_AS(Y4mFile(file, format, false), UsageError);

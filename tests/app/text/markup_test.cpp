@@ -8,8 +8,9 @@ namespace tyndall::test::markup_test {
 
 TEST_CASE("markup: references for what begins or ends something; what XML cannot hold at all becomes text") {
   CHECK(in_xml("a < b > \"c\" & 'd' ]]>") == "a &lt; b &gt; &quot;c&quot; &amp; &#39;d&#39; ]]&gt;");
+  CHECK(in_html("a < b > \"c\" & 'd'") == "a &lt; b > &quot;c&quot; &amp; &#39;d&#39;");
   CHECK(in_xml("a\n\x01\x1b\xff\xed\xa0\x80") == "a\\n\\u0001\\u001b\\xff\\xed\\xa0\\x80");
-  CHECK(in_xml("\xef\xbf\xbe Grüße") == "\\ufffe Grüße");
+  CHECK(in_html("\xef\xbf\xbe Grüße") == "\\ufffe Grüße");
 }
 
 TEST_CASE("fields of CSV and words of a shell are quoted where these need it") {

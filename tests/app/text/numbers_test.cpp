@@ -7,11 +7,7 @@
 
 namespace tyndall::test::numbers_test {
 
-namespace {
-
 constexpr Slider fuzz{0, 1}, radius{0.01, 10, true}, density{0.001, 100, true}, power{0.1, 100, true};
-
-}  // namespace
 
 TEST_CASE("a slider's position gives a value, and the value gives the position back") {
   CHECK(slider_position(fuzz, 0.25) == doctest::Approx(0.25));
@@ -26,12 +22,19 @@ TEST_CASE("a slider's position gives a value, and the value gives the position b
   CHECK(slider_value(radius, 0.5, 0.9) > 0);
 }
 
-TEST_CASE("positions beyond a slider's ends give the end values, and values beyond are shown at the ends") {
+TEST_CASE("beyond a slider's ends are its end values; it makes room for values beyond, where those are valid") {
   const Slider ior{0.5, 3};
   CHECK(slider_value(ior, -1, 1) == 0.5);
   CHECK(slider_value(ior, 2, 1) == 3);
   CHECK(slider_position(ior, 9) == 1);
   CHECK(slider_position(ior, -9) == 0);
+  CHECK(widened(radius, not_zero(), 1000).high == 1000);
+  CHECK(widened(radius, not_zero(), -170).high == 1000);
+  CHECK(widened(density, at_least(0), 1e-5).low == doctest::Approx(1e-5));
+  CHECK(widened(density, at_least(0), 0).low == 0.001);
+  CHECK(widened(fuzz, between(0, 1), 1).high == 1);
+  CHECK(widened({1, 120}, inside(0, 180), 150).high == 180);
+  CHECK(widened(ior, above(0), 1.5).high == 3);
 }
 
 TEST_CASE("a slider gives numbers that print short, finer ones a digit more") {
@@ -43,16 +46,6 @@ TEST_CASE("a slider gives numbers that print short, finer ones a digit more") {
   CHECK(slider_value(fuzz, 0.12345, 0) == 0.123);
   CHECK(slider_value(fuzz, 0.12345, 0, 1) == 0.1235);
   CHECK(dragged(fuzz, 0.5, 0.5, 1) == 0.5013);
-}
-
-TEST_CASE("sliders make room for values beyond them, where those are valid") {
-  CHECK(widened(radius, not_zero(), 1000).high == 1000);
-  CHECK(widened(radius, not_zero(), -170).high == 1000);
-  CHECK(widened(density, at_least(0), 1e-5).low == doctest::Approx(1e-5));
-  CHECK(widened(density, at_least(0), 0).low == 0.001);
-  CHECK(widened(fuzz, between(0, 1), 1).high == 1);
-  CHECK(widened({1, 120}, inside(0, 180), 150).high == 180);
-  CHECK(widened({0.5, 3}, above(0), 1.5).high == 3);
 }
 
 TEST_CASE("a drag of 400 units crosses the whole slider, and a drag of 0 changes nothing") {
