@@ -117,11 +117,4 @@ std::vector<NamedCurve> named_curves(const Convergence& curves, const Convergenc
   return named;
 }
 
-std::vector<ErrorCurve> copies_of(const std::vector<NamedCurve>& named) {
-  std::vector<ErrorCurve> copies;
-  for (const NamedCurve& one : named)
-    if (!one.curve->points.empty()) copies.push_back({one.name, one.curve->points, one.curve->edit});
-  return copies;
-}
-
 }  // namespace tyndall

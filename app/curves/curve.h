@@ -113,7 +113,4 @@ struct NamedCurve {
 std::vector<NamedCurve> named_curves(const Convergence& curves, const Convergence* kept,
                                      const Convergence* clean = nullptr);
 
-/// Copies under the names that the chart shows, for its files. Curves without points are left out.
-std::vector<ErrorCurve> copies_of(const std::vector<NamedCurve>& named);
-
 }  // namespace tyndall

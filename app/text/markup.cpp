@@ -4,20 +4,18 @@
 #include "core/base/text.h"
 #include "core/scene/load.h"
 
-#include <algorithm>
 #include <fstream>
 #include <iterator>
 
 namespace tyndall {
 /// The printable text with references in place of the letters that are among `special`.
 static std::string with_references(std::string_view text, std::string_view special) {
-  static constexpr std::pair<char, const char*> references[] = {
-      {'<', "&lt;"}, {'>', "&gt;"}, {'&', "&amp;"}, {'"', "&quot;"}, {'\'', "&#39;"}};
+  static constexpr std::string_view all = "<>&\"'";
+  static constexpr const char* references[] = {"&lt;", "&gt;", "&amp;", "&quot;", "&#39;"};
   std::string out;
   for (const char c : all_printable(text)) {
-    const auto* known =
-        std::find_if(std::begin(references), std::end(references), [c](auto r) { return r.first == c; });
-    out += special.find(c) == special.npos ? std::string(1, c) : known->second;
+    const bool plain = special.find(c) == special.npos;
+    out += plain ? std::string(1, c) : references[all.find(c)];
   }
   return out;
 }
