@@ -13,7 +13,7 @@
 namespace tyndall::test::outputs_test {
 namespace fs = std::filesystem;
 
-TEST_CASE("names of images") {
+TEST_CASE("names of images; standard output needs a format, and a format needs standard output") {
   CHECK_NOTHROW(check_image_names({"a.png", "b.PFM", "c.hdr", "d.Ppm"}));
   for (const char* name : {"a.jpg", "png", "a", "a.png.txt", ".png"}) {
     CAPTURE(name);
@@ -26,9 +26,6 @@ TEST_CASE("names of images") {
                        "--gamma2: found no output that ends in .ppm, expected one: only PPM is written so", UsageError);
   CHECK(is_exr("a.EXR"));
   CHECK_FALSE(is_exr("a.png"));
-}
-
-TEST_CASE("standard output needs a format, and a format needs standard output") {
   CHECK_THROWS_WITH_AS(check_image_names({"-"}), doctest::Contains("expected --format as well"), UsageError);
   CHECK_THROWS_WITH_AS(check_image_names({"a.png"}, {"png"}), doctest::Contains("expected -o - as well"), UsageError);
   CHECK_THROWS_WITH_AS(check_image_names({"-", "-"}, {"png"}), doctest::Contains("- twice"), UsageError);
