@@ -17,29 +17,20 @@ constexpr std::size_t pixels_at_a_time = 4096;  ///< by one thread
 
 /// Copies a film into another one, whose memory is used again. All threads copy parts of it, as rendering waits for it.
 void copy(const Film& film, Film& to, ThreadPool& thread_pool) {
-  std::vector<FilmPixel> pixels = std::move(to.pixels);
-  std::vector<EmissionSums> emission = std::move(to.emission);
-  pixels.resize(film.pixels.size());
-  emission.resize(film.emission.size());
+  to.pixels.resize(film.pixels.size());
+  to.emission.resize(film.emission.size());
   const auto copy_part = [&](int number) {
     const std::size_t first = pixels_at_a_time * static_cast<std::size_t>(number);
     const auto part = [first](const auto& from, auto& into) {
       const std::size_t begin = std::min(first, from.size()), count = std::min(pixels_at_a_time, from.size() - begin);
       std::copy_n(from.data() + begin, count, into.data() + begin);
     };
-    part(film.pixels, pixels);
-    part(film.emission, emission);
+    part(film.pixels, to.pixels);
+    part(film.emission, to.emission);
   };
   thread_pool.for_each(static_cast<int>((film.pixels.size() + pixels_at_a_time - 1) / pixels_at_a_time), copy_part);
-  to = {.width = film.width,
-        .height = film.height,
-        .region = film.region,
-        .first_sample = film.first_sample,
-        .quantum = film.quantum,
-        .cut_throughput = film.cut_throughput,
-        .pixels = std::move(pixels),
-        .emission = std::move(emission),
-        .planned = film.planned};
+  to.width = film.width, to.height = film.height, to.region = film.region, to.first_sample = film.first_sample;
+  to.quantum = film.quantum, to.cut_throughput = film.cut_throughput, to.planned = film.planned;
 }
 
 }  // namespace
@@ -60,14 +51,9 @@ bool Checkpoints::due() const {
 void Checkpoints::take(const Film& film, ThreadPool& thread_pool) {
   writer_.reset();
   taken_ = Clock::now();
-  if (!write_in_background(film, thread_pool)) write(film);
-}
-
-/// False if there is no memory for a copy, or no thread. Where the system promises more memory than it has, taking it
-/// would end the program: so what is free is looked at.
-bool Checkpoints::write_in_background(const Film& film, ThreadPool& thread_pool) {
-  if (copy_.pixels.empty() && free_memory().bytes < film.pixels.size() * bytes_per_pixel(!film.emission.empty()))
-    return false;
+  // Where the system promises more memory than it has, taking it would end the program: so what is free is looked at.
+  const std::size_t bytes = film.pixels.size() * bytes_per_pixel(!film.emission.empty());
+  if (copy_.pixels.empty() && free_memory().bytes < bytes) return write(film);
   try {
     copy(film, copy_, thread_pool);
     writing_ = true;
@@ -75,11 +61,10 @@ bool Checkpoints::write_in_background(const Film& film, ThreadPool& thread_pool)
       write(copy_);
       writing_ = false;
     });
-    return true;
-  } catch (const std::exception&) {
+  } catch (const std::exception&) {  // there is no memory for a copy, or no thread
     writing_ = false;
     copy_ = {};
-    return false;
+    write(film);
   }
 }
 

@@ -42,7 +42,6 @@ class Checkpoints {
   std::optional<std::string> problem();
 
  private:
-  bool write_in_background(const Film& film, ThreadPool& thread_pool);
   void write(const Film& film);
   void note(const char* what, const char* why);
 

@@ -24,8 +24,9 @@ Scene name_textures_from(const std::filesystem::path& folder, Scene scene) {
   return scene;
 }
 
-ProgramRequest program_request(const SceneRequest& request) {
-  const std::filesystem::path file = request.what;
+/// The scene that a program describes, or its own samples.
+LoadedScene load_program_scene(const SceneRequest& request, OwnSamples& own) {
+  const std::filesystem::path file = request.what, folder = file.has_parent_path() ? file.parent_path() : ".";
   if (!request.program.allowed)
     throw SceneError(
         request.what, "a program",
@@ -35,15 +36,9 @@ ProgramRequest program_request(const SceneRequest& request) {
   ProgramRequest parts = request.program;
   parts.sources.files.insert(parts.sources.files.begin(), file);
   parts.watch_signals = !parts.go_on;
-  return parts;
-}
-
-/// The scene that a program describes, or its own samples.
-LoadedScene load_program_scene(const SceneRequest& request, OwnSamples& own) {
-  const ProgramScene made = load_program(program_request(request));
+  const ProgramScene made = load_program(parts);
   for (const std::string& note : made.notes)
     if (!request.program.told) complain(note);
-  const std::filesystem::path file = request.what, folder = file.has_parent_path() ? file.parent_path() : ".";
   LoadedScene loaded;
   std::string reason = made.reason;
   if (!made.json.empty()) {

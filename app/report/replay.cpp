@@ -26,8 +26,7 @@ constexpr const char* fates[] = {"goes on",
 static_assert(std::size(fates) == static_cast<std::size_t>(Fate::lost) + 1);
 
 double luminance(Vec3f light) {
-  const double sum = 0.2126 * static_cast<double>(light.x) + 0.7152 * static_cast<double>(light.y) +
-                     0.0722 * static_cast<double>(light.z);
+  const double sum = dot(to_double(light), Vec3d{0.2126, 0.7152, 0.0722});
   return std::isfinite(sum) ? sum : 0;
 }
 

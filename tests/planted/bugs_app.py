@@ -20,7 +20,7 @@ APP = [
     ("a missing compiler ends the search for one", "app/book/compile_program.cpp",
      "if («end.start_error == ENOENT || end.start_error == EACCES → false») continue;", "book/programs.sh"),
 
-    ("a checkpoint forgets its first sample", "app/files/checkpoint.cpp", ".first_sample = «film.first_sample → 0u»,", "app/files/checkpoint"),
+    ("a checkpoint forgets its first sample", "app/files/checkpoint.cpp", "to.first_sample = «film.first_sample → 0u»;", "app/files/checkpoint"),
     ("a problem of checkpoints is told each time", "app/files/checkpoint.cpp", "«if (problem == last_problem_) return; → »", "app/files/checkpoint"),
     ("steps between values that miss the last one by one", "app/text/values.cpp", "static_cast<double>(i) / («steps - 1 → steps»);", "app/text/values"),
     ("a byte order mark hides a scene", "app/files/arriving_picture.cpp",
