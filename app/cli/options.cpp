@@ -201,7 +201,7 @@ std::string overview() {
 void refuse_misspelt_command(Text argument, bool alone) {
   std::vector<std::string> names;
   for (const CommandRow& row : command_rows()) names.emplace_back(row.name);
-  const std::string hint = suggestion(argument, names);
+  const std::string hint = did_you_mean(argument, {names.begin(), names.end()});
   if ((hint.empty() && alone) || argument[0] == '-' || argument.find_first_of("./") != std::string::npos) return;
   std::error_code error;
   if (hint.empty() || std::filesystem::exists(argument, error)) return;
@@ -211,7 +211,7 @@ void refuse_misspelt_command(Text argument, bool alone) {
 /// Throws if the first word must have been meant as an option of the program itself.
 void refuse_misspelt_option(Text argument) {
   if (argument.size() < 3 || argument[0] != '-') return;
-  const std::string hint = suggestion(argument, {"--version", "--help"});
+  const std::string hint = did_you_mean(argument, {"--version", "--help"});
   if (!hint.empty()) throw UsageError("unknown option " + in_quotes(argument) + hint + " (see tyndall --help)");
 }
 

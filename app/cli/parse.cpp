@@ -73,7 +73,8 @@ void refuse_extras(const CLI::App& app) {
     if (argument.size() < 2 || argument[0] != '-')
       throw UsageError("unexpected argument " + in_quotes(argument) + see_help(app));
     const std::string name = argument.substr(0, argument.find('='));
-    throw UsageError("unknown option " + in_quotes(name) + suggestion(name, names) + see_help(app));
+    throw UsageError("unknown option " + in_quotes(name) + did_you_mean(name, {names.begin(), names.end()}) +
+                     see_help(app));
   }
 }
 

@@ -173,7 +173,7 @@ std::vector<VerifyCase> chosen_cases(const std::vector<VerifyCase>& cases, const
     if (std::none_of(cases.begin(), cases.end(), [&](const VerifyCase& c) { return begins(c, name); })) {
       std::set<std::string> known;  // groups and cases
       for (const VerifyCase& c : cases) known.insert({c.name, c.name.substr(0, c.name.find('/'))});
-      const std::string hint = suggestion(name, {known.begin(), known.end()});
+      const std::string hint = did_you_mean(name, {known.begin(), known.end()});
       throw UsageError("found no case " + in_quotes(name) + hint + ", expected the beginning of a case's name");
     }
   std::vector<VerifyCase> chosen;

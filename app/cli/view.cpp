@@ -62,13 +62,13 @@ std::string headless_command(const CommandRequest& command) {
 }
 
 void check_memory(const Scene& scene) {
+  MemoryPlan plan{.width = scene.width, .height = scene.height, .emission = has_lights(scene), .window = true};
+  std::string file;
 #ifdef TYNDALL_WINDOW
-  const std::filesystem::path file = preferences_file();
-  check_memory({scene.width, scene.height, has_lights(scene), read_preferences(file).value_or(Preferences{}).clean},
-               free_memory(), "write \"clean off\" into " + file.string());
-#else
-  check_memory(WindowPlan{scene.width, scene.height, has_lights(scene)}, free_memory(), "");
+  file = preferences_file().string();
+  plan.clean = read_preferences(file).value_or(Preferences{}).clean;
 #endif
+  check_memory(plan, free_memory(), "write \"clean off\" into " + file);
 }
 
 /// Opens the window; where there is none, says what to do instead. options: made only when it is needed.

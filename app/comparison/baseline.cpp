@@ -6,6 +6,8 @@
 #include "core/base/seconds.h"
 #include "core/base/text.h"
 #include "core/image/image_io.h"
+#include "core/image/image_io_file.h"
+#include "core/image/whole_file.h"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -13,6 +15,7 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <span>
 
 namespace tyndall {
 namespace {
@@ -236,7 +239,13 @@ std::map<fs::path, fs::path> copies_of(const std::map<std::string, fs::path>& pi
 void copy_all(const std::map<fs::path, fs::path>& copies) {
   std::size_t done = 0;
   try {
-    for (const auto& [target, file] : copies) write_copy(file, target), ++done;
+    for (const auto& [target, file] : copies) {
+      const std::vector<std::uint8_t> bytes = read_bytes(file);
+      WholeFile copy(target);
+      copy.write(std::as_bytes(std::span(bytes)));
+      copy.commit();
+      ++done;
+    }
   } catch (const std::runtime_error& problem) {
     throw IoError(std::string(problem.what()) + " (" + std::to_string(done) + " of " + std::to_string(copies.size()) +
                   " pictures were copied)");

@@ -9,32 +9,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace tyndall {
 namespace {
 
+/// Of the page, and its margins; as assets/templates/chart.svg has them.
 constexpr double width = 960, height = 600, left = 78, right = 230, top = 64, bottom = 62;
 constexpr std::size_t colours = 8;
-
-constexpr const char* style =
-    "<style>"
-    "text{font-family:system-ui,sans-serif;font-size:13px;fill:#3a4150}"
-    ".title{font-size:18px;font-weight:600;fill:#1c222d}.dim{fill:#727a88;font-size:12px}"
-    ".paper{fill:#ffffff}.grid{stroke:#dfe3e8;stroke-width:1}.minor{stroke:#eef0f3;stroke-width:1}"
-    ".guide{stroke:#727a88;stroke-dasharray:2 5;fill:none}.mark{stroke:#727a88;stroke-width:1}"
-    ".curve{fill:none;stroke-width:2.2;stroke-linejoin:round}.lead{stroke-width:1;opacity:.55;fill:none}"
-    ".again{stroke-dasharray:9 4}.bias{stroke-width:1.4;stroke-dasharray:6 4;fill:none}"
-    ".s0{stroke:#3a4150}.s1{stroke:#e69f00}.s2{stroke:#56b4e9}.s3{stroke:#009e73}.s4{stroke:#cc79a7}"
-    ".s5{stroke:#0072b2}.s6{stroke:#d55e00}.s7{stroke:#8a6d3b}"
-    ".f0{fill:#3a4150}.f1{fill:#b97f00}.f2{fill:#2f8fc7}.f3{fill:#008060}.f4{fill:#b0568a}"
-    ".f5{fill:#0072b2}.f6{fill:#d55e00}.f7{fill:#8a6d3b}"
-    "@media(prefers-color-scheme:dark){"
-    "text{fill:#c3cad6}.title{fill:#eef1f6}.dim{fill:#8b94a3}.paper{fill:#12161d}.grid{stroke:#2a313c}"
-    ".minor{stroke:#1c222b}.guide,.mark{stroke:#8b94a3}"
-    ".s0{stroke:#d5dae3}.s3{stroke:#1fc79a}.s4{stroke:#e39ac5}.s5{stroke:#4aa3e0}.s6{stroke:#ff8a4c}.s7{stroke:#c9a566}"
-    ".f0{fill:#d5dae3}.f1{fill:#e69f00}.f2{fill:#7cc5ef}.f3{fill:#1fc79a}.f4{fill:#e39ac5}"
-    ".f5{fill:#4aa3e0}.f6{fill:#ff8a4c}.f7{fill:#c9a566}}"
-    "</style>";
 
 std::string text_at(double x, double y, const std::string& attributes, const std::string& words) {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" ", x, y) + attributes + ">" + in_xml(words) + "</text>\n";
@@ -82,12 +64,7 @@ std::string grid(const Plot& plot) {
     out += line(left, y, width - right, y, "grid");
     out += text_at(left - 8, y + 4, "text-anchor=\"end\"", fmt::format("{:g}", std::pow(10.0, e)));
   }
-  out +=
-      text_at((left + width - right) / 2, height - 16, "text-anchor=\"middle\" class=\"dim\"", "seconds of rendering");
-  return out + fmt::format(
-                   "<text transform=\"translate(20 {:.1f}) rotate(-90)\" text-anchor=\"middle\" "
-                   "class=\"dim\">relMSE</text>\n",
-                   (top + height - bottom) / 2);
+  return out;
 }
 
 /// A line of slope -1: along it the error halves when the time doubles, which is what more samples alone give.
@@ -125,22 +102,17 @@ const char* floor_name(const Chart& chart) { return chart.reference_noise > 0 ? 
 /// The curves' names in the right margin, each as near to the height of its curve's end as the others leave room.
 std::string names(const Plot& plot, const Chart& chart) {
   constexpr double apart = 17;
-  std::vector<std::size_t> order;
-  std::vector<double> at(chart.curves.size());
+  std::vector<std::pair<double, std::size_t>> ends;  // their heights, and the curves
   for (std::size_t i = 0; i < chart.curves.size(); ++i) {
     const auto& points = chart.curves[i].points;
-    if (points.empty() || !(points.back().rel_mse > 0)) continue;
-    at[i] = plot.y(points.back().rel_mse);
-    order.push_back(i);
+    if (!points.empty() && points.back().rel_mse > 0) ends.emplace_back(plot.y(points.back().rel_mse), i);
   }
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return at[a] < at[b]; });
-  const double room = static_cast<double>(order.size()) * apart;
-  double next = top + 4;
+  std::sort(ends.begin(), ends.end());
+  double next = top + 4, latest = height - bottom - static_cast<double>(ends.size()) * apart;
   std::string out;
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const std::size_t i = order[k];
-    const double latest = height - bottom - (static_cast<double>(order.size() - k) - 1) * apart;
-    const double y = std::min(std::max(at[i], next), std::max(latest, height - bottom - room));
+  for (const auto& [at, i] : ends) {
+    latest += apart;
+    const double y = std::min(std::max(at, next), latest);
     next = y + apart;
     const ErrorCurve& curve = chart.curves[i];
     const ErrorPoint& end = curve.points.back();
@@ -171,17 +143,13 @@ std::string chart_table(const Chart& chart) {
   };
   std::size_t longest = 6;
   for (const ErrorCurve& curve : chart.curves) longest = std::max(longest, printable(curve.method).size());
-  const auto padded = [](std::string text, std::size_t to) {
-    return text += std::string(to - std::min(to, text.size()), ' ');
-  };
-  std::string out = padded("method", longest + 2) + "to 0.01    to 0.001   speed     " + floor_name(chart) + "\n";
-  const ErrorCurve* first = chart.curves.empty() ? nullptr : &chart.curves.front();
+  const auto row = [](const auto&... cells) { return fmt::format("{:<{}}{:<11}{:<11}{:<10}{}\n", cells...); };
+  std::string out = row("method", longest + 2, "to 0.01", "to 0.001", "speed", floor_name(chart));
   for (const ErrorCurve& curve : chart.curves) {
     const auto bias = bias_of(curve, chart.reference_noise);
-    const auto speed = bias ? std::nullopt : speed_against(*first, curve);
-    out += padded(printable(curve.method), longest + 2) + padded(time(curve, 0.01), 11) +
-           padded(time(curve, 0.001), 11) + padded(speed ? fmt::format("{:.3g}x", *speed) : "-", 10) +
-           (bias ? fmt::format("{:.2g}", *bias) : std::string("none seen")) + "\n";
+    const auto speed = bias ? std::nullopt : speed_against(chart.curves.front(), curve);
+    out += row(printable(curve.method), longest + 2, time(curve, 0.01), time(curve, 0.001),
+               speed ? fmt::format("{:.3g}x", *speed) : "-", bias ? fmt::format("{:.2g}", *bias) : "none seen");
   }
   return out;
 }
@@ -204,17 +172,15 @@ void write_chart(const Chart& chart, const std::filesystem::path& svg) {
 
 std::string chart_svg(const Chart& chart) {
   const Plot plot(chart.curves);
-  std::string out = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:g} {:g}\" width=\"{:g}\" height=\"{:g}\" "
-      "role=\"img\">\n",
-      width, height, width, height);
-  out += std::string("<title>") + in_xml(chart.title) + "</title>\n" + style + "\n";
-  out += fmt::format("<rect class=\"paper\" width=\"{:g}\" height=\"{:g}\"/>\n", width, height);
-  out += text_at(left, 28, "class=\"title\"", chart.title) + text_at(left, 48, "class=\"dim\"", chart.subtitle);
-  out += grid(plot) + slope_guide(plot, chart.curves);
+  std::string curves = slope_guide(plot, chart.curves);
   for (std::size_t i = 0; i < chart.curves.size(); ++i)
-    out += curve_lines(plot, chart.curves[i], bias_of(chart.curves[i], chart.reference_noise), i);
-  return out + names(plot, chart) + "</svg>\n";
+    curves += curve_lines(plot, chart.curves[i], bias_of(chart.curves[i], chart.reference_noise), i);
+  const std::string title = in_xml(chart.title);
+  return from_template("chart.svg", {{"title", title},
+                                     {"title", title},
+                                     {"subtitle", in_xml(chart.subtitle)},
+                                     {"grid", grid(plot)},
+                                     {"curves", curves + names(plot, chart)}});
 }
 
 }  // namespace tyndall

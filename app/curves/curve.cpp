@@ -87,16 +87,10 @@ void Convergence::add(std::uint64_t edit, const std::string& method, ErrorPoint 
     keep_current();
     current_ = {method, {}, edit};
   }
-  const bool good = point.seconds > 0 && point.rel_mse > 0 && std::isfinite(point.rel_mse);
-  if (!good) return;
+  if (!(point.seconds > 0 && point.rel_mse > 0 && std::isfinite(point.rel_mse))) return;
   std::vector<ErrorPoint>& points = current_.points;
   if (points.size() > 1 && point.seconds < 1.04 * points[points.size() - 2].seconds) points.pop_back();
   points.push_back(point);
-}
-
-void Convergence::clear() {
-  current_ = {};
-  earlier_.clear();
 }
 
 void Convergence::keep_current() {
@@ -121,13 +115,6 @@ std::vector<NamedCurve> named_curves(const Convergence& curves, const Convergenc
     named.push_back({Role::clean, &clean->current(), (kept ? "B: " : "") + clean->current().method});
   named.push_back({Role::current, &curves.current(), kept ? "B: " + now : now});
   return named;
-}
-
-std::vector<ErrorCurve> copies_of(const std::vector<NamedCurve>& named) {
-  std::vector<ErrorCurve> copies;
-  for (const NamedCurve& one : named)
-    if (!one.curve->points.empty()) copies.push_back({one.name, one.curve->points, one.curve->edit});
-  return copies;
 }
 
 }  // namespace tyndall

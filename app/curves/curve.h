@@ -85,7 +85,7 @@ class Convergence {
   /// one, because then it was not estimated anew.
   void add(std::uint64_t edit, const std::string& method, ErrorPoint point);
   /// Forgets all curves: another scene was opened.
-  void clear();
+  void clear() { *this = {}; }
 
   const ErrorCurve& current() const { return current_; }
   /// Of each method only the newest, in the place of the one before it, so that a method keeps its colour in the chart.
@@ -112,8 +112,5 @@ struct NamedCurve {
 /// picture; null: there is none.
 std::vector<NamedCurve> named_curves(const Convergence& curves, const Convergence* kept,
                                      const Convergence* clean = nullptr);
-
-/// Copies under the names that the chart shows, for its files. Curves without points are left out.
-std::vector<ErrorCurve> copies_of(const std::vector<NamedCurve>& named);
 
 }  // namespace tyndall

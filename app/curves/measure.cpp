@@ -36,16 +36,14 @@ class GrowingPicture {
   FinishedPicture finished() const { return finished_picture(*scene_, result_); }
   /// The error of the picture as it is or, if that was asked for, of its clean view; nothing where there is none.
   std::optional<ErrorPoint> point(std::uint32_t spp, const ChartReference& reference) const {
+    const auto at = [&](double seconds, const std::vector<float>& rgb, double relative_error) {
+      return ErrorPoint{seconds, relative_mse(rgb, reference.image.rgb) - reference.noise, spp,
+                        squared(relative_error)};
+    };
     if (options_.clean && !result_.clean) return {};
-    if (options_.clean) {
-      const CleanPicture& clean = *result_.clean;
-      return ErrorPoint{seconds_ + result_.seconds_clean,
-                        relative_mse(clean.rgb, reference.image.rgb) - reference.noise, spp,
-                        squared(clean.relative_error)};
-    }
+    if (options_.clean) return at(seconds_ + result_.seconds_clean, result_.clean->rgb, result_.clean->relative_error);
     const FinishedPicture now = finished();
-    return ErrorPoint{seconds_, relative_mse(now.image.rgb, reference.image.rgb) - reference.noise, spp,
-                      squared(now.estimate.relative_error)};
+    return at(seconds_, now.image.rgb, now.estimate.relative_error);
   }
 
  private:
@@ -109,27 +107,23 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
   settings.fresnel = has_material<Dielectric<>>(features) ? FresnelKind::schlick : FresnelKind::exact;
   methods.push_back({"the books' method", settings, "scalar"});
   bool splits = false;
-  const auto switch_on = [&](const char* name, auto change) {
-    change(settings);
+  const auto switch_on = [&](const char* name, auto setting, auto value) {
+    settings.*setting = value;
     methods.push_back({name, settings, "scalar", false, splits});
   };
-  if (has_material<Dielectric<>>(features))
-    switch_on("+ exact Fresnel", [](RenderSettings& s) { s.fresnel = FresnelKind::exact; });
+  using Settings = RenderSettings;
+  if (has_material<Dielectric<>>(features)) switch_on("+ exact Fresnel", &Settings::fresnel, FresnelKind::exact);
   if (has_material<Light<>>(features)) {
-    switch_on("+ light sampling", [](RenderSettings& s) { s.integrator = Integrator::nee; });
-    switch_on("+ MIS", [](RenderSettings& s) { s.integrator = Integrator::mis; });
+    switch_on("+ light sampling", &Settings::integrator, Integrator::nee);
+    switch_on("+ MIS", &Settings::integrator, Integrator::mis);
   }
-  switch_on("+ Sobol'", [](RenderSettings& s) { s.sampler = SamplerKind::sobol; });
+  switch_on("+ Sobol'", &Settings::sampler, SamplerKind::sobol);
   const bool specular_paths = !prepared->columns().specular.sphere.empty(), guided = prepared->guide().lobes() > 0;
-  if (specular_paths || guided)
-    switch_on(!guided          ? "+ chains"
-              : specular_paths ? "+ chains, guided light"
-                               : "+ guided light",
-              [](RenderSettings& s) { s.caustics = Caustics::chains; });
+  const char* paths = !guided ? "+ chains" : specular_paths ? "+ chains, guided light" : "+ guided light";
+  if (specular_paths || guided) switch_on(paths, &Settings::caustics, Caustics::chains);
   splits = true;
-  if (prepared->columns().splits_paths)
-    switch_on("+ splitting", [](RenderSettings& s) { s.caustics = Caustics::chains; });
-  if (prepared->reuses_paths()) switch_on("+ sharing", [](RenderSettings& s) { s.sharing = true; });
+  if (prepared->columns().splits_paths) switch_on("+ splitting", &Settings::caustics, Caustics::chains);
+  if (prepared->reuses_paths()) switch_on("+ sharing", &Settings::sharing, true);
   for (const Kernels& kernels : available_kernels())
     if (std::string_view(kernels.isa) != "scalar")
       methods.push_back({std::string("+ ") + kernels.isa, settings, kernels.isa});

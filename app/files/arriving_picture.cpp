@@ -5,11 +5,13 @@
 #include "core/base/text.h"
 #include "core/image/image_io_file.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
-#include <utility>
+#include <exception>
+#include <span>
 
 namespace tyndall {
 namespace {
@@ -63,38 +65,39 @@ std::string first_line_of(int file, std::string begin) {
 /// Written by the thread that reads, and read by those that render: only what has arrived.
 struct ArrivingPicture::Pixels {
   std::size_t width = 0, height = 0;
-  std::vector<float> rgb{};
+  std::vector<float> rgb{};              ///< with room for all, so that none is moved
   std::atomic<std::size_t> arrived = 0;  ///< whole pixels
 
   Vec3f at(double x, double y) const {
     const std::size_t pixel = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
     if (pixel >= arrived.load(std::memory_order_acquire)) return {};
-    return {rgb[3 * pixel], rgb[3 * pixel + 1], rgb[3 * pixel + 2]};
+    const float* light = rgb.data() + 3 * pixel;
+    return {light[0], light[1], light[2]};
   }
 };
 
 ArrivingPicture::ArrivingPicture(int file, const std::string& begin, const std::string& name, PpmCurve curve)
-    : file_(file), name_(name), reader_(name, curve), bytes_(begin.begin(), begin.end()) {
+    : file_(file), name_(name), reader_(name, curve), bytes_(begin.begin(), begin.end()), pixels_(new Pixels) {
   try {
     for (std::size_t got = 1; got > 0 && !reader_.header();) {
-      bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(reader_.take(bytes_, light_, true)));
+      const std::size_t taken = reader_.take(bytes_, pixels_->rgb, true);
+      bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(taken));
       if (reader_.header()) break;
       bytes_.resize(piece);
       bytes_.resize(got = read_bytes(file_, bytes_.data(), piece));
     }
-    if (!reader_.header()) reader_.end(light_);
+    if (!reader_.header()) reader_.end(pixels_->rgb);
   } catch (const ImageFileError& error) {
     throw UsageError(error.what());
   }
   if (!reader_.header()) throw UsageError(name + ": ended where " + reader_.expected() + " of a picture is expected");
-  pixels_ = std::make_shared<Pixels>();
   pixels_->width = static_cast<std::size_t>(width()), pixels_->height = static_cast<std::size_t>(height());
   source_ = std::make_shared<const SampleSource>(
       SampleSource{[pixels = pixels_](double x, double y, std::uint64_t) { return pixels->at(x, y); }});
 }
 
 void ArrivingPicture::start(std::function<void()> on_news) {
-  pixels_->rgb.resize(3 * pixels_->width * pixels_->height);
+  pixels_->rgb.reserve(3 * pixels_->width * pixels_->height);
   on_news_ = std::move(on_news);
   thread_.emplace([this] { read(); });
 }
@@ -112,77 +115,52 @@ Arrival ArrivingPicture::arrival() const {
 void ArrivingPicture::read() {
   // To show a pixel takes some 0.07 µs, so that this leaves the program three quarters of a core at the least.
   const double period = std::max(0.1, 3e-7 * static_cast<double>(pixels_->width * pixels_->height));
-  take(std::exchange(bytes_, {}));
-  tell();
+  if (!bytes_.empty()) take_more();
+  tell(false);
   Clock::time_point told = Clock::now();
   for (bool news = false; !leave_;) {
     if (has_bytes(file_, 50)) {
-      if (!take_bytes()) break;
+      if (!take_more()) return tell(true);
       news = true;
     }
-    if (news && seconds_since(told) >= period) tell(), told = Clock::now(), news = false;
-  }
-  if (leave_) return;
-  end();
-  tell();
-}
-
-/// Takes what has come. False: no more will.
-bool ArrivingPicture::take_bytes() {
-  bytes_.resize(piece);
-  try {
-    const std::size_t got = read_bytes(file_, bytes_.data(), piece);
-    take({bytes_.data(), got});
-    return got > 0;
-  } catch (const IoError& error) {
-    damage_ = error.what();
-    return false;
+    if (news && seconds_since(told) >= period) tell(false), told = Clock::now(), news = false;
   }
 }
 
-void ArrivingPicture::take(std::span<const std::uint8_t> bytes) {
-  if (!damage_.empty()) return;
+/// Takes what was read with the header, or else what comes, and shows it to the renderers. False: no more will come.
+bool ArrivingPicture::take_more() {
+  std::vector<float>& light = pixels_->rgb;
+  std::size_t got = bytes_.size();
   try {
-    const auto behind = bytes.subspan(reader_.take(bytes, light_));
+    if (got == 0) {
+      bytes_.resize(piece);
+      got = read_bytes(file_, bytes_.data(), piece);
+    }
+    const auto bytes = std::span(bytes_).first(damage_.empty() ? got : 0);
+    const auto behind = bytes.subspan(reader_.take(bytes, light));
     const auto is_seen = [](std::uint8_t byte) { return !is_space(static_cast<char>(byte)); };
     if (std::any_of(behind.begin(), behind.end(), is_seen))
       damage_ = name_ + ": what follows the last pixel is not shown";
-  } catch (const ImageFileError& error) {
+    if (got == 0 && damage_.empty()) reader_.end(light);
+  } catch (const std::exception& error) {
     damage_ = error.what();
   }
-  publish();
+  bytes_.clear();
+  pixels_->arrived.store(light.size() / 3, std::memory_order_release);
+  return got > 0;
 }
 
-/// No more will come.
-void ArrivingPicture::end() {
-  if (damage_.empty()) try {
-      reader_.end(light_);
-    } catch (const ImageFileError& error) {
-      damage_ = error.what();
-    }
-  ended_ = true;
-  publish();
-}
-
-/// Shows the renderers what has come.
-void ArrivingPicture::publish() {
-  const std::size_t before = pixels_->arrived, pixels = light_.size() / 3;
-  const auto end = light_.begin() + static_cast<std::ptrdiff_t>(3 * pixels);
-  std::copy(light_.begin(), end, pixels_->rgb.begin() + static_cast<std::ptrdiff_t>(3 * before));
-  light_.erase(light_.begin(), end);
-  pixels_->arrived.store(before + pixels, std::memory_order_release);
-}
-
-/// Says how much has come, if that is news.
-void ArrivingPicture::tell() {
+/// Says how much has come, if that is news. ended: no more will.
+void ArrivingPicture::tell(bool ended) {
   Arrival now;
   now.rows = static_cast<int>(pixels_->arrived / pixels_->width);
-  now.ended = ended_ || !damage_.empty() || reader_.whole();
+  now.ended = ended || !damage_.empty() || reader_.whole();
   if (now.ended) {
-    const auto add = [&](const std::string& text) { now.said += (now.said.empty() ? "" : "; ") + text; };
-    if (!damage_.empty()) add(damage_);
-    if (!reader_.whole()) add("ended at row " + std::to_string(now.rows) + " of " + std::to_string(height()));
-    if (const auto remark = reader_.remark()) add(*remark);
+    std::vector<std::string> said;
+    if (!damage_.empty()) said.push_back(damage_);
+    if (!reader_.whole()) said.push_back(fmt::format("ended at row {} of {}", now.rows, height()));
+    if (const auto remark = reader_.remark()) said.push_back(*remark);
+    now.said = joined(said, "; ");
   }
   {
     const std::lock_guard lock(mutex_);

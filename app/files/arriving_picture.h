@@ -58,22 +58,17 @@ class ArrivingPicture {
 
  private:
   struct Pixels;
-  bool take_bytes();
-  void take(std::span<const std::uint8_t> bytes);
-  void end();
-  void publish();
-  void tell();
   void read();
+  bool take_more();
+  void tell(bool ended);
 
   int file_;
   std::string name_;
   PnmReader reader_;
-  std::vector<std::uint8_t> bytes_;  ///< those that were read last
-  std::vector<float> light_;         ///< of numbers that came since the last whole pixel
+  std::vector<std::uint8_t> bytes_;  ///< that were read and not taken yet
   std::shared_ptr<Pixels> pixels_;
   std::shared_ptr<const SampleSource> source_;
   std::string damage_;  ///< why what follows is not looked at; "": it is
-  bool ended_ = false;  ///< nothing follows
   std::function<void()> on_news_;
   mutable Mutex mutex_;  ///< guards arrival_
   Arrival arrival_;

@@ -1,7 +1,6 @@
 #include "app/files/checkpoint.h"
 
 #include "app/files/memory.h"
-#include "core/base/seconds.h"
 #include "core/image/image_io.h"
 
 #include <fmt/core.h>
@@ -18,29 +17,20 @@ constexpr std::size_t pixels_at_a_time = 4096;  ///< by one thread
 
 /// Copies a film into another one, whose memory is used again. All threads copy parts of it, as rendering waits for it.
 void copy(const Film& film, Film& to, ThreadPool& thread_pool) {
-  std::vector<FilmPixel> pixels = std::move(to.pixels);
-  std::vector<EmissionSums> emission = std::move(to.emission);
-  pixels.resize(film.pixels.size());
-  emission.resize(film.emission.size());
+  to.pixels.resize(film.pixels.size());
+  to.emission.resize(film.emission.size());
   const auto copy_part = [&](int number) {
     const std::size_t first = pixels_at_a_time * static_cast<std::size_t>(number);
     const auto part = [first](const auto& from, auto& into) {
       const std::size_t begin = std::min(first, from.size()), count = std::min(pixels_at_a_time, from.size() - begin);
       std::copy_n(from.data() + begin, count, into.data() + begin);
     };
-    part(film.pixels, pixels);
-    part(film.emission, emission);
+    part(film.pixels, to.pixels);
+    part(film.emission, to.emission);
   };
   thread_pool.for_each(static_cast<int>((film.pixels.size() + pixels_at_a_time - 1) / pixels_at_a_time), copy_part);
-  to = {.width = film.width,
-        .height = film.height,
-        .region = film.region,
-        .first_sample = film.first_sample,
-        .quantum = film.quantum,
-        .cut_throughput = film.cut_throughput,
-        .pixels = std::move(pixels),
-        .emission = std::move(emission),
-        .planned = film.planned};
+  to.width = film.width, to.height = film.height, to.region = film.region, to.first_sample = film.first_sample;
+  to.quantum = film.quantum, to.cut_throughput = film.cut_throughput, to.planned = film.planned;
 }
 
 }  // namespace
@@ -51,23 +41,19 @@ Checkpoints::Checkpoints(std::filesystem::path file, std::optional<double> inter
 
 bool Checkpoints::due() const {
   if (writing_) return false;
-  const double usual = std::max(min_checkpoint_interval, checkpoint_interval_over_cost * cost_);
-  const double interval = interval_.value_or(usual);
-  const double lead = slowest_ > 0 ? 2 * slowest_ + checkpoint_look_interval : interval_.value_or(0);
+  constexpr double look_interval = 0.05;  // seconds, see RenderBreaks
+  // As the next one begins earlier by twice what the last one took, they take at most 1 % of 102 times that.
+  const double interval = interval_.value_or(std::max(30.0, 102 * cost_));
+  const double lead = slowest_ > 0 ? 2 * slowest_ + look_interval : interval_.value_or(0);
   return seconds_since(taken_) >= std::max(interval - lead, interval / 2);
 }
 
 void Checkpoints::take(const Film& film, ThreadPool& thread_pool) {
   writer_.reset();
   taken_ = Clock::now();
-  if (!write_in_background(film, thread_pool)) write(film);
-}
-
-/// False if there is no memory for a copy, or no thread. Where the system promises more memory than it has, taking it
-/// would end the program: so what is free is looked at.
-bool Checkpoints::write_in_background(const Film& film, ThreadPool& thread_pool) {
-  if (copy_.pixels.empty() && free_memory().bytes < film.pixels.size() * bytes_per_pixel(!film.emission.empty()))
-    return false;
+  // Where the system promises more memory than it has, taking it would end the program: so what is free is looked at.
+  const std::size_t bytes = film.pixels.size() * bytes_per_pixel(!film.emission.empty());
+  if (copy_.pixels.empty() && free_memory().bytes < bytes) return write(film);
   try {
     copy(film, copy_, thread_pool);
     writing_ = true;
@@ -75,11 +61,10 @@ bool Checkpoints::write_in_background(const Film& film, ThreadPool& thread_pool)
       write(copy_);
       writing_ = false;
     });
-    return true;
-  } catch (const std::exception&) {
+  } catch (const std::exception&) {  // there is no memory for a copy, or no thread
     writing_ = false;
     copy_ = {};
-    return false;
+    write(film);
   }
 }
 
@@ -87,7 +72,6 @@ void Checkpoints::write(const Film& film) {
   constexpr const char* failed = "no checkpoint was written: ";
   try {
     write_checkpoint(file_, film, embedded_(film));
-    const std::lock_guard lock(mutex_);
     last_problem_.clear();
   } catch (const std::bad_alloc&) {
     note(failed, "not enough memory");
@@ -95,11 +79,11 @@ void Checkpoints::write(const Film& film) {
     note(failed, error.what());
   }
   cost_ = seconds_since(taken_);
-  slowest_ = std::max<double>(slowest_, cost_);
+  slowest_ = std::max(slowest_, cost_);
   const double requested = interval_.value_or(0);
   if (requested > 0 && cost_ > requested / 2 && !std::exchange(slow_, true))
     note("checkpoints take longer than half of --checkpoint; a kill can cost twice what one took: ",
-         fmt::format("{:.2g} s", cost_.load()).c_str());
+         fmt::format("{:.2g} s", cost_).c_str());
 }
 
 void Checkpoints::finish() {
@@ -110,7 +94,6 @@ void Checkpoints::finish() {
 void Checkpoints::note(const char* what, const char* why) {
   try {
     const std::string problem = std::string(what) + why;
-    const std::lock_guard lock(mutex_);
     if (problem == last_problem_) return;
     last_problem_ = problem;
     problem_ += (problem_.empty() ? "" : "; ") + problem;
@@ -120,8 +103,7 @@ void Checkpoints::note(const char* what, const char* why) {
 }
 
 std::optional<std::string> Checkpoints::problem() {
-  const std::lock_guard lock(mutex_);
-  if (problem_.empty()) return std::nullopt;
+  if (writing_ || problem_.empty()) return std::nullopt;
   return std::exchange(problem_, {});
 }
 

@@ -1,26 +1,19 @@
 #pragma once
+#include "core/base/seconds.h"
 #include "core/base/thread_pool.h"
 #include "core/film/film.h"
 #include "core/image/image.h"
 #include "core/system/locks.h"
 
 #include <atomic>
-#include <chrono>
 #include <filesystem>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <string>
 
 /// Keeps the work of long renders: their film is written now and then, so that what kills the program or the machine
 /// costs one interval, not the render.
 namespace tyndall {
-
-/// Without an interval of the user's, it is this long at least, seconds; and at least so many times the time that the
-/// last checkpoint took: as the next one begins earlier by twice that, they then take at most 1 % of the time.
-inline constexpr double min_checkpoint_interval = 30, checkpoint_interval_over_cost = 102;
-/// Seconds that may pass until somebody asks again whether a checkpoint is due (see RenderBreaks).
-inline constexpr double checkpoint_look_interval = 0.05;
 
 /// Writes checkpoints into one file. All functions are called on one thread.
 ///
@@ -31,7 +24,8 @@ inline constexpr double checkpoint_look_interval = 0.05;
 /// a kill can cost twice what writing takes; that is told as a problem.
 class Checkpoints {
  public:
-  /// interval: seconds; absent: as above. embedded: what the file carries beside a film; called in the background.
+  /// interval: seconds; absent: 30, or more where checkpoints would take more than 1 % of the time. embedded: what the
+  /// file carries beside a film; called in the background.
   Checkpoints(std::filesystem::path file, std::optional<double> interval,
               std::function<Embedded(const Film&)> embedded);
   ~Checkpoints() { finish(); }  ///< waits for the one that is being written
@@ -48,8 +42,6 @@ class Checkpoints {
   std::optional<std::string> problem();
 
  private:
-  using Clock = std::chrono::steady_clock;
-  bool write_in_background(const Film& film, ThreadPool& thread_pool);
   void write(const Film& film);
   void note(const char* what, const char* why);
 
@@ -58,13 +50,11 @@ class Checkpoints {
   std::function<Embedded(const Film&)> embedded_;
   Film copy_;
   std::optional<JoinedThread> writer_;
-  std::atomic<bool> writing_ = false;
+  std::atomic<bool> writing_ = false;       ///< the writer has what follows, but taken_
   Clock::time_point taken_ = Clock::now();  ///< when the last one was taken, at first the start
-  std::atomic<double> cost_ = 0;            ///< seconds that the last one took
-  std::atomic<double> slowest_ = 0;         ///< seconds that the slowest one took; 0 before the first
+  double cost_ = 0, slowest_ = 0;           ///< seconds that the last one and the slowest one took; 0 before the first
   bool slow_ = false;                       ///< whether it was told that they take too long
-  Mutex mutex_;
-  std::string problem_, last_problem_;  ///< guarded by mutex_
+  std::string problem_, last_problem_;
 };
 
 }  // namespace tyndall

@@ -5,35 +5,27 @@
 #include <cstdint>
 #include <string>
 
-/// How much memory rendering, merging or filtering takes, and how much there is: known before it is taken.
+/// How much memory rendering, merging, filtering or a window takes, and how much there is: known before it is taken.
 namespace tyndall {
 
 /// What memory depends on. All commands hold one film, and write files of it.
 struct MemoryPlan {
   std::int64_t width = 0, height = 0;  ///< of the film
-  std::string place;                   ///< what says so, as messages call it: "cover.json: /image"
+  std::string place{};                 ///< what says so, as messages call it: "cover.json: /image"
   bool emission = false;               ///< whether the film records emission: the scene has lights
-  bool clean = false;                  ///< whether the picture is filtered
+  bool clean = false;                  ///< whether the picture is filtered, or a window's clean view is on
   bool checkpoints = false;            ///< whether the film is copied while it is rendered
   bool parts = false;                  ///< whether another film is added to it
-  std::vector<std::filesystem::path> files;
+  std::vector<std::filesystem::path> files{};
   ImageForm form{};
+  bool window = false;  ///< whether a window renders the picture, not a command
 };
 
 /// Whether films of the scene record emission.
 bool has_lights(const Scene& scene);
 
-/// What the memory of a window depends on.
-struct WindowPlan {
-  std::int64_t width = 0, height = 0;  ///< of the picture
-  bool emission = false;               ///< see MemoryPlan
-  bool clean = false;                  ///< whether the clean view is on
-};
-
 /// Throws UsageError, which says how many bytes the picture takes, if it does not fit into the memory that is free; and
-/// if it has more pixels than image files can hold.
-void check_memory(const MemoryPlan& plan, const FreeMemory& free);
-/// The same for a window. without_clean: tells how to switch the clean view off.
-void check_memory(const WindowPlan& plan, const FreeMemory& free, const std::string& without_clean);
+/// if it has more pixels than image files can hold. without_clean: tells how to switch a window's clean view off.
+void check_memory(const MemoryPlan& plan, const FreeMemory& free, const std::string& without_clean = "");
 
 }  // namespace tyndall

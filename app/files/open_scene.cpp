@@ -11,9 +11,6 @@
 namespace tyndall {
 namespace {
 
-constexpr const char* expected_no_program =
-    "a scene file or an image; a program is compiled and run only where it is named on the command line";
-
 /// Programs name images by whole paths, as they run elsewhere. Those below the folder are named from there, so that the
 /// scene can be moved with them.
 Scene name_textures_from(const std::filesystem::path& folder, Scene scene) {
@@ -27,23 +24,21 @@ Scene name_textures_from(const std::filesystem::path& folder, Scene scene) {
   return scene;
 }
 
-ProgramRequest program_request(const SceneRequest& request) {
-  const std::filesystem::path file = request.what;
-  if (!request.program.allowed) throw SceneError(request.what, "a program", expected_no_program);
+/// The scene that a program describes, or its own samples.
+LoadedScene load_program_scene(const SceneRequest& request, OwnSamples& own) {
+  const std::filesystem::path file = request.what, folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (!request.program.allowed)
+    throw SceneError(
+        request.what, "a program",
+        "a scene file or an image; a program is compiled and run only where it is named on the command line");
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw SceneError(request.what, "no such file", "a C++ source file");
   ProgramRequest parts = request.program;
   parts.sources.files.insert(parts.sources.files.begin(), file);
   parts.watch_signals = !parts.go_on;
-  return parts;
-}
-
-/// The scene that a program describes, or its own samples.
-LoadedScene load_program_scene(const SceneRequest& request, OwnSamples& own) {
-  const ProgramScene made = load_program(program_request(request));
+  const ProgramScene made = load_program(parts);
   for (const std::string& note : made.notes)
     if (!request.program.told) complain(note);
-  const std::filesystem::path file = request.what, folder = file.has_parent_path() ? file.parent_path() : ".";
   LoadedScene loaded;
   std::string reason = made.reason;
   if (!made.json.empty()) {
@@ -52,11 +47,10 @@ LoadedScene load_program_scene(const SceneRequest& request, OwnSamples& own) {
     if (request.program.differs && request.overrides.empty()) reason = request.program.differs(loaded.scene, made);
   }
   if (!reason.empty()) {
-    own.take(made.own, request.what + ": " + reason);
     loaded = LoadedScene{};
     loaded.name = request.what, loaded.folder = folder, loaded.is_picture = true;
     loaded.scene.width = made.width, loaded.scene.height = made.height, loaded.scene.render.spp = made.samples;
-    loaded.scene.render.seed = own.taken();  // another program, another picture
+    loaded.scene.render.seed = own.take(made.own, request.what + ": " + reason);  // another program, another picture
   }
   loaded.sources = made.files;
   loaded.files.insert(loaded.files.begin(), made.files.begin(), made.files.end());
@@ -74,36 +68,27 @@ void apply_options(const SceneRequest& request, LoadedScene& loaded) {
 
 }  // namespace
 
-OwnSamples::OwnSamples() : held_(std::make_shared<Held>()) {
-  const auto remove = [kept = held_](WatchedFunction* function) { delete function; };
-  function_ = {new WatchedFunction(compute, held_.get()), remove};
-}
+OwnSamples::OwnSamples()
+    : function_(std::make_shared<WatchedFunction>([its = held_](double x, double y, std::uint64_t, double rgb[3]) {
+        std::unique_lock lock(its->mutex);
+        const std::shared_ptr<OwnProgram> program = its->program;
+        lock.unlock();
+        if (!program) return;
+        const std::vector<double> colour = program->samples({x, y});
+        std::copy(colour.begin(), colour.end(), rgb);
+      })) {}
 
-void OwnSamples::compute(void* data, double x, double y, std::uint64_t, double rgb[3]) {
-  auto& its = *static_cast<Held*>(data);
-  std::unique_lock lock(its.mutex);
-  const std::shared_ptr<OwnProgram> program = its.program;
-  lock.unlock();
-  if (!program) return;
-  const std::vector<double> colour = program->samples({x, y});
-  std::copy(colour.begin(), colour.end(), rgb);
-}
-
-void OwnSamples::take(std::shared_ptr<OwnProgram> program, const std::string& reason) {
+std::uint32_t OwnSamples::take(std::shared_ptr<OwnProgram> program, const std::string& reason) {
   const std::lock_guard lock(held_->mutex);
   held_->taken += program ? 1 : 0;
   held_->program.swap(program);
   held_->reason = reason;
+  return held_->taken;
 }
 
 std::string OwnSamples::reason() const {
   const std::lock_guard lock(held_->mutex);
   return held_->reason;
-}
-
-std::uint32_t OwnSamples::taken() const {
-  const std::lock_guard lock(held_->mutex);
-  return held_->taken;
 }
 
 LoadedScene open_scene_or_samples(const SceneRequest& request, OwnSamples& own) {

@@ -72,11 +72,10 @@ struct SceneRequest {
 class OwnSamples {
  public:
   OwnSamples();
-  /// program: null where there is a scene; reason: why there is none, a sentence with the program's name.
-  void take(std::shared_ptr<OwnProgram> program, const std::string& reason);
+  /// program: null where there is a scene; reason: why there is none, a sentence with the program's name. Returns how
+  /// many programs were taken.
+  std::uint32_t take(std::shared_ptr<OwnProgram> program, const std::string& reason);
   std::string reason() const;
-  /// How many programs were taken.
-  std::uint32_t taken() const;
   /// What asks the program that was taken last.
   const std::shared_ptr<WatchedFunction>& function() const { return function_; }
 
@@ -87,9 +86,7 @@ class OwnSamples {
     std::string reason;
     std::uint32_t taken = 0;
   };
-  static void compute(void* data, double x, double y, std::uint64_t sample, double rgb[3]);
-
-  std::shared_ptr<Held> held_;
+  std::shared_ptr<Held> held_ = std::make_shared<Held>();
   std::shared_ptr<WatchedFunction> function_;  ///< keeps what is held
 };
 

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <span>
 
 namespace tyndall {
@@ -47,11 +46,6 @@ fs::path free_name(const fs::path& file) {
     if (fs::symlink_status(name, error).type() == fs::file_type::not_found) return name;
   }
   return {};
-}
-
-template <class... Errors>
-bool is_one_of(const std::exception& error) {
-  return (dynamic_cast<const Errors*>(&error) || ...);
 }
 
 bool succeeds(const std::function<void(const fs::path& file)>& write, const fs::path& file) {
@@ -166,9 +160,6 @@ void write_text_file(const fs::path& file, const std::string& text) {
 }
 
 void write_or_rescue(const fs::path& file, const std::function<void(const fs::path& file)>& write) {
-  const auto at = [](const std::string& problem, const fs::path& place) {
-    return ImageFileError(problem + "; it is in " + place.string() + " instead");
-  };
   try {
     return write(file);
   } catch (const std::bad_alloc&) {
@@ -176,14 +167,17 @@ void write_or_rescue(const fs::path& file, const std::function<void(const fs::pa
   } catch (const std::exception& error) {
     if (is_stream(file)) throw;
     const std::string problem = error.what();
-    const fs::path near = free_name(file);
-    if (succeeds(write, near)) throw at(problem, near);
-    const fs::path folder = make_temporary_folder("tyndall-");  // empty if none can be made
-    const fs::path far = folder / file.filename();
-    if (!folder.empty() && succeeds(write, far)) throw at(problem, far);
-    std::error_code ignored;
-    if (!folder.empty()) fs::remove(folder, ignored);
-    throw;
+    fs::path place = free_name(file);
+    if (!succeeds(write, place)) {
+      const fs::path folder = make_temporary_folder("tyndall-");  // empty if none can be made
+      place = folder.empty() ? folder : folder / file.filename();
+      if (!succeeds(write, place)) {
+        std::error_code ignored;
+        fs::remove(folder, ignored);
+        throw;
+      }
+    }
+    throw ImageFileError(problem + "; it is in " + place.string() + " instead");
   }
 }
 
@@ -213,23 +207,11 @@ int told_exit_code() {
   } catch (const std::exception& error) {
     complain(error.what());
     if (const auto* interrupted = dynamic_cast<const ProgramInterrupted*>(&error)) return 128 + interrupted->signal;
-    if (is_one_of<UsageError, SceneError, MergeError, NoSuchLayer>(error)) return wrong_usage;
+    const bool is_users = dynamic_cast<const UsageError*>(&error) || dynamic_cast<const SceneError*>(&error) ||
+                          dynamic_cast<const MergeError*>(&error) || dynamic_cast<const NoSuchLayer*>(&error);
+    if (is_users) return wrong_usage;
   }
   return input_output_error;
-}
-
-void write_copy(const fs::path& from, const fs::path& to) {
-  std::ifstream in(from, std::ios::binary);
-  if (!in) throw IoError(from.string() + ": cannot read");
-  WholeFile out(to);
-  std::vector<char> bytes(std::size_t{1} << 16);
-  while (in) {
-    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    const auto got = static_cast<std::size_t>(in.gcount());
-    out.write(std::as_bytes(std::span(bytes.data(), got)));
-  }
-  if (!in.eof()) throw IoError(from.string() + ": cannot read");
-  out.commit();
 }
 
 }  // namespace tyndall

@@ -12,9 +12,8 @@
 namespace tyndall {
 
 /// Throws UsageError for an ending that is no image's, EXR in a build without it, a file named twice, or --gamma2
-/// without a PPM; and if a
-/// format for standard output is missing, or given though no image goes there, or if the figures (`stats`) go there,
-/// too.
+/// without a PPM; and if a format for standard output is missing, or given though no image goes there, or if the figures
+/// (`stats`) go there, too.
 void check_image_names(const std::vector<std::filesystem::path>& files, const ImageForm& form = {},
                        const std::filesystem::path& stats = {});
 
@@ -56,8 +55,6 @@ std::vector<std::string> write_images(const Picture& picture, const std::vector<
 
 /// Writes text as a whole file or not at all. Throws ImageFileError.
 void write_text_file(const std::filesystem::path& file, const std::string& text);
-/// Makes `to` a copy of `from`, whole or not at all. Throws ImageFileError, IoError.
-void write_copy(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Calls write(file). Where that fails, what was computed is not to be lost: write() is called with a new name beside
 /// the file, NAME.new.ENDING, and if that fails, too, with the file's name in a folder of its own among the temporary

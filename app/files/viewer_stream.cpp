@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cstdint>
 #include <cstring>
 #include <mutex>
@@ -20,69 +19,54 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto look_interval = 50ms;          // how often a waiting thread looks whether it is to stop
+constexpr auto look_interval = 50ms;          // how often it is looked how the viewer takes a picture
 constexpr auto silence = 10s;                 // after which a viewer that takes nothing is given up
 constexpr auto longest_finish = 5s;           // for a viewer that goes on taking
 constexpr std::size_t band_bytes = 1u << 20;  // of a packet, about
+constexpr const char* closed = "the viewer has closed the connection";
 
 enum class PacketType : char { create_image = 4, update_image_v3 = 6 };
 
 /// A packet: its size in bytes (4 bytes), its type, and values, the lowest byte first; texts end with a zero.
 class Packet {
  public:
-  explicit Packet(PacketType type) : bytes_(4) { bytes_.push_back(static_cast<char>(type)); }
-  template <class Number>
-  void add(Number number) {
+  Packet(PacketType type, const std::string& name) : bytes_(4, '\0') {
+    add(type, false);  // the viewer need not get the focus
+    add_text(name);
+  }
+  template <class... Values>
+  void add(Values... values) {
     static_assert(std::endian::native == std::endian::little);
-    const auto* data = reinterpret_cast<const char*>(&number);
-    bytes_.insert(bytes_.end(), data, data + sizeof number);
+    (bytes_.append(reinterpret_cast<const char*>(&values), sizeof values), ...);
   }
-  void add(bool value) { bytes_.push_back(value ? 1 : 0); }
-  void add(const std::string& text) { bytes_.insert(bytes_.end(), text.c_str(), text.c_str() + text.size() + 1); }
-  void add(const float* values, std::size_t count) {
-    const auto* data = reinterpret_cast<const char*>(values);
-    bytes_.insert(bytes_.end(), data, data + count * sizeof(float));
+  void add_text(const std::string& text) { bytes_.append(text.c_str(), text.size() + 1); }
+  void add_channels() {
+    add(static_cast<std::int32_t>(viewer_channel_count));
+    for (const char* channel : viewer_channels) add_text(channel);
   }
-  const std::vector<char>& finished() {
+  /// The rows y0 <= y < y1 of a frame.
+  void add_rows(const ViewerFrame& frame, int y0, int y1) {
+    constexpr std::int64_t channels = viewer_channel_count;
+    add(frame.region.x0, y0, frame.region.width(), y1 - y0);
+    for (std::int64_t c = 0; c < channels; ++c) add(c);         // where each channel begins
+    for (std::int64_t c = 0; c < channels; ++c) add(channels);  // and how far its values are apart
+    const std::int64_t row = channels * frame.region.width();
+    bytes_.append(reinterpret_cast<const char*>(frame.values.data() + row * (y0 - frame.region.y0)),
+                  sizeof(float) * static_cast<std::size_t>(row * (y1 - y0)));
+  }
+  const std::string& finished() {
     const auto size = static_cast<std::uint32_t>(bytes_.size());
     std::memcpy(bytes_.data(), &size, sizeof size);
     return bytes_;
   }
 
  private:
-  std::vector<char> bytes_;
+  std::string bytes_;
 };
-
-Packet create_packet(const std::string& name, int width, int height) {
-  Packet packet(PacketType::create_image);
-  packet.add(false);  // do not take the focus
-  packet.add(name);
-  packet.add(std::int32_t{width}), packet.add(std::int32_t{height});
-  packet.add(static_cast<std::int32_t>(viewer_channel_count));
-  for (const char* channel : viewer_channels) packet.add(std::string(channel));
-  return packet;
-}
-
-/// The rows y0 <= y < y1 of a frame.
-Packet update_packet(const std::string& name, const ViewerFrame& frame, int y0, int y1) {
-  Packet packet(PacketType::update_image_v3);
-  packet.add(false);
-  packet.add(name);
-  packet.add(static_cast<std::int32_t>(viewer_channel_count));
-  for (const char* channel : viewer_channels) packet.add(std::string(channel));
-  for (const int number : {frame.region.x0, y0, frame.region.width(), y1 - y0}) packet.add(std::int32_t{number});
-  for (std::size_t c = 0; c < viewer_channel_count; ++c) packet.add(static_cast<std::int64_t>(c));  // offsets
-  for (std::size_t c = 0; c < viewer_channel_count; ++c)
-    packet.add(static_cast<std::int64_t>(viewer_channel_count));  // strides
-  const std::size_t row = viewer_channel_count * static_cast<std::size_t>(frame.region.width());
-  packet.add(frame.values.data() + row * static_cast<std::size_t>(y0 - frame.region.y0),
-             row * static_cast<std::size_t>(y1 - y0));
-  return packet;
-}
 
 }  // namespace
 
-/// What the caller and the thread both see, and what the thread does.
+/// What the caller and the threads both see. One thread at a time uses the connection.
 struct ViewerStream::Shared {
   ViewerAddress address;
   std::string name;
@@ -90,139 +74,132 @@ struct ViewerStream::Shared {
 
   mutable Mutex mutex;
   Condition changed;
+  std::optional<Connection> viewer{};
   // Guarded by the mutex:
-  std::optional<ViewerFrame> frame;
-  bool connected = false, sending = false, stop = false, ended = false;
+  enum class State { connecting, idle, sending, ended } state = State::connecting;
+  bool stop = false;
   Clock::time_point taken = Clock::now();  ///< when the viewer last took something
-  std::string problem;
+  std::string problem{};
 
-  void run();
-  void serve(const Connection& viewer);
-  bool send_frame(const Connection& viewer, const ViewerFrame& what);
-  bool send_all(const Connection& viewer, const std::vector<char>& bytes);
-  bool may_go_on(Connection::Sent sent);
-  bool stopped() const {
+  bool connect();
+  bool send(Packet packet);
+  bool send_frame(const ViewerFrame& frame);
+  bool goes_on(Connection::Sent sent);
+  /// The end, of which the caller is told unless it has asked for it.
+  bool fail(const std::string& why) {
     const std::lock_guard lock(mutex);
-    return stop;
+    if (!stop) problem = text_of(address) + ": " + why;
+    state = State::ended;
+    changed.notify_all();
+    return false;
   }
-  void fail(const std::string& why) {
+  void set(State now) {
     const std::lock_guard lock(mutex);
-    if (!stop && problem.empty()) problem = text_of(address) + ": " + why;
+    state = now, taken = Clock::now();
+    changed.notify_all();
   }
 };
 
 /// Whether to send further.
-bool ViewerStream::Shared::may_go_on(Connection::Sent sent) {
-  const std::lock_guard lock(mutex);
-  if (sent == Connection::Sent::some) taken = Clock::now();
+bool ViewerStream::Shared::goes_on(Connection::Sent sent) {
+  std::unique_lock lock(mutex);
   if (stop) return false;
-  if (sent == Connection::Sent::closed)
-    problem = text_of(address) + ": the viewer has closed the connection";
-  else if (Clock::now() - taken > silence)
-    problem = text_of(address) + ": the viewer has taken nothing for 10 s";
-  return problem.empty();
+  if (sent == Connection::Sent::some) taken = Clock::now();
+  const bool silent = Clock::now() - taken > silence;
+  lock.unlock();
+  if (sent == Connection::Sent::closed) return fail(closed);
+  return !silent || fail("the viewer has taken nothing for 10 s");
 }
 
-bool ViewerStream::Shared::send_all(const Connection& viewer, const std::vector<char>& bytes) {
+bool ViewerStream::Shared::send(Packet packet) {
+  const std::string& bytes = packet.finished();
   for (std::size_t done = 0; done < bytes.size();)
-    if (!may_go_on(viewer.send(bytes.data(), bytes.size(), done))) return false;
+    if (!goes_on(viewer->send(bytes.data(), bytes.size(), done))) return false;
   return true;
 }
 
-bool ViewerStream::Shared::send_frame(const Connection& viewer, const ViewerFrame& what) {
-  const auto row_bytes = viewer_channel_count * sizeof(float) * static_cast<std::size_t>(what.region.width());
-  const int rows = std::max(1, static_cast<int>(band_bytes / row_bytes));
-  for (int y = what.region.y0; y < what.region.y1; y += rows)
-    if (!send_all(viewer, update_packet(name, what, y, std::min(y + rows, what.region.y1)).finished())) return false;
-  return true;
-}
-
-/// Sends frame after frame. Whatever the viewer sends is thrown away; that it has closed the connection shows there.
-void ViewerStream::Shared::serve(const Connection& viewer) {
-  if (!send_all(viewer, create_packet(name, width, height).finished())) return;
-  for (;;) {
-    std::optional<ViewerFrame> next;
-    {
-      std::unique_lock lock(mutex);
-      sending = false;
-      changed.notify_all();
-      changed.wait_for(lock, look_interval, [&] { return stop || frame; });
-      if (stop) return;
-      next = std::exchange(frame, {});
-      sending = next.has_value();
-      if (sending) taken = Clock::now();
-    }
-    if (viewer.is_closed_by_other()) return fail("the viewer has closed the connection");
-    if (next && !send_frame(viewer, *next)) return;
-  }
-}
-
-void ViewerStream::Shared::run() {
+bool ViewerStream::Shared::connect() {
   std::string why;
-  if (const auto viewer = Connection::to(
-          address.host, address.port, [this] { return !stopped(); }, why)) {
-    {
-      const std::lock_guard lock(mutex);
-      connected = sending = true, taken = Clock::now();
-    }
-    serve(*viewer);
-  } else if (!why.empty()) {
-    fail(why);
-  }
-  const std::lock_guard lock(mutex);
-  connected = sending = false, ended = true;
-  changed.notify_all();
+  const auto waits = [this] {
+    const std::lock_guard lock(mutex);
+    return !stop;
+  };
+  viewer = Connection::to(address.host, address.port, waits, why);
+  if (!viewer) return !why.empty() && fail(why);
+  set(State::sending);
+  Packet create(PacketType::create_image, name);
+  create.add(width, height);
+  create.add_channels();
+  return send(std::move(create));
 }
 
-ViewerStream::ViewerStream(const ViewerAddress& address, const std::string& name, int width, int height)
-    : shared_(std::make_shared<Shared>()) {
-  shared_->address = address, shared_->name = all_printable(name), shared_->width = width, shared_->height = height;
+bool ViewerStream::Shared::send_frame(const ViewerFrame& frame) {
+  const auto row_bytes = viewer_channel_count * sizeof(float) * static_cast<std::size_t>(frame.region.width());
+  const int rows = std::max(1, static_cast<int>(band_bytes / row_bytes));
+  for (int y = frame.region.y0; y < frame.region.y1; y += rows) {
+    Packet packet(PacketType::update_image_v3, name);
+    packet.add_channels();
+    packet.add_rows(frame, y, std::min(y + rows, frame.region.y1));
+    if (!send(std::move(packet))) return false;
+  }
+  return true;
+}
+
+/// Does a piece of work on a thread that nobody waits for; false: it has failed.
+void ViewerStream::start(std::function<bool(Shared&)> work) {
   try {
-    std::thread([shared = shared_] {
+    std::thread([shared = shared_, work = std::move(work)] {
       try {
-        shared->run();
+        if (work(*shared)) shared->set(Shared::State::idle);
       } catch (const std::exception& error) {
         shared->fail(error.what());
       }
     }).detach();
   } catch (const std::exception& error) {
-    shared_->problem = text_of(address) + ": " + error.what();
-    shared_->ended = true;
+    shared_->fail(error.what());
   }
+}
+
+ViewerStream::ViewerStream(const ViewerAddress& address, const std::string& name, int width, int height)
+    : shared_(new Shared{address, all_printable(name), width, height, {}, {}}) {
+  start([](Shared& its) { return its.connect(); });
 }
 
 ViewerStream::~ViewerStream() {
   const std::lock_guard lock(shared_->mutex);
   shared_->stop = true;
-  shared_->changed.notify_all();
 }
 
 bool ViewerStream::ready() const {
-  const std::lock_guard lock(shared_->mutex);
-  return shared_->connected && !shared_->sending && !shared_->frame;
+  {
+    const std::lock_guard lock(shared_->mutex);
+    if (shared_->state != Shared::State::idle) return false;
+  }
+  return !shared_->viewer->is_closed_by_other() || shared_->fail(closed);
 }
 
 void ViewerStream::send(ViewerFrame frame) {
-  const std::lock_guard lock(shared_->mutex);
-  shared_->frame = std::move(frame);
-  shared_->changed.notify_all();
+  shared_->set(Shared::State::sending);
+  start([frame = std::move(frame)](Shared& its) { return its.send_frame(frame); });
 }
 
 void ViewerStream::finish(double patience) {
+  using State = Shared::State;
+  Shared& its = *shared_;
   const auto start = Clock::now(), latest = start + longest_finish;
   const auto patient = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(patience));
-  std::unique_lock lock(shared_->mutex);
-  for (;;) {
-    const bool done = shared_->ended || (shared_->connected && !shared_->sending && !shared_->frame);
-    if (done) return;
-    const auto until = std::min(latest, (shared_->connected ? std::max(start, shared_->taken) : start) + patient);
-    if (Clock::now() >= until) break;
-    shared_->changed.wait_until(lock, std::min(until, Clock::now() + look_interval));
+  std::unique_lock lock(its.mutex);
+  while (its.state == State::connecting || its.state == State::sending) {
+    const bool connected = its.state == State::sending;
+    const auto until = std::min(latest, (connected ? std::max(start, its.taken) : start) + patient);
+    if (Clock::now() >= until) {
+      its.problem = text_of(its.address) +
+                    (connected ? ": the viewer has not taken the last picture" : ": no connection before the end");
+      its.stop = true;
+      return;
+    }
+    its.changed.wait_until(lock, std::min(until, Clock::now() + look_interval));
   }
-  if (shared_->problem.empty())
-    shared_->problem = text_of(shared_->address) + (shared_->connected ? ": the viewer has not taken the last picture"
-                                                                       : ": no connection before the end");
-  shared_->stop = true;
 }
 
 std::optional<std::string> ViewerStream::problem() {
@@ -232,27 +209,23 @@ std::optional<std::string> ViewerStream::problem() {
 }
 
 ViewerAddress read_viewer_address(const std::string& text) {
-  const auto refuse = [&text] {
+  const bool bracket = text.starts_with('[');
+  const std::size_t colon = text.find(':');
+  std::size_t end = text.size();
+  if (bracket)
+    end = std::min(end, text.find(']'));
+  else if (colon == text.rfind(':'))  // with more of them it is an IPv6 address
+    end = std::min(end, colon);
+  ViewerAddress address{text.substr(bracket ? 1 : 0, bracket ? end - 1 : end), usual_viewer_port};
+  const std::string rest = bracket ? text.substr(std::min(end + 1, text.size())) : text.substr(end);
+  if (!rest.empty()) address.port = rest.substr(1);
+  double port = 0;
+  const bool right = (rest.empty() || rest[0] == ':') && (!bracket || end < text.size()) &&
+                     address.port.find_first_not_of("0123456789") == rest.npos &&
+                     number_from_text(address.port, port) && port >= 1 && port <= 65535;
+  if (!right || address.host.empty() || address.host.find('\0') != rest.npos)
     throw UsageError("found " + in_quotes(printable(text)) + ", expected HOST or HOST:PORT, such as localhost:" +
                      usual_viewer_port + " or [::1]:" + usual_viewer_port);
-  };
-  ViewerAddress address{text, usual_viewer_port};
-  const std::size_t colon = text.rfind(':'), closing = text.find(']');
-  std::optional<std::string> port;
-  if (!text.empty() && text[0] == '[') {
-    if (closing == text.npos || (closing + 1 < text.size() && text[closing + 1] != ':')) refuse();
-    address.host = text.substr(1, closing - 1);
-    if (closing + 1 < text.size()) port = text.substr(closing + 2);
-  } else if (colon != text.npos && text.find(':') == colon) {  // with more of them it is an IPv6 address
-    address.host = text.substr(0, colon), port = text.substr(colon + 1);
-  }
-  if (port) {
-    double number = 0;
-    const bool digits = !port->empty() && port->find_first_not_of("0123456789") == port->npos;
-    if (!digits || !number_from_text(*port, number) || number < 1 || number > 65535) refuse();
-    address.port = *port;
-  }
-  if (address.host.empty() || address.host.find('\0') != address.host.npos) refuse();
   return address;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/film/film.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,8 +33,8 @@ struct ViewerFrame {
   std::vector<float> values;
 };
 
-/// A connection to a viewer. The name of its host is looked up, the connection made and everything sent on a thread of
-/// its own; no function waits for the viewer unless it says so. A viewer that fails changes nothing but problem();
+/// A connection to a viewer. The name of its host is looked up, the connection made and everything sent on threads of
+/// their own; no function waits for the viewer unless it says so. A viewer that fails changes nothing but problem();
 /// nothing is tried again then.
 class ViewerStream {
  public:
@@ -43,7 +44,8 @@ class ViewerStream {
   ViewerStream(const ViewerStream&) = delete;
   ViewerStream& operator=(const ViewerStream&) = delete;
 
-  /// Whether the viewer is there and has taken all that was sent.
+  /// Whether the viewer is there and has taken all that was sent. What it sends is thrown away; that it has closed the
+  /// connection shows there.
   bool ready() const;
   /// Sends a frame in the background; only if ready().
   void send(ViewerFrame frame);
@@ -55,7 +57,9 @@ class ViewerStream {
 
  private:
   struct Shared;
-  std::shared_ptr<Shared> shared_;  ///< the thread has it, too, as a look-up of a name cannot be stopped
+  void start(std::function<bool(Shared&)> work);
+
+  std::shared_ptr<Shared> shared_;  ///< threads have it, too, as a look-up of a name cannot be stopped
 };
 
 }  // namespace tyndall

@@ -15,8 +15,8 @@ namespace tyndall {
 class WatchedFunction {
  public:
   /// Sets the linear radiance rgb at a point of the picture, see SampleSource. rgb holds NaN before.
-  using Function = void (*)(void* user, double x, double y, std::uint64_t sample, double rgb[3]);
-  WatchedFunction(Function function, void* user);
+  using Function = std::function<void(double x, double y, std::uint64_t sample, double rgb[3])>;
+  explicit WatchedFunction(Function function);
 
   std::shared_ptr<const SampleSource> source() const { return source_; }
 
@@ -37,7 +37,6 @@ class WatchedFunction {
   void note(double x, double y, std::uint64_t index, const std::string& reason);
 
   Function function_;
-  void* user_;
   std::shared_ptr<const SampleSource> source_;
   mutable Mutex mutex_;  ///< guards what follows
   std::string first_;

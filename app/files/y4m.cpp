@@ -4,14 +4,13 @@
 #include "core/image/tonemap.h"
 #include "core/image/whole_file.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 
 namespace tyndall {
-namespace {
 
-constexpr std::string_view frame_header = "FRAME\n";
-
-}  // namespace
+static constexpr std::string_view frame_header = "FRAME\n";
 
 std::vector<std::uint8_t> ycbcr_planes(const std::vector<std::uint8_t>& rgb) {
   constexpr double red = 0.299, green = 0.587, blue = 0.114;
@@ -28,23 +27,36 @@ std::vector<std::uint8_t> ycbcr_planes(const std::vector<std::uint8_t>& rgb) {
   return planes;
 }
 
-/// Readers such as FFmpeg's allow at most 95 bytes. Programs pass over the matrix; films of another one are not gone on
-/// with.
-std::string Y4mFile::header() const {
-  return "YUV4MPEG2 W" + std::to_string(format_.width) + " H" + std::to_string(format_.height) + " F" +
-         std::to_string(format_.rate) + ":" + std::to_string(format_.rate_divisor) +
-         " Ip A1:1 C444 XCOLORRANGE=LIMITED XBT601 X" + format_.mark + "\n";
-}
-
 Y4mFile::Y4mFile(const std::filesystem::path& file, const Y4mFormat& format, bool fresh)
-    : file_(file), format_(format), stream_(is_stream(file)) {
-  if (file == "-")
-    bytes_ = OpenFile(standard_output);
-  else
-    bytes_ = OpenFile(file, stream_ ? OpenFor::writing : OpenFor::changing);
+    : file_(file),
+      stream_(is_stream(file)),
+      // Readers such as FFmpeg's allow at most 95 bytes. Programs pass over the matrix; films of another one are not
+      // gone on with.
+      header_(fmt::format("YUV4MPEG2 W{} H{} F{}:{} Ip A1:1 C444 XCOLORRANGE=LIMITED XBT601 X{}\n", format.width,
+                          format.height, format.rate, format.rate_divisor, format.mark)),
+      frame_bytes_(frame_header.size() +
+                   std::uint64_t{3} * static_cast<unsigned>(format.width) * static_cast<unsigned>(format.height)),
+      bytes_(file == "-" ? OpenFile(standard_output)
+                         : OpenFile(file, stream_ ? OpenFor::writing : OpenFor::changing)) {
   check(bytes_.error());
-  if (!stream_) go_on_with_file(fresh);
-  if (frames_ == 0) write(header());
+  if (stream_) {
+    write(header_);
+    return;
+  }
+  std::string found(header_.size(), '\0');
+  std::size_t got = 0;
+  std::uint64_t size = 0;
+  check(bytes_.read(found.data(), found.size(), got));
+  check(bytes_.size(size));
+  found.resize(got);
+  if (!fresh && !header_.starts_with(found))
+    throw UsageError(file_.string() + ": found " +
+                     (found.starts_with("YUV4MPEG2 ") ? "a film of another scene, other settings or another version"
+                                                      : "a file that is no film of this command") +
+                     ", expected one to go on with; --fresh replaces it");
+  if (!fresh && found == header_) frames_ = static_cast<int>((size - header_.size()) / frame_bytes_);
+  check(cut_off());
+  if (frames_ == 0) write(header_);
 }
 
 void Y4mFile::check(int error) const {
@@ -52,32 +64,9 @@ void Y4mFile::check(int error) const {
     throw IoError((file_ == "-" ? "standard output" : file_.string()) + ": cannot write: " + error_text(error));
 }
 
-std::uint64_t Y4mFile::end_of(int frames) const {
-  const std::uint64_t planes =
-      std::uint64_t{3} * static_cast<unsigned>(format_.width) * static_cast<unsigned>(format_.height);
-  return header().size() + static_cast<unsigned>(frames) * (frame_header.size() + planes);
-}
-
-void Y4mFile::go_on_with_file(bool fresh) {
-  const std::string expected = header();
-  std::string found(expected.size(), '\0');
-  std::size_t got = 0;
-  std::uint64_t size = 0;
-  check(bytes_.read(found.data(), found.size(), got));
-  check(bytes_.size(size));
-  found.resize(got);
-  if (!fresh && !expected.starts_with(found))
-    throw UsageError(file_.string() + ": found " +
-                     (found.starts_with("YUV4MPEG2 ") ? "a film of another scene, other settings or another version"
-                                                      : "a file that is no film of this command") +
-                     ", expected one to go on with; --fresh replaces it");
-  if (!fresh && found == expected) frames_ = static_cast<int>((size - end_of(0)) / (end_of(1) - end_of(0)));
-  check(cut_off());
-}
-
 /// Leaves the whole frames, and goes on behind them.
 int Y4mFile::cut_off() const {
-  const std::uint64_t end = frames_ > 0 ? end_of(frames_) : 0;
+  const std::uint64_t end = frames_ > 0 ? header_.size() + static_cast<unsigned>(frames_) * frame_bytes_ : 0;
   const int problem = bytes_.truncate(end);
   return problem != 0 ? problem : bytes_.seek(end);
 }

@@ -31,16 +31,14 @@ class Y4mFile {
   void add(const LinearImage& image, const Display& display);
 
  private:
-  std::string header() const;
-  void go_on_with_file(bool fresh);
   int cut_off() const;
-  std::uint64_t end_of(int frames) const;
   void check(int error) const;
   void write(const std::string& bytes);
 
   std::filesystem::path file_;
-  Y4mFormat format_;
-  bool stream_ = false;
+  bool stream_;
+  std::string header_;
+  std::uint64_t frame_bytes_;
   OpenFile bytes_;
   int frames_ = 0;
 };

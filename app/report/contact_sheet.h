@@ -1,14 +1,23 @@
 #pragma once
-#include "app/report/lettering.h"
 #include "app/text/values.h"
 #include "core/image/image.h"
 #include "core/scene/settings.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 /// Many pictures on one, with a line or two beneath each.
 namespace tyndall {
+
+/// A font file's path in the first folder that has it, of those of Debian, Arch, Fedora and the user; "" if none has.
+std::string find_font(const std::string& file);
+
+/// A picture as a screen shows it: 8-bit sRGB, 3 bytes a pixel, top row first.
+struct ScreenPicture {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;
+};
 
 struct SheetPicture {
   ScreenPicture picture;
@@ -26,7 +35,8 @@ int sheet_columns(int width, int height, int count);
 /// The picture in these pixels, as a screen shows it. Light is averaged where it is made smaller.
 ScreenPicture on_sheet(const LinearImage& image, const Display& display, Size cell);
 
-/// The pictures, which have one size, row by row.
+/// The pictures, which have one size, row by row. What they are called is written in a font of the system; in a plain
+/// built-in one, of Latin letters and digits alone, where there is none.
 ScreenPicture contact_sheet(const std::vector<SheetPicture>& pictures, int columns, const std::string& heading,
                             const std::string& note);
 

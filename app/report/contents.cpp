@@ -9,20 +9,22 @@ namespace {
 
 template <class Kinds>
 const char* type_of(const Kinds& kind) {
-  return std::visit([](const auto& k) { return std::decay_t<decltype(k)>::type; }, kind);
+  const auto type = []<class Kind>(const Kind&) {
+    if constexpr (std::is_same_v<Kind, Vec3d>)
+      return "constant";
+    else
+      return Kind::type;
+  };
+  return std::visit(type, kind);
 }
 
 void count(const Scene& scene, const Solid3d& solid, Contents& contents) {
-  const Material& material = scene.materials[static_cast<std::size_t>(solid.material)];
-  const int lights = std::holds_alternative<Light<double>>(material.kind) ? 1 : 0;
-  if (const auto* sphere = std::get_if<Sphere<>>(&solid.shape)) {
-    ++contents.shapes[sphere->center_end ? "moving sphere" : "sphere"];
-    contents.lights += lights;
-  } else {
-    const auto* disk = std::get_if<Disk<>>(&solid.shape);
-    ++contents.shapes[disk && disk->inner > 0 ? "ring" : type_of(solid.shape)];
-    contents.lights += (std::holds_alternative<Box<>>(solid.shape) ? 6 : 1) * lights;
-  }
+  const auto* sphere = std::get_if<Sphere<>>(&solid.shape);
+  const auto* disk = std::get_if<Disk<>>(&solid.shape);
+  const bool moves = sphere && sphere->center_end, has_hole = disk && disk->inner > 0;
+  ++contents.shapes[moves ? "moving sphere" : has_hole ? "ring" : type_of(solid.shape)];
+  if (std::holds_alternative<Light<double>>(scene.materials[static_cast<std::size_t>(solid.material)].kind))
+    contents.lights += std::holds_alternative<Box<>>(solid.shape) ? 6 : 1;
 }
 
 void add_leaves(const std::vector<Object>& objects, ObjectPath& path, std::vector<ObjectPath>& out) {
@@ -34,13 +36,6 @@ void add_leaves(const std::vector<Object>& objects, ObjectPath& path, std::vecto
       out.push_back(path);
     path.pop_back();
   }
-}
-
-std::string background_of(const Scene& scene) {
-  if (std::holds_alternative<Gradient>(scene.background)) return Gradient::type;
-  if (std::holds_alternative<Hemispheres>(scene.background)) return Hemispheres::type;
-  if (std::holds_alternative<SkyPicture>(scene.background)) return SkyPicture::type;
-  return std::get<Vec3d>(scene.background) == Vec3d{} ? "none" : "constant";
 }
 
 }  // namespace
@@ -81,14 +76,14 @@ Contents contents_of(const Scene& scene) {
   contents.motion =
       contents.shapes.count("moving sphere") > 0 && scene.camera.shutter_close > scene.camera.shutter_open;
   contents.defocus = scene.camera.defocus_angle > 0;
-  contents.background = background_of(scene);
+  contents.background = scene.background == Background(Vec3d{}) ? "none" : type_of(scene.background);
   return contents;
 }
 
-std::string alpha_note(const std::vector<std::string>& with_alpha) {
+std::string alpha_note(std::vector<std::string> with_alpha) {
   if (with_alpha.empty()) return "";
-  std::string names;
-  for (const std::string& name : with_alpha) names += (names.empty() ? "" : ", ") + in_quotes(name);
+  for (std::string& name : with_alpha) name = in_quotes(name);
+  const std::string names = joined(with_alpha);
   if (with_alpha.size() == 1)
     return "texture " + names + " has an alpha channel, which is not looked at: what is hidden beneath it is shown";
   return "textures " + names + " have alpha channels, which are not looked at: what is hidden beneath them is shown";

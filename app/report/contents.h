@@ -43,6 +43,6 @@ struct Contents {
 Contents contents_of(const Scene& scene);
 
 /// One sentence about the textures that have an alpha channel: it is not looked at. "": none has.
-std::string alpha_note(const std::vector<std::string>& with_alpha);
+std::string alpha_note(std::vector<std::string> with_alpha);
 
 }  // namespace tyndall

@@ -4,80 +4,75 @@
 #include "core/render/render.h"
 
 #include <algorithm>
+#include <functional>
 #include <vector>
 
 namespace tyndall {
 namespace {
 
-constexpr int pairs = 9, rounds = 5;
-constexpr double seconds_of_pair = 0.1, seconds_of_round = 0.2;  // that each render of one takes, about
-constexpr int widest = 160;                                      // most pixels in a row of the small picture
+constexpr int widest = 160;  // most pixels in a row of the small picture
 
-RenderResult timed(const PreparedScene& scene, const std::string& isa, std::uint32_t spp) {
-  RenderOptions options;
-  options.threads = 1;
-  options.isa = isa;
-  options.spp = spp;
-  return render(scene, options);
-}
+/// Two ways to render a picture, each of which takes about so many seconds.
+struct TimedPair {
+  const PreparedScene &one, &other;
+  std::string isa;
+  std::uint32_t min_spp;
+  double seconds;
+};
 
-/// How many samples a pixel, `spp` or more, take about `seconds` to render.
-std::uint32_t enough_samples(const PreparedScene& scene, const std::string& isa, std::uint32_t spp, double seconds) {
-  while (spp < 4096 && timed(scene, isa, spp).seconds < seconds / 2) spp *= 2;
-  return spp;
-}
-
-double squared_error(const RenderResult& result) {
-  const double error = estimate_error(result.film).relative_error;
-  return error * error;
-}
-
-void make_small(Scene& scene) {
-  if (scene.width <= widest) return;
-  scene.height = std::max(scene.height * widest / scene.width, 1);
-  scene.width = widest;
+/// Renders both in turns, each of them first every other time. Returns how many times as long the first one took, the
+/// shortest first. seen: called with the results of both.
+std::vector<double> time_ratios(const TimedPair& pair, int rounds,
+                                const std::function<void(const RenderResult&, const RenderResult&)>& seen) {
+  std::uint32_t spp = pair.min_spp;
+  const auto timed = [&](const PreparedScene& scene) {
+    return render(scene, {.threads = 1, .isa = pair.isa, .spp = spp});
+  };
+  while (spp < 4096 && timed(pair.one).seconds < pair.seconds / 2) spp *= 2;
+  std::vector<double> ratios;
+  for (int round = 0; round < rounds; ++round) {
+    RenderResult results[2];
+    for (const int k : {round % 2, 1 - round % 2}) results[k] = timed(k == 0 ? pair.one : pair.other);
+    ratios.push_back(results[0].seconds / results[1].seconds);
+    seen(results[0], results[1]);
+  }
+  std::sort(ratios.begin(), ratios.end());
+  return ratios;
 }
 
 MethodGain measure(const PreparedScene& with, const PreparedScene& without, const std::string& isa) {
-  const std::uint32_t spp = enough_samples(with, isa, 4, seconds_of_round);
-  double times[rounds], with_error = 0, without_error = 0;
-  for (double& time : times) {
-    const RenderResult own = timed(with, isa, spp), other = timed(without, isa, spp);
-    time = own.seconds / other.seconds;
-    with_error = squared_error(own), without_error = squared_error(other);
-  }
-  std::sort(times, times + rounds);
-  const double time = times[rounds / 2];
-  return {true, time, without_error > 0 ? time * with_error / without_error : 1};
+  double own_error = 0, other_error = 0;
+  const std::vector<double> times =
+      time_ratios({with, without, isa, 4, 0.2}, 5, [&](const auto& own, const auto& other) {
+        own_error = estimate_error(own.film).relative_error, other_error = estimate_error(other.film).relative_error;
+      });
+  const double ratio = own_error / other_error;
+  return {true, times[2], other_error > 0 ? times[2] * ratio * ratio : 1};
 }
 
 }  // namespace
 
 KernelGain measure_kernel_gain(const PreparedScene& scene, const Kernels& kernels) {
-  const std::string isa = kernels.isa;
   KernelGain result;
-  result.isa = isa;
+  result.isa = kernels.isa;
   if (kernels.set_for(scene.view()) == KernelSet::everything) return result;
   RenderScene columns = scene.columns();
   columns.kernel = KernelSet::everything;
   const PreparedScene full(std::make_shared<const Scene>(scene.scene()), columns);
-  const std::uint32_t spp = enough_samples(scene, isa, 1, seconds_of_pair);
-  std::vector<double> gains;
-  for (result.pairs = 0; result.pairs < pairs; ++result.pairs) {
-    const bool own_first = result.pairs % 2 == 0;
-    const RenderResult first = timed(own_first ? scene : full, isa, spp);
-    const RenderResult second = timed(own_first ? full : scene, isa, spp);
-    gains.push_back(own_first ? second.seconds / first.seconds : first.seconds / second.seconds);
-    result.same_picture &= resolve(first.film) == resolve(second.film);
-  }
-  std::sort(gains.begin(), gains.end());
-  result.gain = gains[pairs / 2];
+  const std::vector<double> gains =
+      time_ratios({full, scene, result.isa, 1, 0.1}, 9,
+                  [&](const auto& a, const auto& b) { result.same_picture &= resolve(a.film) == resolve(b.film); });
+  result.pairs = static_cast<int>(gains.size());
+  result.gain = gains[gains.size() / 2];
   result.minimum = gains.front(), result.maximum = gains.back();
   return result;
 }
 
 MethodGain measure_method_gain(MisMethod method, Scene scene, const std::string& isa) {
-  make_small(scene);
+  if (scene.width > widest) {
+    scene.height = std::max(scene.height * widest / scene.width, 1);
+    scene.width = widest;
+  }
   const auto with = prepare(scene);
   const bool specular = !with->columns().specular.sphere.empty() || with->guide().lobes() > 0;
   switch (method) {

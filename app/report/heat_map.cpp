@@ -14,44 +14,33 @@ namespace {
 constexpr int gap = 4, bar = 8, mark = 3, dot = 2;
 static_assert(gap + bar + mark + 5 * dot + 1 == heat_scale_rows);
 
-/// The few signs that the scale needs, each as 3 x 5 dots, row by row.
-std::array<std::string_view, 5> dots_of(char sign) {
-  if (sign == '0') return {"###", "# #", "# #", "# #", "###"};
-  if (sign == '1') return {" # ", "## ", " # ", " # ", "###"};
-  if (sign == '5') return {"###", "#  ", "###", "  #", "###"};
-  return {"   ", "   ", "   ", "   ", " # "};
-}
+/// The texts of the scale.
+using Dots = std::array<std::string_view, 5>;
+constexpr Dots zero{"###", "# #", "# #", "# #", "###"}, one{" # ", "## ", " # ", " # ", "###"},
+    half{"###     ###", "# #     #  ", "# #     ###", "# #       #", "###  #  ###"};
 
 void set(LinearImage& image, int x, int y, const std::array<float, 3>& colour = {0.8f, 0.8f, 0.8f}) {
   if (x < 0 || x >= image.width || y < 0 || y >= image.height) return;
   std::copy(colour.begin(), colour.end(), image.rgb.begin() + 3 * (std::ptrdiff_t{y} * image.width + x));
 }
 
-void write(LinearImage& image, int left, int top, std::string_view text) {
-  for (const char sign : text) {
-    const auto rows = dots_of(sign);
-    for (int y = 0; y < 5 * dot; ++y)
-      for (int x = 0; x < 3 * dot; ++x)
-        if (rows[static_cast<std::size_t>(y / dot)][static_cast<std::size_t>(x / dot)] == '#')
-          set(image, left + x, top + y);
-    left += 4 * dot;
-  }
-}
-
-int width_of(std::string_view text) { return (4 * static_cast<int>(text.size()) - 1) * dot; }
-
 void draw_scale(LinearImage& image, int top) {
-  const int last = image.width - 1;
+  const int last = image.width - 1, text = top + gap + bar + mark + 1;
   for (int y = 0; y < bar; ++y)
     for (int x = 0; x <= last; ++x)
       set(image, x, top + gap + y, heat(static_cast<float>(x) / static_cast<float>(std::max(last, 1))));
-  const auto label = [&](int x, int left, std::string_view text) {
-    for (int y = 0; y < mark; ++y) set(image, x, top + gap + bar + y);
-    write(image, left, top + gap + bar + mark + 1, text);
+  // Marks a place; the text begins so many of its halves to the left of `from`.
+  const auto label = [&](int at, const Dots& rows, int from, int halves) {
+    const int width = dot * static_cast<int>(rows[0].size());
+    for (int y = 0; y < mark; ++y) set(image, at, top + gap + bar + y);
+    for (int y = 0; y < 5 * dot; ++y)
+      for (int x = 0; x < width; ++x)
+        if (rows[static_cast<std::size_t>(y / dot)][static_cast<std::size_t>(x / dot)] == '#')
+          set(image, from - halves * width / 2 + x, text + y);
   };
-  label(0, 0, "0");
-  if (last > 80) label(last / 2, last / 2 - width_of("0.5") / 2, "0.5");
-  if (last > 20) label(last, last + 1 - width_of("1"), "1");
+  label(0, zero, 0, 0);
+  if (last > 80) label(last / 2, half, last / 2, 1);
+  if (last > 20) label(last, one, last + 1, 2);
 }
 
 }  // namespace

@@ -8,41 +8,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace tyndall {
 namespace {
 
 std::string text_of(Vec3d v) { return fmt::format("{:.9g} {:.9g} {:.9g}", v.x, v.y, v.z); }
 
-const char* fate_text(Fate fate) {
-  switch (fate) {
-    case Fate::goes_on:
-      return "goes on";
-    case Fate::ends_at_light:
-      return "ends there";
-    case Fate::escapes:
-      return "escapes";
-    case Fate::absorbed:
-      return "is absorbed";
-    case Fate::roulette:
-      return "is ended by roulette";
-    case Fate::cut:
-      return "is cut at max_depth";
-    case Fate::lost:
-      return "is rejected, as a value is not a finite number";
-  }
-  return "";
-}
+/// In the order of Fate.
+constexpr const char* fates[] = {"goes on",
+                                 "ends there",
+                                 "escapes",
+                                 "is absorbed",
+                                 "is ended by roulette",
+                                 "is cut at max_depth",
+                                 "is rejected, as a value is not a finite number"};
+static_assert(std::size(fates) == static_cast<std::size_t>(Fate::lost) + 1);
 
 double luminance(Vec3f light) {
-  const double sum = 0.2126 * static_cast<double>(light.x) + 0.7152 * static_cast<double>(light.y) +
-                     0.0722 * static_cast<double>(light.z);
+  const double sum = dot(to_double(light), Vec3d{0.2126, 0.7152, 0.0722});
   return std::isfinite(sum) ? sum : 0;
 }
 
 /// What a path met at one place and what became of it there, in a few words: "ball (gold), goes on".
 std::string vertex_text(const Scene& scene, const RenderScene& compiled, const PathVertex& vertex) {
-  std::string fate = fate_text(vertex.fate);
+  const std::string fate = fates[static_cast<std::size_t>(vertex.fate)];
   if (vertex.met == Met::nothing) return fate;
   const std::string met =
       vertex.met == Met::medium
@@ -81,25 +71,23 @@ std::string object_text(const Scene& scene, const std::vector<int>& path) {
 }
 
 std::string replay_text(const Scene& scene, const RenderScene& compiled, const PathReplay& path) {
-  std::string text;
-  const auto row = [&text](const char* name, Vec3d v) { text += std::string("    ") + name + text_of(v) + "\n"; };
-  text += "0 camera\n";
-  row("point       ", to_double(path.origin) + compiled.origin);
+  std::string text = "0 camera\n";
+  const auto row = [&text](const char* name, const std::string& is) {
+    text += fmt::format("    {:<12}{}\n", name, is);
+  };
+  row("point", text_of(to_double(path.origin) + compiled.origin));
   int number = 0;
   for (const PathVertex& v : path.vertices) {
     text += std::to_string(++number) + " " + branch_text(v) + heading(scene, compiled, v) + "\n";
-    if (v.met != Met::nothing) row("point       ", to_double(v.point) + compiled.origin);
-    row("came by     ", to_double(v.direction));
-    row("throughput  ", to_double(v.throughput));
-    if (v.kept != 1)
-      text += fmt::format("    by smoke    {:.3g} of what it carried before\n", static_cast<double>(v.kept));
-    row("radiance    ", to_double(v.radiance));
-    if (!(v.by_specular_paths == Vec3f{})) row("by chains   ", to_double(v.by_specular_paths));
+    if (v.met != Met::nothing) row("point", text_of(to_double(v.point) + compiled.origin));
+    row("came by", text_of(to_double(v.direction)));
+    row("throughput", text_of(to_double(v.throughput)));
+    if (v.kept != 1) row("by smoke", fmt::format("{:.3g} of what it carried before", static_cast<double>(v.kept)));
+    row("radiance", text_of(to_double(v.radiance)));
+    if (!(v.by_specular_paths == Vec3f{})) row("by chains", text_of(to_double(v.by_specular_paths)));
     if (v.chance < 1)
-      text += fmt::format("    by chance   this lamp counts {:.3g}, as chains find it, too\n",
-                          static_cast<double>(v.chance));
-    text += "    dimensions  " + std::to_string(v.first_dimension) + " to " +
-            std::to_string(v.first_dimension + dimension::per_event - 1) + "\n";
+      row("by chance", fmt::format("this lamp counts {:.3g}, as chains find it, too", static_cast<double>(v.chance)));
+    row("dimensions", fmt::format("{} to {}", v.first_dimension, v.first_dimension + dimension::per_event - 1));
   }
   if (path.reused)
     text +=

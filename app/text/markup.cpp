@@ -8,24 +8,17 @@
 #include <iterator>
 
 namespace tyndall {
-namespace {
-
 /// The printable text with references in place of the letters that are among `special`.
-std::string with_references(std::string_view text, std::string_view special) {
-  const auto reference_of = [](char c) -> std::string_view {
-    return c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : "&#39;";
-  };
+static std::string with_references(std::string_view text, std::string_view special) {
+  static constexpr std::string_view all = "<>&\"'";
+  static constexpr const char* references[] = {"&lt;", "&gt;", "&amp;", "&quot;", "&#39;"};
   std::string out;
   for (const char c : all_printable(text)) {
-    if (special.find(c) == special.npos)
-      out += c;
-    else
-      out += reference_of(c);
+    const bool plain = special.find(c) == special.npos;
+    out += plain ? std::string(1, c) : references[all.find(c)];
   }
   return out;
 }
-
-}  // namespace
 
 std::string in_xml(std::string_view text) { return with_references(text, "<>&\"'"); }
 

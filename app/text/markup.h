@@ -4,14 +4,13 @@
 #include <utility>
 #include <vector>
 
-/// Text as other formats quote it. In pages and reports that are made of tags: whatever it is, also the name of a file,
-/// they stay well-formed. What neither XML nor HTML can hold, control characters and bytes that are not UTF-8, becomes
-/// as printable() writes it.
+/// Text as other formats quote it: whatever it is, also the name of a file, these stay well-formed.
 namespace tyndall {
 
-/// As XML, so JUnit and SVG, holds it, between tags or in quotes: <, >, &, " and ' are references.
+/// As XML, so JUnit and SVG, holds it, between tags or in quotes: <, >, &, " and ' are references. What it cannot hold,
+/// control characters and bytes that are not UTF-8, becomes as printable() writes it.
 std::string in_xml(std::string_view text);
-/// As HTML holds it, between tags or in quotes: <, &, " and ' are references.
+/// The same as HTML holds it, where > stands for itself.
 std::string in_html(std::string_view text);
 /// As one field of CSV: in quotes where it needs them.
 std::string in_csv(const std::string& text);

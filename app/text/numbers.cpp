@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
+#include <string_view>
 
 namespace tyndall {
 namespace {
@@ -37,61 +39,46 @@ int step_exponent(const Slider& slider) {
   return static_cast<int>(std::floor(std::log10((slider.high - slider.low) / 500) + 1e-9));
 }
 
-constexpr int deepest = 50;  // nested parentheses
-
-/// Reads a sum from left to right; `failed` once something is not as expected.
+/// Reads a sum from left to right, with the usual order of operations.
 class Reader {
  public:
-  explicit Reader(std::string_view text) : text_(text) {}
+  explicit Reader(const std::string& text) : rest_(text.c_str()) {}
 
+  /// Nothing for what is no sum, or has no finite value.
   std::optional<double> all() {
-    const double value = sum();
-    skip();
-    if (failed_ || !rest().empty() || !std::isfinite(value)) return {};
+    const double value = terms("+-");
+    if (next() != '\0' || failed_ || !std::isfinite(value)) return {};
     return value;
   }
 
  private:
-  std::string_view rest() const { return std::string_view(text_).substr(at_); }
-  void skip() { at_ = std::min(text_.find_first_not_of(' ', at_), text_.size()); }
+  static constexpr int deepest = 50;  // nested parentheses and signs
+
+  char next() {
+    while (*rest_ == ' ') ++rest_;
+    return *rest_;
+  }
   bool take(std::string_view word) {
-    skip();
-    if (!rest().starts_with(word)) return false;
-    at_ += word.size();
+    next();
+    if (!std::string_view(rest_).starts_with(word)) return false;
+    rest_ += word.size();
     return true;
   }
-
-  double sum() {
-    double value = product();
-    for (;;) {
-      if (take("+"))
-        value += product();
-      else if (take("-"))
-        value -= product();
-      else
-        return value;
+  /// signs: "+-" of a sum of products, "*/" of a product of powers.
+  double terms(std::string_view signs) {
+    const auto part = [&] { return signs == "+-" ? terms("*/") : signed_power(); };
+    double value = part();
+    while (next() != '\0' && signs.find(*rest_) != signs.npos) {
+      const char sign = *rest_++;
+      const double right = part();
+      value = sign == '+' ? value + right : sign == '-' ? value - right : sign == '*' ? value * right : value / right;
     }
-  }
-  double product() {
-    double value = signed_power();
-    for (;;) {
-      if (take("*"))
-        value *= signed_power();
-      else if (take("/"))
-        value /= signed_power();
-      else
-        return value;
-    }
+    return value;
   }
   double signed_power() {
     if (++depth_ > deepest) return fail();
-    double value = 0;
-    if (take("-"))
-      value = -signed_power();
-    else if (take("+"))
-      value = signed_power();
-    else
-      value = power();
+    const double sign = take("-") ? -1 : take("+") ? 1 : 0;
+    const double value = sign != 0 ? sign * signed_power() : power();
     --depth_;
     return value;
   }
@@ -102,40 +89,27 @@ class Reader {
   double single() {
     if (take("pi") || take("π")) return pi;
     const bool root = take("sqrt");
-    if (take("(")) {
-      const double value = sum();
-      if (!take(")")) return fail();
-      return root ? std::sqrt(value) : value;
-    }
-    return root ? fail() : number();
+    if (!take("(")) return root ? fail() : number();
+    const double value = terms("+-");
+    if (!take(")")) return fail();
+    return root ? std::sqrt(value) : value;
   }
+  /// Without sign, and no words: std::strtod() reads "inf" and "0x10", too.
   double number() {
-    skip();
-    const char first = at_ < text_.size() ? text_[at_] : '\0';
-    if (first != '.' && (first < '0' || first > '9')) return fail();  // no signs and no words here
-    const auto digits = [&](std::size_t from) {
-      return std::min(text_.find_first_not_of("0123456789", from), text_.size());
-    };
-    std::size_t end = digits(at_);
-    if (end < text_.size() && text_[end] == '.') end = digits(end + 1);
-    if (end < text_.size() && (text_[end] == 'e' || text_[end] == 'E')) {
-      const std::size_t sign = end + 1 < text_.size() && (text_[end + 1] == '+' || text_[end + 1] == '-') ? 1 : 0;
-      const std::size_t after = digits(end + 1 + sign);
-      if (after > end + 1 + sign) end = after;
-    }
-    if (text_.substr(at_, end - at_) == ".") return fail();
-    const double value = std::strtod(text_.substr(at_, end - at_).c_str(), nullptr);
-    at_ = end;
+    const char first = next(), second = first == '\0' ? first : rest_[1];
+    char* end = nullptr;
+    const double value = std::strtod(rest_, &end);
+    if ((first != '.' && (first < '0' || first > '9')) || second == 'x' || second == 'X' || end == rest_) return fail();
+    rest_ = end;
     return value;
   }
   double fail() {
     failed_ = true;
-    at_ = text_.size();
+    rest_ = "";
     return 0;
   }
 
-  std::string text_;
-  std::size_t at_ = 0;
+  const char* rest_;  ///< what is not read yet
   int depth_ = 0;
   bool failed_ = false;
 };
@@ -200,21 +174,13 @@ std::string format_count(unsigned long long n) {
 }
 
 bool parse_number(const std::string& text, const std::string& unit, double& value) {
-  std::string number = text;
-  std::replace(number.begin(), number.end(), ',', '.');
-  const auto trim = [&] {
-    number.erase(0, std::min(number.find_first_not_of(' '), number.size()));
-    number.erase(number.find_last_not_of(' ') + 1);
-  };
-  trim();
+  std::string number = text.substr(0, text.find_last_not_of(' ') + 1);
   if (!unit.empty() && number.size() > unit.size() && number.ends_with(unit))
     number.resize(number.size() - unit.size());
-  trim();
-  const auto typed = evaluate(number);
-  if (typed) value = *typed;
+  std::replace(number.begin(), number.end(), ',', '.');
+  const auto typed = Reader(number).all();
+  value = typed.value_or(value);
   return typed.has_value();
 }
-
-std::optional<double> evaluate(std::string_view text) { return Reader(text).all(); }
 
 }  // namespace tyndall

@@ -1,9 +1,7 @@
 #pragma once
 #include "core/base/fields.h"
 
-#include <optional>
 #include <string>
-#include <string_view>
 
 /// How numbers are shown, typed and put on sliders. All functions are pure.
 namespace tyndall {
@@ -29,12 +27,9 @@ std::string format_short(double value);
 /// "1,024".
 std::string format_count(unsigned long long n);
 
-/// Reads what a user typed: a number or a sum ("1/4", "2*pi"); a decimal comma, spaces and the unit are allowed.
-/// Returns whether it is one.
+/// Reads what a user typed: a number or a sum of such: "1/4", "2*pi", "(1 + 0.5)^2" or "sqrt(2)", with + - * / ^,
+/// parentheses, pi and sqrt in the usual order; a decimal comma, spaces and the unit are allowed. Returns whether it is
+/// one, and has a finite value.
 bool parse_number(const std::string& text, const std::string& unit, double& value);
-
-/// The value of "1/4", "2*pi", "(1 + 0.5)^2" or "sqrt(2)": + - * / ^, parentheses, pi and sqrt, with the usual order.
-/// Nothing for what is no such sum, or has no finite value.
-std::optional<double> evaluate(std::string_view text);
 
 }  // namespace tyndall

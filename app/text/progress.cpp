@@ -47,7 +47,6 @@ std::string progress_text(const RenderProgress& now, const ProgressGoal& goal) {
 ProgressReport::ProgressReport(ProgressStyle style) {
   if (style == ProgressStyle::none) return;
   form_ = style == ProgressStyle::automatic && has_smart_terminal() ? Form::bar : Form::lines;
-  colour_ = form_ == Form::bar && !is_set("NO_COLOR");
   next_ = form_ == Form::bar ? 0.1 : 2;
 }
 
@@ -55,24 +54,17 @@ ProgressReport::~ProgressReport() { clear_bar(); }
 
 void ProgressReport::show(double seconds, double part, const std::string& text) {
   if (form_ == Form::none || seconds < next_) return;
-  if (form_ == Form::bar) {
-    draw_bar(part, text);
-    next_ = seconds + 0.1;
-  } else {
-    complain(text);
-    next_ = seconds + std::clamp(0.25 * seconds, 2.0, 60.0);
-  }
   said_ = true;
-}
-
-void ProgressReport::draw_bar(double part, const std::string& text) {
+  next_ = seconds + (form_ == Form::bar ? 0.1 : std::clamp(0.25 * seconds, 2.0, 60.0));
+  if (form_ == Form::lines) return complain(text);
   constexpr int text_columns = 60;  // kept free, so that the bar keeps its length
   const int columns = terminal_columns() - 1;
   const int cells = std::clamp(columns - text_columns, 0, 40);
   std::string bar;
   if (cells >= 8) {
     const auto full = static_cast<std::size_t>(std::lround(part * cells));
-    bar = "[" + std::string(colour_ ? "\x1b[36m" : "") + std::string(full, '#') + (colour_ ? "\x1b[0m" : "") +
+    const bool colour = !is_set("NO_COLOR");
+    bar = "[" + std::string(colour ? "\x1b[36m" : "") + std::string(full, '#') + (colour ? "\x1b[0m" : "") +
           std::string(static_cast<std::size_t>(cells) - full, '.') + "] ";
   }
   std::fprintf(stderr, "\r\x1b[2K%s%s", bar.c_str(),

@@ -58,11 +58,10 @@ class ProgressReport {
   void finish(const std::string& summary);
 
  private:
-  void draw_bar(double part, const std::string& text);
   void clear_bar();
 
   enum class Form { none, lines, bar } form_ = Form::none;
-  bool colour_ = false, drawn_ = false, said_ = false;
+  bool drawn_ = false, said_ = false;
   double next_ = 0;  ///< second of rendering at which to show again
 };
 

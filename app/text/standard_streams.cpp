@@ -9,11 +9,6 @@
 #include <new>
 
 namespace tyndall {
-namespace {
-
-constexpr std::size_t longest_message = 10000;  // bytes: two of the longest names of files, and what is said of them
-
-}  // namespace
 
 void write_standard_output(const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
@@ -21,6 +16,7 @@ void write_standard_output(const std::string& text) {
 }
 
 void complain(std::string_view text) {
+  constexpr std::size_t longest_message = 10000;  // bytes: two of the longest names of files, and what is said of them
   try {
     std::fprintf(stderr, "tyndall: %s\n", printable(text, longest_message).c_str());
   } catch (const std::bad_alloc&) {

@@ -12,6 +12,8 @@
 #include <concepts>
 #include <cstdlib>
 #include <optional>
+#include <sstream>
+#include <utility>
 
 namespace tyndall {
 namespace {
@@ -37,12 +39,9 @@ bool read_numbers(std::string_view text, char separator, auto& first, auto&... r
 }
 
 std::vector<std::string> split_at(const std::string& text, char separator) {
-  std::vector<std::string> parts(1);
-  for (const char c : text)
-    if (c == separator)
-      parts.emplace_back();
-    else
-      parts.back() += c;
+  std::vector<std::string> parts;
+  std::istringstream in(text + separator);
+  for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
   return parts;
 }
 
@@ -61,39 +60,24 @@ std::string one_line(const JsonValue& json) {
   return describe(json);
 }
 
-/// The same, but a text as itself.
-std::string value_text(const JsonValue& json) {
-  const auto* text = std::get_if<std::string>(&json.value);
-  return text ? *text : one_line(json);
-}
-
 /// The values of a JSON list; nothing if the text is none.
 std::optional<std::vector<std::string>> list_values(const std::string& text) {
   if (!text.starts_with('[')) return {};
   try {
     const JsonDocument json = parse_json(text);
     std::vector<std::string> values;
-    for (const JsonValue& item : std::get<JsonArray>(json.root.value)) values.push_back(value_text(item));
+    for (const JsonValue& item : std::get<JsonArray>(json.root.value)) {
+      const auto* itself = std::get_if<std::string>(&item.value);
+      values.push_back(itself ? *itself : one_line(item));
+    }
     return values;
   } catch (const ParseError&) {
     return {};
   }
 }
 
-/// So many numbers from one to another, both included; rounded to 12 digits, so that they are those that users would
-/// type.
-std::vector<double> even_steps(double from, double to, int steps) {
-  std::vector<double> values;
-  for (int i = 0; i < steps; ++i) {
-    const double part = static_cast<double>(i) / (steps - 1);
-    const double exact = i + 1 == steps ? to : from + part * (to - from);
-    // What is left of two numbers that cancel is 0: -0.3:0.3:7 goes through 0, not through 5.6e-17.
-    const bool cancels = std::abs(exact) < 1e-12 * std::abs(to - from);
-    values.push_back(cancels ? 0 : std::strtod(fmt::format("{:.12g}", exact).c_str(), nullptr));
-  }
-  return values;
-}
-
+/// FROM:TO:STEPS: so many numbers from one to another, both included; rounded to 12 digits, so that they are those that
+/// users would type.
 std::optional<std::vector<std::string>> number_values(const std::string& text) {
   const std::vector<std::string> parts = split_at(text, ':');
   double from = 0, to = 0;
@@ -101,29 +85,46 @@ std::optional<std::vector<std::string>> number_values(const std::string& text) {
   if (!std::isfinite(from) || !std::isfinite(to)) return {};
   const auto steps = static_cast<int>(read_whole(parts[2], 2, max_sweep_steps));
   std::vector<std::string> values;
-  for (const double value : even_steps(from, to, steps)) values.push_back(number_text(value));
+  for (int i = 0; i < steps; ++i) {
+    const double part = static_cast<double>(i) / (steps - 1);
+    const double exact = i + 1 == steps ? to : from + part * (to - from);
+    // What is left of two numbers that cancel is 0: -0.3:0.3:7 goes through 0, not through 5.6e-17.
+    const bool cancels = std::abs(exact) < 1e-12 * std::abs(to - from);
+    values.push_back(number_text(cancels ? 0 : std::strtod(fmt::format("{:.12g}", exact).c_str(), nullptr)));
+  }
   return values;
 }
 
+/// A:B with A < B.
+template <class T>
+Range<T> read_range(const std::string& text, const std::string& example) {
+  Range<T> range;
+  if (!read_numbers(text, ':', range.first, range.last) || std::cmp_less(range.first, 0) || range.first >= range.last)
+    refuse(text, "A:B with whole numbers 0 <= A < B, such as " + example);
+  return range;
+}
+
 /// The pattern in a name whose place ends with that letter.
-NamePattern read_pattern(const std::string& text, char letter, const std::string& expected) {
+NamePattern read_pattern(std::string_view rest, char letter, const std::string& expected) {
+  const std::string text(rest);
   NamePattern pattern;
   bool found = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
+  while (!rest.empty()) {
     std::string& part = found ? pattern.after : pattern.before;
-    if (text[i] != '%') {
-      part += text[i];
-    } else if (i + 1 < text.size() && text[i + 1] == '%') {
-      part += text[++i];
-    } else {
-      const std::size_t end = text.find_first_not_of("0123456789", i + 1);
-      const std::string digits = text.substr(i + 1, end == text.npos ? end : end - i - 1);
-      const bool plain = digits.empty() || (letter == 'd' && digits[0] == '0' && digits.size() == 2);
-      if (end == text.npos || text[end] != letter || found || !plain) refuse(text, expected);
-      pattern.digits = digits.empty() ? 0 : digits[1] - '0';
+    const std::size_t end = std::min(rest.find('%'), rest.size());
+    part += rest.substr(0, end);
+    rest.remove_prefix(end);
+    if (rest.starts_with("%%")) {
+      part += '%';
+    } else if (!rest.empty()) {
+      if (letter == 'd' && rest.size() > 3 && rest[1] == '0' && rest[2] >= '0' && rest[2] <= '9') {
+        pattern.digits = rest[2] - '0';
+        rest.remove_prefix(2);
+      }
+      if (found || rest.size() < 2 || rest[1] != letter) refuse(text, expected);
       found = true;
-      i = end;
     }
+    rest.remove_prefix(std::min<std::size_t>(2, rest.size()));
   }
   if (!found) refuse(text, expected);
   return pattern;
@@ -156,19 +157,12 @@ Size read_size(const std::string& text) {
 }
 
 SampleRange read_samples(const std::string& text) {
-  SampleRange range;
-  if (!read_numbers(text, ':', range.first, range.last) || range.first >= range.last)
-    refuse(text, "A:B with whole numbers 0 <= A < B, such as 0:64");
+  const auto range = read_range<std::uint32_t>(text, "0:64");
   if (range.last - range.first > max_samples) refuse(text, "at most " + std::to_string(max_samples) + " samples");
   return range;
 }
 
-FrameRange read_frames(const std::string& text) {
-  FrameRange range;
-  if (!read_numbers(text, ':', range.first, range.last) || range.first < 0 || range.first >= range.last)
-    refuse(text, "A:B with whole numbers 0 <= A < B, such as 0:48");
-  return range;
-}
+FrameRange read_frames(const std::string& text) { return read_range<int>(text, "0:48"); }
 
 Region read_region(const std::string& text) {
   Region r;
@@ -199,7 +193,8 @@ std::filesystem::path read_file_name(const std::string& text, const std::string&
 
 std::size_t read_name(const std::string& text, const std::vector<std::string>& names) {
   const auto found = std::find(names.begin(), names.end(), text);
-  if (found == names.end()) refuse(text, one_of({names.begin(), names.end()}) + suggestion(text, names));
+  if (found == names.end())
+    refuse(text, one_of({names.begin(), names.end()}) + did_you_mean(text, {names.begin(), names.end()}));
   return static_cast<std::size_t>(found - names.begin());
 }
 
@@ -211,20 +206,17 @@ SweepAxis read_sweep_axis(const std::string& text) {
   if (equals == text.npos || text.front() != '/') refuse(text, expected);
   SweepAxis axis{text.substr(0, equals), {}};
   std::string values = text.substr(equals + 1);
-  if (auto list = list_values(values)) {
-    axis.values = std::move(*list);
-  } else if (auto numbers = number_values(values)) {
-    axis.values = std::move(*numbers);
-  } else {
-    if (values.size() > 1 && values.front() == '[' && values.back() == ']')
-      values = values.substr(1, values.size() - 2);
-    axis.values = split_at(values, ',');
-  }
+  auto read = list_values(values);
+  if (!read) read = number_values(values);
+  if (!read && values.size() > 1 && values.front() == '[' && values.back() == ']')
+    values = values.substr(1, values.size() - 2);
+  axis.values = read ? std::move(*read) : split_at(values, ',');
   if (axis.values.size() < 2) refuse(text, expected);
   for (std::size_t i = 0; i < axis.values.size(); ++i) {
     if (axis.values[i].empty()) refuse(text, expected);
-    for (std::size_t k = 0; k < i; ++k)
-      if (axis.values[k] == axis.values[i]) refuse(text, "each value once; " + axis.values[i] + " is there twice");
+    const auto here = axis.values.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::find(axis.values.begin(), here, *here) != here)
+      refuse(text, "each value once; " + *here + " is there twice");
   }
   return axis;
 }
@@ -238,9 +230,7 @@ NamePattern read_valued_name(const std::string& text) {
 }
 
 std::string name_for(const NamePattern& pattern, int number) {
-  const std::string digits = std::to_string(number);
-  const auto zeros = static_cast<std::size_t>(std::max(0, pattern.digits - static_cast<int>(digits.size())));
-  return pattern.before + std::string(zeros, '0') + digits + pattern.after;
+  return fmt::format("{}{:0{}}{}", pattern.before, number, pattern.digits, pattern.after);
 }
 
 std::string name_for(const NamePattern& pattern, std::string value) {
@@ -261,10 +251,6 @@ std::string wrapped(const std::string& text, std::size_t columns) {
     at = end + 1;
   }
   return out;
-}
-
-std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
-  return did_you_mean(word, {names.begin(), names.end()});
 }
 
 }  // namespace tyndall

@@ -18,10 +18,13 @@ struct Size {
   int width = 0, height = 0;  ///< pixels
 };
 
-/// Sample indices first <= i < last.
-struct SampleRange {
-  std::uint32_t first = 0, last = 0;
+/// first <= n < last.
+template <class T>
+struct Range {
+  T first = 0, last = 0;
 };
+using SampleRange = Range<std::uint32_t>;
+using FrameRange = Range<int>;
 
 /// One sample of a pixel.
 struct SampleKey {
@@ -39,10 +42,6 @@ double read_number(const std::string& text, Valid valid, const std::string& expe
 Size read_size(const std::string& text);
 /// A:B, A < B, at most max_samples of them.
 SampleRange read_samples(const std::string& text);
-/// Frames first <= n < last.
-struct FrameRange {
-  int first = 0, last = 0;
-};
 /// A:B, A < B.
 FrameRange read_frames(const std::string& text);
 /// X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1.
@@ -82,8 +81,5 @@ std::string name_for(const NamePattern& pattern, std::string value);
 /// The text in lines of at most that many bytes, broken at spaces. Longer words, and what stands in [brackets], are not
 /// broken.
 std::string wrapped(const std::string& text, std::size_t columns);
-
-/// ` (did you mean "X"?)` for a misspelt name, or nothing.
-std::string suggestion(const std::string& word, const std::vector<std::string>& names);
 
 }  // namespace tyndall

@@ -117,7 +117,10 @@ void check(int width, int height, bool has_function, const tyndall_watch_options
 /// What the caller wants. The scene has the picture's size and the settings of its samples, and no objects.
 WindowOptions order_of(int width, int height, const tyndall_watch_options& options, Host& host) {
   WindowOptions order;
-  order.function = std::make_shared<WatchedFunction>(host.function(), host.user());
+  order.function = std::make_shared<WatchedFunction>(
+      [called = host.function(), user = host.user()](double x, double y, std::uint64_t sample, double rgb[3]) {
+        called(user, x, y, sample, rgb);
+      });
   order.threads = std::max(options.threads, 1);
   order.hosted = true;
   order.scene.name = options.title && *options.title ? options.title : "watch";
@@ -185,7 +188,7 @@ struct OnlyWindow {
 void show_window([[maybe_unused]] WindowOptions& order, [[maybe_unused]] const std::string& reference) {
 #ifdef TYNDALL_WINDOW
   const OnlyWindow only;
-  check_memory(WindowPlan{order.scene.scene.width, order.scene.scene.height}, free_memory(), "");
+  check_memory({.width = order.scene.scene.width, .height = order.scene.scene.height, .window = true}, free_memory());
   if (const char* log = std::getenv("TYNDALL_UI_LOG")) order.ui_log = log;  // for tests
   if (!reference.empty()) add_reference(reference, order);
   try {

@@ -28,11 +28,12 @@ target_compile_definitions(tyndall_page PRIVATE TYNDALL_WINDOW=1)
 target_link_libraries(tyndall_page PRIVATE tyndall_options tyndall_core nlohmann_json::nlohmann_json tyndall_stb
                       ${fmt_library} tyndall_window_libraries tyndall_shaders web_z web_unwind)
 
-# Scenes and fonts come with the page; textures when they are read, see page.js. Of the fonts it has the characters that
+# Scenes, templates and fonts come with the page; textures when they are read, see page.js. Of the fonts it has the characters that
 # app/window/system/style.cpp always loads.
 set(characters U+20-17F,U+370-45F,U+2010-2026,U+2070-209C,U+2190-2193,U+2212,U+221E,U+2248,U+2264,U+2265)
 set(fonts /usr/share/fonts/truetype)
-set(preloaded "SHELL:--preload-file ${PROJECT_SOURCE_DIR}/assets/scenes@/assets/scenes")
+set(preloaded "SHELL:--preload-file ${PROJECT_SOURCE_DIR}/assets/scenes@/assets/scenes"
+              "SHELL:--preload-file ${PROJECT_SOURCE_DIR}/assets/templates@/assets/templates")
 foreach(font IN ITEMS roboto/unhinted/RobotoTTF/Roboto-Regular.ttf roboto/unhinted/RobotoTTF/Roboto-Medium.ttf
                       jetbrains-mono/JetBrainsMono-Regular.ttf)
   get_filename_component(name ${font} NAME)

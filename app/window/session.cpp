@@ -268,7 +268,8 @@ void Session::export_chart() {
   const std::shared_ptr<const Scene> scene = rendered_scene();
   const std::string stem = stem_of(editor.document().origin->title);
   Chart chart;
-  chart.curves = copies_of(accuracy.named_curves());
+  for (const NamedCurve& one : accuracy.named_curves())
+    if (!one.curve->points.empty()) chart.curves.push_back({one.name, one.curve->points, one.curve->edit});
   if (chart.curves.empty()) return messages.say("there is no curve yet");
   chart.title = stem + (against ? ": true error against " + accuracy.reference()->about : ": estimated error");
   const int threads = wanted.threads;

@@ -111,6 +111,13 @@ std::size_t size_of_letters(std::string_view text, std::size_t limit) {
   return limit;
 }
 
+std::uint32_t next_letter(std::string_view text, std::size_t& at) {
+  const std::string_view rest = text.substr(at);
+  const std::size_t size = letter_size(rest);
+  at += std::max<std::size_t>(size, 1);
+  return size == 0 ? 0xfffd : letter_of(rest.substr(0, size));
+}
+
 std::string shortened(std::string_view text, std::size_t limit) {
   const std::size_t size = size_of_letters(text, limit);
   return std::string(text.substr(0, size)) + (size < text.size() ? "…" : "");

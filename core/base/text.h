@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,9 @@ bool is_utf8(std::string_view text);
 
 /// Returns the size, at most `limit`, of the longest beginning of the text that ends with a whole UTF-8 letter.
 std::size_t size_of_letters(std::string_view text, std::size_t limit);
+
+/// The letter at a byte of a UTF-8 text, and the place of the next one; 0xfffd for a byte that belongs to none.
+std::uint32_t next_letter(std::string_view text, std::size_t& at);
 
 /// The text, or its first `limit` bytes (whole letters) and "…".
 std::string shortened(std::string_view text, std::size_t limit);

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <limits>
 #include <random>
+#include <vector>
 
 namespace tyndall::test::text_test {
 
@@ -43,6 +44,12 @@ TEST_CASE("shortened: whole letters") {
   CHECK(shortened("aäb", 3) == "aä…");
   CHECK(size_of_letters("aäb", 2) == 1);
   CHECK(size_of_letters("aäb", 9) == 4);
+}
+
+TEST_CASE("next_letter: one after the other, also where a byte belongs to none") {
+  std::vector<std::uint32_t> letters;
+  for (std::size_t at = 0; at < 9;) letters.push_back(next_letter("aä…\xffz\xe2", at));
+  CHECK(letters == std::vector<std::uint32_t>{'a', 0xe4, 0x2026, 0xfffd, 'z', 0xfffd});
 }
 
 TEST_CASE("in_quotes: JSON's escapes") { CHECK(in_quotes("a\"b\\c/\n\x01ä") == "\"a\\\"b\\\\c/\\n\\u0001ä\""); }

@@ -1,12 +1,12 @@
 """The planted faults of app, by rooms; bugs_core.py says how an entry reads."""
 
 APP = [
-    ("a difference takes away all that follows", "app/text/numbers.cpp", "value -= «product() → sum()»;", "app/text/arithmetic"),
+    ("a difference takes away all that follows", "app/text/numbers.cpp", "const double right = «part() → terms(signs)»;", "app/text/numbers"),
     ("a comma before the first digit", "app/text/numbers.cpp", "for (std::size_t at = text.size(); at > «3 → 2»; at -= 3)", "app/text/numbers"),
     ("a line end in CSV without quotes", "app/text/markup.cpp", "if (text.find_first_of(«\",\\\"\\r\\n\" → \",\\\"\\r\"»)", "app/text/markup"),
     ("an empty range of samples is taken", "app/text/values.cpp", "«range.first >= range.last → range.first > range.last»)\n"
-     "    refuse(text, \"A:B with whole numbers 0 <= A < B, such as 0:64\")", "app/text/values"),
-    ("a value with a slash names a folder", "app/text/values.cpp", "«std::replace(value.begin(), value.end(), '/', '_'); → »", "app/text/name_pattern"),
+     "    refuse(text, \"A:B with whole numbers 0 <= A < B, such as \" + example)", "app/text/values"),
+    ("a value with a slash names a folder", "app/text/values.cpp", "«std::replace(value.begin(), value.end(), '/', '_'); → »", "app/text/values"),
     ("minutes above an hour are counted again", "app/text/progress.cpp", "whole / 3600, «whole / 60 % 60 → whole / 60», whole % 60", "app/text/progress"),
 
     ("last words that end in empty lines are lost", "app/book/load_program.cpp",
@@ -20,9 +20,9 @@ APP = [
     ("a missing compiler ends the search for one", "app/book/compile_program.cpp",
      "if («end.start_error == ENOENT || end.start_error == EACCES → false») continue;", "book/programs.sh"),
 
-    ("a checkpoint forgets its first sample", "app/files/checkpoint.cpp", ".first_sample = «film.first_sample → 0u»,", "app/files/checkpoint"),
+    ("a checkpoint forgets its first sample", "app/files/checkpoint.cpp", "to.first_sample = «film.first_sample → 0u»;", "app/files/checkpoint"),
     ("a problem of checkpoints is told each time", "app/files/checkpoint.cpp", "«if (problem == last_problem_) return; → »", "app/files/checkpoint"),
-    ("steps between values that miss the last one by one", "app/text/values.cpp", "static_cast<double>(i) / («steps - 1 → steps»);", "app/text/sweep_values"),
+    ("steps between values that miss the last one by one", "app/text/values.cpp", "static_cast<double>(i) / («steps - 1 → steps»);", "app/text/values"),
     ("a byte order mark hides a scene", "app/files/arriving_picture.cpp",
      "«if (rest.starts_with(mark)) rest.remove_prefix(mark.size()); → »", "app/files/arriving_picture"),
     ("one file is written twice", "app/files/outputs.cpp", "if («twin != output → false») throw UsageError", "app/files/outputs commands/refusals"),
@@ -46,8 +46,8 @@ APP = [
     ("fuzzy metal is written as a mirror", "app/export/foreign_scene.cpp", "«if (metal->fuzz > 0) refuse(place_of(material, \"fuzz\"), number_text(metal->fuzz), \"0\"); → »",
      "commands/refusals app/convert_foreign_slow.sh"),
 
-    ("a ring is a disk", "app/report/contents.cpp", "«disk && disk->inner > 0 → false» ? \"ring\"", "app/report/contents"),
-    ("a box of light is one lamp", "app/report/contents.cpp", "(std::holds_alternative<Box<>>(solid.shape) ? «6 → 1» : 1)", "app/report/contents app/contents.sh"),
+    ("a ring is a disk", "app/report/contents.cpp", "has_hole = «disk && disk->inner > 0 → false»;", "app/report/contents"),
+    ("a box of light is one lamp", "app/report/contents.cpp", "std::holds_alternative<Box<>>(solid.shape) ? «6 → 1» : 1;", "app/report/contents app/contents.sh"),
     ("the noise of halves is twice that of their mean", "app/report/film_difference.cpp", "const Vec3f deviates = «0.5f → 1.0f» * (a - b);", "app/report/film_difference"),
     ("the squared difference has the noise of one half in it", "app/report/film_difference.cpp",
      "squares += sum_of(a * «b → a»);", "app/report/film_difference"),

@@ -96,7 +96,8 @@ void pixels_row(Ui& ui, PanelState& state) {
   if (!changed) return;
   try {
     const int wide = static_cast<int>(width), high = static_cast<int>(height);
-    check_memory(WindowPlan{wide, high, has_lights(scene), state.now.clean > 0}, free_memory(),
+    const bool lights = has_lights(scene), clean = state.now.clean > 0;
+    check_memory({.width = wide, .height = high, .emission = lights, .clean = clean, .window = true}, free_memory(),
                  "switch the clean view off");
     Scene& next = state.scene.change();
     next.width = wide, next.height = high;

@@ -1,6 +1,6 @@
 #include "app/window/system/style.h"
 
-#include "app/report/lettering.h"
+#include "app/report/contact_sheet.h"
 #include "core/system/files.h"
 
 #include <filesystem>
@@ -159,7 +159,7 @@ bool add_characters(const std::string& text, Characters& more) {
   constexpr std::size_t maximum = 4000;  // more would make the atlas too large for some displays
   bool added = false;
   for (std::size_t at = 0; at < text.size() && more.size() < maximum;) {
-    const unsigned code = next_character(text, at);
+    const std::uint32_t code = next_letter(text, at);
     if (code > 0xffff || code == 0xfffd || is_always_loaded(static_cast<ImWchar>(code))) continue;
     added = more.insert(static_cast<ImWchar>(code)).second || added;
   }

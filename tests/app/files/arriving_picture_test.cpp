@@ -1,12 +1,10 @@
 #include "app/files/arriving_picture.h"
-#include "app/text/values.h"
+#include "core/base/error.h"
 #include "core/image/tonemap.h"
 #include "tests/support/news.h"
 
 #include <doctest/doctest.h>
-#include <unistd.h>
 
-#include <array>
 #include <memory>
 #include <string>
 
@@ -15,67 +13,45 @@ namespace tyndall::test::arriving_picture_test {
 namespace {
 
 /// A pipe into which the test writes as another program would.
-class Pipe {
- public:
-  Pipe() { REQUIRE(pipe(ends_.data()) == 0); }
-  ~Pipe() {
-    close_writer();
-    close(ends_[0]);
-  }
-  void write(const std::string& text) const {
-    REQUIRE(::write(ends_[1], text.data(), text.size()) == static_cast<ssize_t>(text.size()));
-  }
-  void close_writer() {
-    if (ends_[1] >= 0) close(ends_[1]);
-    ends_[1] = -1;
-  }
-  int reader() const { return ends_[0]; }
+struct Pipe {
+  OpenFile reader, writer;
 
- private:
-  std::array<int, 2> ends_{-1, -1};
+  explicit Pipe(const std::string& begin) {
+    std::tie(reader, writer) = OpenFile::pipe();
+    write(begin);
+  }
+  void write(const std::string& text) const { REQUIRE(writer.write(text.data(), text.size()) == 0); }
+  std::string begin() const { return beginning_of(reader.descriptor()).bytes; }
 };
 
 /// A picture that comes by a pipe, and the news of it.
 struct Arriving {
   Pipe pipe;
   test::News news;
-  std::unique_ptr<ArrivingPicture> picture;
+  ArrivingPicture picture;
 
-  explicit Arriving(const std::string& begin, PpmCurve curve = PpmCurve::srgb) {
-    pipe.write(begin);
-    picture = std::make_unique<ArrivingPicture>(pipe.reader(), beginning_of(pipe.reader()).bytes, "pipe", curve);
-    picture->start([this] { news.tell(); });
+  explicit Arriving(const std::string& begin, PpmCurve curve = PpmCurve::srgb)
+      : pipe(begin), picture(pipe.reader.descriptor(), pipe.begin(), "pipe", curve) {
+    picture.start([this] { news.tell(); });
   }
   bool has_rows(int rows) {
-    return news.wait_until([&] { return picture->arrival().rows == rows; });
+    return news.wait_until([&] { return picture.arrival().rows == rows; });
   }
   /// What is said at the end.
   std::string said() {
-    CHECK(news.wait_until([&] { return picture->arrival().ended; }));
-    return picture->arrival().said;
+    CHECK(news.wait_until([&] { return picture.arrival().ended; }));
+    return picture.arrival().said;
   }
-  Vec3f at(double x, double y) const { return picture->source()->sample(x, y, 0); }
+  Vec3f at(double x, double y) const { return picture.source()->sample(x, y, 0); }
 };
-
-std::string refusal(const std::string& text) {
-  Pipe pipe;
-  pipe.write(text);
-  pipe.close_writer();
-  try {
-    const ArrivingPicture picture(pipe.reader(), beginning_of(pipe.reader()).bytes, "pipe", PpmCurve::srgb);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 }  // namespace
 
 TEST_CASE("arriving picture: rows are there while the program still writes") {
   Arriving arriving("P3 2 3 255\n");
-  CHECK(arriving.picture->width() == 2);
-  CHECK(arriving.picture->height() == 3);
-  CHECK(arriving.picture->arrival() == Arrival{});
+  CHECK(arriving.picture.width() == 2);
+  CHECK(arriving.picture.height() == 3);
+  CHECK(arriving.picture.arrival() == Arrival{});
   arriving.pipe.write("255 0 51  0 0 0\n");
   REQUIRE(arriving.has_rows(1));
   CHECK(arriving.at(0.3, 0.9).x == 1);
@@ -83,18 +59,18 @@ TEST_CASE("arriving picture: rows are there while the program still writes") {
   CHECK(arriving.at(0.3, 1.0).x == 0);  // has not come
   arriving.pipe.write("255 255 255 255 255 255 1 2 3 255 255");
   REQUIRE(arriving.has_rows(2));
-  CHECK_FALSE(arriving.picture->arrival().ended);
+  CHECK_FALSE(arriving.picture.arrival().ended);
   CHECK(arriving.at(1.5, 2.5).x == 0);
   arriving.pipe.write(" 255");
-  arriving.pipe.close_writer();
+  arriving.pipe.writer.close();
   CHECK(arriving.said() == "");
-  CHECK(arriving.picture->arrival().rows == 3);
+  CHECK(arriving.picture.arrival().rows == 3);
   CHECK(arriving.at(1.5, 2.5).x == 1);
 }
 
 TEST_CASE("arriving picture: what is there stays when the program ends early, and it is said where") {
   Arriving arriving(std::string("P6 1 4 255\n\xff\xff\xff\xff\xff\xff\xff", 18));
-  arriving.pipe.close_writer();
+  arriving.pipe.writer.close();
   CHECK(arriving.said() == "ended at row 2 of 4");
   CHECK(arriving.at(0.5, 1.5).x == 1);
   CHECK(arriving.at(0.5, 2.5).x == 0);  // one of its three numbers came
@@ -120,21 +96,24 @@ TEST_CASE("arriving picture: as the books' programs write, by the square") {
 }
 
 TEST_CASE("arriving picture: what has no size is refused in one line") {
-  CHECK(refusal("P3\n400 ") == "pipe: ended where the height of a picture is expected");
-  CHECK(refusal("P") == "pipe: ended where P3 or P6 (colours), or P2 or P5 (greys) of a picture is expected");
-  CHECK(refusal("P3 400 x 255") == "pipe: cannot read: damaged: found \"x\", expected the height, a whole number");
-  Pipe pipe;
-  pipe.close_writer();
-  CHECK(beginning_of(pipe.reader()).bytes.empty());
+  for (const auto& [text, refusal] :
+       {std::pair{"P3\n400 ", "pipe: ended where the height of a picture is expected"},
+        std::pair{"P", "pipe: ended where P3 or P6 (colours), or P2 or P5 (greys) of a picture is expected"},
+        std::pair{"P3 400 x 255", "pipe: cannot read: damaged: found \"x\", expected the height, a whole number"}}) {
+    Pipe pipe(text);
+    pipe.writer.close();
+    const int file = pipe.reader.descriptor();
+    CHECK_THROWS_WITH_AS(ArrivingPicture(file, pipe.begin(), "pipe", PpmCurve::srgb), refusal, UsageError);
+    CHECK(pipe.begin().empty());
+  }
 }
 
 TEST_CASE("arriving picture: text before it is told at once, while the program goes on") {
   const auto found = [](const std::string& text) {
-    Pipe pipe;  // its writer stays open
-    pipe.write(text);
-    const Beginning begin = beginning_of(pipe.reader());
+    const Pipe pipe(text);  // its writer stays open
+    const Beginning begin = beginning_of(pipe.reader.descriptor());
     if (begin.is_picture || begin.is_scene) return std::string(begin.is_picture ? "a picture" : "a scene");
-    return first_line_of(pipe.reader(), begin.bytes);
+    return first_line_of(pipe.reader.descriptor(), begin.bytes);
   };
   CHECK(found("P3\n") == "a picture");
   CHECK(found("rendering...\nP3\n2 1\n255\n") == "\"rendering...\"");

@@ -31,23 +31,16 @@ TEST_CASE("memory: what the process's own group may still take is known, not onl
   CHECK(free_memory(root).bytes == 100000);
 }
 
-TEST_CASE("memory: films that are read beside their sum, and copies for checkpoints, are counted") {
-  MemoryPlan plan;
-  plan.width = plan.height = 100;
-  std::uint64_t enough = 1;
-  const auto fits = [&] {
-    try {
-      check_memory(plan, {enough, "here"});
-      return true;
-    } catch (const UsageError&) {
-      return false;
-    }
-  };
-  while (!fits()) enough += 10000;
-  plan.parts = true;
-  CHECK_FALSE(fits());
-  plan.parts = false, plan.checkpoints = true;
-  CHECK_FALSE(fits());
+TEST_CASE("memory: films that are read beside their sum, copies for checkpoints and clean views are counted") {
+  MemoryPlan plan{.width = 100, .height = 100};
+  const FreeMemory enough{11'000'000 + 10'000 * (bytes_per_pixel(false) + 25), "here"};
+  CHECK_NOTHROW(check_memory(plan, enough));
+  CHECK_THROWS_AS(check_memory(plan, {enough.bytes - 1, "here"}), UsageError);
+  for (const auto counted : {&MemoryPlan::parts, &MemoryPlan::checkpoints, &MemoryPlan::clean, &MemoryPlan::window}) {
+    plan.*counted = true;
+    CHECK_THROWS_AS(check_memory(plan, enough), UsageError);
+    plan.*counted = false;
+  }
 }
 
 }  // namespace tyndall::test::memory_test

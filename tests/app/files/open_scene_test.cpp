@@ -6,13 +6,15 @@
 
 namespace tyndall::test::open_scene_test {
 
-TEST_CASE("options change the scene after overrides") {
+TEST_CASE("options change the scene after overrides, and it is checked again") {
   SceneRequest request;
   request.what = "cornell-box";
   request.overrides = {{"/image/width", "100"}, {"/image/height", "90"}, {"/render/max_depth", "9"}};
   request.size = Size{64, 48};
   set(request.render, &RenderSettings::seed, 7);
   set(request.render, &RenderSettings::fresnel, FresnelKind::schlick);
+  set(request.render, &RenderSettings::integrator, Integrator::nee);
+  set(request.render, &RenderSettings::sampler, SamplerKind::random);
   set(request.display, &Display::exposure, 2);
   set(request.display, &Display::tone_map, ToneMap::aces);
   const Scene scene = open_scene(request).scene;
@@ -23,23 +25,10 @@ TEST_CASE("options change the scene after overrides") {
   CHECK(scene.display.exposure == 2);
   CHECK(scene.display.tone_map == ToneMap::aces);
   CHECK(scene.render.fresnel == FresnelKind::schlick);
-}
-
-TEST_CASE("what options change is checked too") {
-  SceneRequest request;
-  request.what = "cornell-box";
+  CHECK(scene.render.integrator == Integrator::nee);
+  CHECK(scene.render.sampler == SamplerKind::random);
   request.size = Size{100000, 10};
   CHECK_THROWS_AS(open_scene(request), SceneError);
-}
-
-TEST_CASE("methods named by options replace the scene's") {
-  SceneRequest request;
-  request.what = "cornell-box";
-  set(request.render, &RenderSettings::integrator, Integrator::nee);
-  set(request.render, &RenderSettings::sampler, SamplerKind::random);
-  const RenderSettings settings = open_scene(request).scene.render;
-  CHECK(settings.integrator == Integrator::nee);
-  CHECK(settings.sampler == SamplerKind::random);
 }
 
 TEST_CASE("a program is compiled only where that is allowed") {

@@ -2,29 +2,18 @@
 
 #include "app/text/values.h"
 #include "core/base/error.h"
-#include "tests/support/paths.h"
+#include "tests/support/scratch.h"
 
 #include <doctest/doctest.h>
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
+#include <functional>
 
 namespace tyndall::test::outputs_test {
+namespace fs = std::filesystem;
 
-namespace {
-
-/// An empty folder of this test.
-std::filesystem::path empty_folder(const char* name) {
-  const std::filesystem::path folder = scratch_folder() / name;
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
-
-}  // namespace
-
-TEST_CASE("names of images") {
+TEST_CASE("names of images; standard output needs a format, and a format needs standard output") {
   CHECK_NOTHROW(check_image_names({"a.png", "b.PFM", "c.hdr", "d.Ppm"}));
   for (const char* name : {"a.jpg", "png", "a", "a.png.txt", ".png"}) {
     CAPTURE(name);
@@ -37,44 +26,34 @@ TEST_CASE("names of images") {
                        "--gamma2: found no output that ends in .ppm, expected one: only PPM is written so", UsageError);
   CHECK(is_exr("a.EXR"));
   CHECK_FALSE(is_exr("a.png"));
-}
-
-TEST_CASE("standard output needs a format, and a format needs standard output") {
-  const auto refusal = [](const std::vector<std::filesystem::path>& files, const char* format, const char* stats) {
-    try {
-      check_image_names(files, {format}, stats);
-    } catch (const UsageError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  CHECK(refusal({"-"}, "", "").find("expected --format as well") != std::string::npos);
-  CHECK(refusal({"a.png"}, "png", "").find("expected -o - as well") != std::string::npos);
-  CHECK(refusal({"-", "-"}, "png", "").find("- twice") != std::string::npos);
-  CHECK(refusal({"-"}, "png", "-").find("only one can go to standard output") != std::string::npos);
+  CHECK_THROWS_WITH_AS(check_image_names({"-"}), doctest::Contains("expected --format as well"), UsageError);
+  CHECK_THROWS_WITH_AS(check_image_names({"a.png"}, {"png"}), doctest::Contains("expected -o - as well"), UsageError);
+  CHECK_THROWS_WITH_AS(check_image_names({"-", "-"}, {"png"}), doctest::Contains("- twice"), UsageError);
+  CHECK_THROWS_WITH_AS(check_image_names({"-"}, {"png"}, "-"), doctest::Contains("only one can go to standard output"),
+                       UsageError);
 }
 
 TEST_CASE("whether a file can be written is known beforehand, and asking leaves nothing") {
-  const auto folder = empty_folder("outputs_test");
+  const auto folder = scratch_folder("outputs_test");
   CHECK_NOTHROW(check_can_write(folder / "a.png"));
-  CHECK(std::filesystem::is_empty(folder));
+  CHECK(fs::is_empty(folder));
   CHECK_THROWS_AS(check_can_write(folder / "none" / "a.png"), IoError);
-  std::filesystem::create_directory(folder / "b.png");
+  fs::create_directory(folder / "b.png");
   CHECK_THROWS_AS(check_can_write(folder / "b.png"), ImageFileError);
-  std::ofstream(folder / "c.png") << "old";
+  write_text(folder / "c.png", "old");
   CHECK_NOTHROW(check_can_write(folder / "c.png"));
-  CHECK(std::filesystem::file_size(folder / "c.png") == 3);
+  CHECK(fs::file_size(folder / "c.png") == 3);
 }
 
 TEST_CASE("outputs over inputs are refused, under whatever name; so are two outputs that are one file") {
-  const auto folder = empty_folder("outputs_over_inputs");
+  const auto folder = scratch_folder("outputs_over_inputs");
   const auto scene = folder / "scene.json";
-  std::ofstream(scene) << "scene";
-  std::ofstream(folder / "other.json") << "other";
-  std::filesystem::create_directory(folder / "sub");
-  std::filesystem::create_symlink("scene.json", folder / "link.json");
-  std::filesystem::create_hard_link(scene, folder / "hard.json");
-  const std::vector<std::filesystem::path> inputs = {folder / "none.png", scene};
+  write_text(scene, "scene");
+  write_text(folder / "other.json", "other");
+  fs::create_directory(folder / "sub");
+  fs::create_symlink("scene.json", folder / "link.json");
+  fs::create_hard_link(scene, folder / "hard.json");
+  const std::vector<fs::path> inputs = {folder / "none.png", scene};
   for (const char* name : {"scene.json", "./scene.json", "sub/../scene.json", "link.json", "hard.json"}) {
     CAPTURE(name);
     CHECK_THROWS_AS(check_outputs({{"--stats", folder / name}}, inputs), UsageError);
@@ -88,7 +67,7 @@ TEST_CASE("outputs over inputs are refused, under whatever name; so are two outp
 }
 
 TEST_CASE("what can be written is written, though something else cannot") {
-  const auto folder = empty_folder("outputs_test");
+  const auto folder = scratch_folder("outputs_test");
   Film film = make_film(3, 2, {0, 0, 3, 2}, 0, 1);
   const LinearImage image{3, 2, resolve(film)};
   const Picture picture{film, image, {}, [](const auto& file) { return Embedded{file.filename().string(), ""}; }, {}};
@@ -104,56 +83,43 @@ TEST_CASE("what can be written is written, though something else cannot") {
 TEST_CASE(
     "what cannot be written where it belongs goes beside it, then among the temporary files, and the error says "
     "where") {
-  const auto folder = empty_folder("outputs_rescue");
-  const auto refuses = [&](const std::filesystem::path& refused) {
-    return [=](const std::filesystem::path& file) {
-      if (file.parent_path() == refused || file == refused)
-        throw ImageFileError(file.string() + ": cannot write: busy");
-      write_text_file(file, "picture");
-    };
-  };
-  const auto problem = [](const std::filesystem::path& file, const auto& write) {
-    try {
-      write_or_rescue(file, write);
-    } catch (const ImageFileError& error) {
-      return std::string(error.what());
-    }
-    return std::string("none");
-  };
-  const auto file = folder / "a.png";
-  const std::string busy = file.string() + ": cannot write: busy";
-  CHECK(problem(folder / "b.png", refuses(file)) == "none");
-  CHECK(problem(file, refuses(file)) == busy + "; it is in " + (folder / "a.new.png").string() + " instead");
-  CHECK(problem(file, refuses(file)) == busy + "; it is in " + (folder / "a.new-2.png").string() + " instead");
-  CHECK(std::filesystem::file_size(folder / "a.new-2.png") == 7);
-  std::filesystem::create_directory(folder / "tmp");
-  const char* before = std::getenv("TMPDIR");
-  const std::string kept = before ? before : "";
-  setenv("TMPDIR", (folder / "tmp").c_str(), 1);
-  const std::string far = problem(file, refuses(folder));
-  CHECK(far.find(busy + "; it is in " + (folder / "tmp" / "tyndall-").string()) == 0);
-  CHECK(far.find("/a.png instead") != std::string::npos);
-  // Nowhere: the error alone, and nothing is left.
-  std::filesystem::remove_all(folder / "tmp");
-  std::filesystem::create_directory(folder / "tmp");
-  const auto never = [](const std::filesystem::path& at) {
-    throw ImageFileError(at.string() + ": cannot write: full");
-  };
-  CHECK(problem(file, never) == file.string() + ": cannot write: full");
-  CHECK(std::filesystem::is_empty(folder / "tmp"));
-  setenv("TMPDIR", "/nowhere", 1);
-  CHECK(problem(file, never) == file.string() + ": cannot write: full");
-  if (before)
-    setenv("TMPDIR", kept.c_str(), 1);
-  else
-    unsetenv("TMPDIR");
-  // What goes through a pipe was for a reader who has left.
+  const auto folder = scratch_folder("outputs_rescue");
+  const auto file = folder / "a.png", temporary = folder / "tmp";
   int calls = 0;
-  const auto count = [&calls](const std::filesystem::path& at) {
-    ++calls;
-    throw ImageFileError(at.string() + ": cannot write: Broken pipe");
+  // What is told where the places `are_refused`.
+  const auto problem = [&](const fs::path& to, const std::function<bool(const fs::path&)>& are_refused) -> std::string {
+    try {
+      write_or_rescue(to, [&](const fs::path& at) {
+        ++calls;
+        if (are_refused(at)) throw ImageFileError(at.string() + ": cannot write: busy");
+        write_text_file(at, "picture");
+      });
+    } catch (const ImageFileError& error) {
+      return error.what();
+    }
+    return "none";
   };
-  CHECK(problem("-", count) == "-: cannot write: Broken pipe");
+  const auto itself = [&](const fs::path& at) { return at == file; };
+  const auto beside = [&](const fs::path& at) { return at.parent_path() == folder; };
+  const auto always = [](const fs::path&) { return true; };
+  const std::string busy = file.string() + ": cannot write: busy";
+  CHECK(problem(folder / "b.png", itself) == "none");
+  CHECK(problem(file, itself) == busy + "; it is in " + (folder / "a.new.png").string() + " instead");
+  CHECK(problem(file, itself) == busy + "; it is in " + (folder / "a.new-2.png").string() + " instead");
+  CHECK(fs::file_size(folder / "a.new-2.png") == 7);
+  const char* before = std::getenv("TMPDIR");
+  const std::string kept = before ? before : "/tmp";
+  setenv("TMPDIR", temporary.c_str(), 1);
+  CHECK(problem(file, beside) == busy);  // there is no such folder
+  fs::create_directory(temporary);
+  CHECK(problem(file, always) == busy);
+  CHECK(fs::is_empty(temporary));
+  const std::string far = problem(file, beside);
+  CHECK(far.starts_with(busy + "; it is in " + (temporary / "tyndall-").string()));
+  CHECK(far.ends_with("/a.png instead"));
+  setenv("TMPDIR", kept.c_str(), 1);
+  calls = 0;
+  CHECK(problem("-", always) == "-: cannot write: busy");  // what goes through a pipe was for a reader who has left
   CHECK(calls == 1);
 }
 

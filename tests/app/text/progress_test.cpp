@@ -6,11 +6,9 @@
 
 namespace tyndall::test::progress_test {
 
-namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
-}
 
-TEST_CASE("the part done is that of the limit which is nearest") {
+TEST_CASE("the part done is that of the limit which is nearest; samples that a continued film brings do not count") {
   const RenderProgress now{16, 5, 40, 0.1};
   CHECK(progress_fraction(now, {.spp = 64}) == 0.25);
   CHECK(progress_fraction(now, {.spp = 64, .time_limit = 10}) == 0.5);
@@ -18,22 +16,15 @@ TEST_CASE("the part done is that of the limit which is nearest") {
   CHECK(progress_fraction(now, {.target_error = 0.2}) == 1);
   CHECK(progress_fraction(now, {}) == 0);
   CHECK(progress_fraction({0, 0, 0, infinity}, {.spp = 64, .target_error = 0.1}) == 0);
-}
-
-TEST_CASE("samples that a continued film brings along do not count as progress") {
   CHECK(progress_fraction({32, 1, 1, 1}, {.spp_before = 32, .spp = 64}) == 0);
   CHECK(progress_fraction({48, 1, 1, 1}, {.spp_before = 32, .spp = 64}) == 0.5);
 }
 
 TEST_CASE("durations are shown in seconds, minutes or hours") {
-  CHECK(duration(0) == "0.0 s");
-  CHECK(duration(12.34) == "12.3 s");
-  CHECK(duration(59.94) == "59.9 s");
-  CHECK(duration(59.96) == "1:00");
-  CHECK(duration(245) == "4:05");
-  CHECK(duration(3599.6) == "1:00:00");
-  CHECK(duration(3723) == "1:02:03");
-  CHECK(duration(1e12) == "years");
+  for (const auto& [seconds, text] :
+       {std::pair{0.0, "0.0 s"}, std::pair{12.34, "12.3 s"}, std::pair{59.94, "59.9 s"}, std::pair{59.96, "1:00"},
+        std::pair{245.0, "4:05"}, std::pair{3599.6, "1:00:00"}, std::pair{3723.0, "1:02:03"}, std::pair{1e12, "years"}})
+    CHECK(duration(seconds) == text);
 }
 
 TEST_CASE("the line says what is known and leaves out what is not") {
