@@ -79,21 +79,22 @@ Arrangement find_arrangement(const PictureNumbers& picture, const SceneRequest& 
                              const std::function<bool()>& go_on) {
   Arrangement best{std::move(loaded), ""};
   if (!is_program(request.what)) return best;
-  const auto misfit = [&](LoadedScene& other) {
+  const auto differences = [&](LoadedScene& other) {
     other.scene.width = picture.width, other.scene.height = picture.height;
-    return rough_misfit(picture, other.scene);
+    return rough_differences(picture, other.scene);
   };
-  const Misfit plain = misfit(best.loaded);
-  if (plain.different <= part_of_other_scene * plain.blocks) return best;
-  double amount = part_of_right_scene * plain.amount;
+  const auto plain = differences(best.loaded);
+  const Misfit misfit = misfit_of(plain);
+  if (misfit.different <= part_of_other_scene * misfit.blocks) return best;
+  double allowed = part_of_right_scene * amount_of(plain, plain);
   const Scene first = best.loaded.scene;
   for (const char* compiler : {"g++", "clang++"}) {
     if (!go_on()) return best;
     std::optional<LoadedScene> other = load(request, compiler);
     if (!other || other->scene == first) continue;
-    const Misfit found = misfit(*other);
-    if (found.amount >= amount) continue;
-    amount = found.amount;
+    const auto found = differences(*other);
+    if (amount_of(found, found) >= allowed) continue;
+    allowed = amount_of(found, found);
     best = {std::move(*other), std::string("balls as ") + compiler + " places them"};
   }
   return best;

@@ -18,6 +18,8 @@ constexpr double part_for_samples = 1 / 60.0;     // of the time, for the sample
 constexpr int large_edge = 4;                     // of a large block, in small ones
 constexpr double rare_light = 0.5, dark = 0.003;  // of the light of a region, and light, that samples may be off
 constexpr double min_cut = 0.02;                  // of the light of single samples, that white cuts off
+constexpr double max_different = 1 / 150.0;       // of the small blocks of a picture that agrees
+constexpr double min_seen = 0.25;                 // of a difference must be seen beside the noise of another picture
 constexpr std::uint32_t first_spp = 16;
 constexpr double part_of_difference = 0.05, min_error = 0.002;
 
@@ -34,14 +36,12 @@ Lattice lattice_of(int width, int height) {
 }
 
 /// Three numbers of each pixel of the lattice.
-std::vector<float> on_lattice(const std::vector<float>& whole, const Lattice& lattice) {
-  std::vector<float> part;
-  part.reserve(3 * lattice.pixels());
+Numbers on_lattice(const std::vector<float>& whole, const Lattice& lattice) {
+  Numbers part;
   for (int y = 0; y < lattice.height; y += lattice.step)
     for (int x = 0; x < lattice.width; x += lattice.step) {
-      const auto at =
-          3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(lattice.width) + static_cast<std::size_t>(x));
-      part.insert(part.end(), {whole[at], whole[at + 1], whole[at + 2]});
+      const std::ptrdiff_t at = 3 * (std::ptrdiff_t{y} * lattice.width + x);
+      part.insert(part.end(), whole.begin() + at, whole.begin() + at + 3);
     }
   return part;
 }
@@ -49,7 +49,7 @@ std::vector<float> on_lattice(const std::vector<float>& whole, const Lattice& la
 /// The regions without pixels that show a noise texture.
 Regions without_noise(Regions regions, const SeenObjects& seen) {
   for (std::size_t pixel = 0; pixel < seen.of_pixel.size(); ++pixel)
-    if (seen.objects[static_cast<std::size_t>(seen.of_pixel[pixel])].noisy_texture) regions.of_pixel[pixel] = -1;
+    if (seen.at(pixel).noisy_texture) regions.of_pixel[pixel] = -1;
   return regions;
 }
 
@@ -86,8 +86,7 @@ Expectation::Expectation(const PictureNumbers& picture, const Scene& scene, cons
       start_(plain_program(scene)),
       lattice_(lattice_of(picture.width, picture.height)),
       edge_(edge_of_blocks(lattice_)),
-      reference_(on_lattice(reference.image.rgb, lattice_)),
-      reference_variance_(on_lattice(reference.variance, lattice_)),
+      reference_{on_lattice(reference.image.rgb, lattice_), on_lattice(reference.variance, lattice_)},
       threads_(0),
       go_on_(go_on) {
   seen_ = seen_objects(scene, lattice_);
@@ -95,14 +94,13 @@ Expectation::Expectation(const PictureNumbers& picture, const Scene& scene, cons
   large_ = without_noise(blocks_of(lattice_, large_edge * edge_), seen_);
   objects_ = regions_of(seen_, lattice_);
   take_samples(options);
-  const Regions small = without_rare_light(small_);
-  const auto left_out = [](const Regions& regions) {
-    return static_cast<double>(std::count(regions.of_pixel.begin(), regions.of_pixel.end(), -1));
+  const auto kept = [](const Regions& regions) {
+    return static_cast<double>(regions.of_pixel.size()) -
+           static_cast<double>(std::count(regions.of_pixel.begin(), regions.of_pixel.end(), -1));
   };
-  const double pixels = static_cast<double>(small_.of_pixel.size()) - left_out(small_);
-  comparable_ = pixels > 0 ? 1 - (left_out(small) - left_out(small_)) / pixels : 1;
-  small_ = small, large_ = without_rare_light(large_), objects_ = without_rare_light(objects_);
-  variance_ = means_of(statistics_of(samples_, count_, {}).variance, large_);
+  const double pixels = kept(small_);
+  for (Regions* regions : {&small_, &large_, &objects_}) *regions = without_rare_light(std::move(*regions));
+  comparable_ = pixels > 0 ? kept(small_) / pixels : 1;
   whole_ = {small_.of_pixel, 1};
   for (int& region : whole_.of_pixel) region = std::min(region, 0);
 }
@@ -110,7 +108,8 @@ Expectation::Expectation(const PictureNumbers& picture, const Scene& scene, cons
 /// The regions without those in which the samples show quite another amount of light than there is: it comes on few
 /// paths, so that nobody knows how often white cuts it off.
 Regions Expectation::without_rare_light(Regions regions) const {
-  const std::vector<double> sampled = means_of(mean_, regions), right = means_of(reference_, regions);
+  const Numbers sampled = means_of(regions, single_, &SampleStatistics::mean),
+                right = means_of(regions, reference_.light);
   for (int& region : regions.of_pixel) {
     if (region < 0) continue;
     const auto first = 3 * static_cast<std::size_t>(region);
@@ -123,30 +122,26 @@ Regions Expectation::without_rare_light(Regions regions) const {
 
 /// Takes the samples of the scene as it is: as many as the time allows.
 void Expectation::take_samples(const CheckOptions& options) {
-  const auto take = [&](int count) { return book_samples(start_, lattice_, count, threads_, [] { return true; }); };
   const auto begin = std::chrono::steady_clock::now();
   count_ = options.samples;
   if (count_ == 0) {
-    take(min_samples);
+    count_ = min_samples;
+    samples_of(start_, false);
     const double fit = options.seconds * part_for_samples * min_samples / std::max(seconds_since(begin), 1e-6);
     count_ = static_cast<int>(std::clamp(fit, 1.0 * min_samples, 1.0 * max_samples_of_pixel));
   }
-  samples_ = take(count_);
-  mean_ = statistics_of(samples_, count_, {}).mean;
+  samples_ = samples_of(start_, false);
+  single_ = statistics_of(samples_, count_, {});
 }
 
 std::vector<double> Expectation::likely_samples(const std::vector<BookSample>& of_program,
                                                 const Reading& reading) const {
-  const ReadPixels pixels = read_pixels(picture_, lattice_, reading);
-  return likely_counts({pixels.light, reference_, pixels.tolerance, reference_variance_}, of_program, count_, small_,
-                       white());
+  return likely_counts(read_pixels(picture_, lattice_, reading), reference_, of_program, count_, small_, white());
 }
 
 bool Expectation::white_matters() const {
-  const SampleStatistics single = statistics_of(samples_, count_, {});
   double cut = 0, all = 0;
-  for (std::size_t at = 0; at < single.mean.size(); ++at)
-    cut += static_cast<double>(single.excess[at]), all += static_cast<double>(single.mean[at]);
+  for (const SampleStatistics& number : single_) cut += number.excess, all += number.mean;
   return picture_.coded && cut > min_cut * all;
 }
 
@@ -155,69 +150,95 @@ std::vector<BookSample> Expectation::samples_of(const BookProgram& program, bool
       program, lattice_, count_, threads_, in_time ? go_on_ : [] { return true; });
 }
 
-std::shared_ptr<const BookModel> Expectation::model_of(const std::vector<BookSample>& samples, double count) const {
+ExpectedPixels Expectation::expected_of(const std::vector<BookSample>& samples, double count) const {
   const int group = count > 0 ? std::clamp(static_cast<int>(std::lround(count)), 1, count_) : count_;
-  SampleStatistics now = statistics_of(samples, count_, {group, white()}, &samples_);
-  for (float& noise : now.noise)  // a picture of unknown samples shows by itself alone how noisy it is
-    noise *= count > 0 ? static_cast<float>(group / count) : 0;
-  const std::vector<double> common = means_of(now.common, large_);
-  std::vector<double> ratios;
+  const auto now = statistics_of(samples, count_, {group, white()}, &samples_);
+  const Numbers common = means_of(large_, now, &SampleStatistics::common),
+                variance = means_of(large_, single_, &SampleStatistics::variance);
+  Numbers ratios;
   if (picture_.coded && count > count_ * 1.2) ratios = excess_ratios(samples, count_, count, large_);
-  for (std::size_t at = 0; at < now.mean.size(); ++at) {
-    const int region = large_.of_pixel[at / 3];
-    const std::size_t k = 3 * static_cast<std::size_t>(std::max(region, 0)) + at % 3;
+  ExpectedPixels expected;
+  for (std::size_t at = 0; at < now.size(); ++at) {
+    const std::size_t cell = large_.cell_of(at);
+    const bool known = cell != Regions::no_cell;
     // What it has of the luck of the scene's own samples.
-    const bool tells = region >= 0 && variance_[k] > 0;
-    const auto passes = static_cast<float>(tells ? std::clamp(common[k] * group / variance_[k], 0.0, 1.0) : 1);
-    const float missed = passes * (reference_[at] - mean_[at]);
-    float& excess = now.excess[at];
-    if (region >= 0 && !ratios.empty())  // means of few samples are too noisy; no pixel is brighter than white
-      excess = std::max(excess * static_cast<float>(std::min(1.0, ratios[k])), now.mean[at] + missed - 1);
-    now.mean[at] = now.mean[at] - excess + missed;
+    const double passes = known && variance[cell] > 0 ? std::clamp(common[cell] * group / variance[cell], 0.0, 1.0) : 1;
+    const double missed = passes * (reference_.light[at] - single_[at].mean);
+    double excess = now[at].excess;
+    if (known && !ratios.empty())  // means of few samples are too noisy; no pixel is brighter than white
+      excess = std::max(excess * std::min(1.0, ratios[cell]), now[at].mean + missed - 1);
+    expected.light.push_back(now[at].mean - excess + missed);
+    // A picture of unknown samples shows by itself alone how noisy it is.
+    expected.variance.push_back(count > 0 ? now[at].noise * group / count : 0);
   }
-  return std::make_shared<BookModel>(BookModel{std::move(now.mean), std::move(now.noise), count});
+  return expected;
 }
 
-/// The picture, read in a way that is tried often: right ones are kept.
-const ReadPixels& Expectation::read(const Reading& reading) {
-  for (const auto& [known, pixels] : read_)
-    if (known == reading) return pixels;
-  newest_read_ = read_pixels(picture_, lattice_, reading);
-  return is_right(reading) ? read_.emplace_back(reading, std::move(newest_read_)).second : newest_read_;
-}
-
-RegionDifferences Expectation::differences(const BookModel& model, const Reading& reading) {
-  const ReadPixels& pixels = read(reading);
-  const ComparedPixels compared{pixels.light, model.expected, pixels.tolerance, model.noise};
-  RegionDifferences result{{},
-                           block_differences(compared, whole_),
-                           3 * static_cast<std::size_t>(small_.count),
-                           3 * static_cast<std::size_t>(large_.count)};
-  for (const Regions* regions : {&small_, &large_, &objects_}) {
-    const std::vector<BlockDifference> part = block_differences(compared, *regions);
-    result.all.insert(result.all.end(), part.begin(), part.end());
-  }
+Differences Expectation::differences(const ExpectedPixels& expected, const Reading& reading) {
+  ReadPixels& pixels = read_[reading];
+  if (pixels.light.empty()) pixels = read_pixels(picture_, lattice_, reading);
+  Differences result{differences_of(pixels, expected, small_),
+                     differences_of(pixels, expected, large_),
+                     differences_of(pixels, expected, objects_),
+                     {},
+                     differences_of(pixels, expected, whole_)};
+  for (const auto* part : {&result.small, &result.large, &result.objects})
+    result.all.insert(result.all.end(), part->begin(), part->end());
+  if (!reading.is_right()) read_.erase(reading);  // those are tried once
   return result;
 }
 
-Misfit rough_misfit(const PictureNumbers& picture, const Scene& scene) {
+bool Differences::agree_in_blocks() const {
+  const Misfit misfit = misfit_of(small);
+  return misfit.different <= max_different * misfit.blocks;
+}
+
+bool Differences::agree() const {
+  return agree_in_blocks() && misfit_of(large).different == 0 && misfit_of(objects).different == 0 &&
+         misfit_of(whole).different == 0;
+}
+
+double Differences::left_by(const Differences& now) const {
+  double before = 0, after = 0;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const CellDifference &a = all[k], &b = now.all[k];
+    const double error = std::max(a.error, b.error);
+    if (a.pixels == 0 || std::abs(a.difference - b.difference) <= a.tolerance + 2 * error) continue;
+    const double weight = a.pixels / a.tolerance;
+    before += weight * std::max(0.0, std::abs(a.difference) - 2 * error);
+    after += weight * std::max(0.0, std::abs(b.difference) - 2 * error);
+  }
+  return before > 0 ? after / before : 1;
+}
+
+double Differences::gone(const Differences& after) const {
+  const double seen = amount_of(all, after.all);
+  return seen > min_seen * amount() ? 1 - amount_of(after.all, all) / seen : 0;
+}
+
+double Differences::unseen_light() const {
+  double light = 0, unseen = 0;
+  for (const CellDifference& channel : whole)
+    light += channel.expected, unseen += channel.tolerance + noise_limit * channel.error;
+  return light > 0 ? unseen / light : 0;
+}
+
+std::vector<CellDifference> rough_differences(const PictureNumbers& picture, const Scene& scene) {
   constexpr int count = 4;
   const Lattice lattice = lattice_of(picture.width, picture.height);
   ThreadPool pool(0);
   const auto samples = book_samples(plain_program(scene), lattice, count, pool, [] { return true; });
-  const SampleStatistics statistics = statistics_of(samples, count, {count});
-  std::vector<float> expected = statistics.mean;
-  const std::vector<float> none(expected.size());
-  for (std::size_t at = 0; at < expected.size() && picture.coded; ++at) expected[at] -= statistics.excess[at];
+  ExpectedPixels expected;
+  for (const SampleStatistics& number : statistics_of(samples, count, {count}))
+    expected.light.push_back(number.mean - (picture.coded ? number.excess : 0));
+  expected.variance.resize(expected.light.size());
   const Regions regions = blocks_of(lattice, edge_of_blocks(lattice));
-  std::optional<Misfit> best;
-  for (const Reading& reading : readings_of(picture.coded)) {
-    if (!is_right(reading)) continue;
-    const ReadPixels pixels = read_pixels(picture, lattice, reading);
-    const Misfit misfit = misfit_of(block_differences({pixels.light, expected, pixels.tolerance, none}, regions));
-    if (!best || misfit.amount < best->amount) best = misfit;
+  std::vector<CellDifference> best;
+  for (const Reading& reading : readings_of(picture.coded, true)) {
+    auto found = differences_of(read_pixels(picture, lattice, reading), expected, regions);
+    if (best.empty() || amount_of(found, found) < amount_of(best, best)) best = std::move(found);
   }
-  return *best;
+  return best;
 }
 
 }  // namespace tyndall

@@ -1,18 +1,12 @@
 #pragma once
-#include "app/check/reading.h"
 #include "app/check/statistics.h"
 #include "core/base/thread_pool.h"
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <deque>
-#include <functional>
 #include <limits>
-#include <memory>
+#include <map>
 #include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace tyndall {
 
@@ -33,11 +27,25 @@ struct Reference {
 Reference render_reference(Scene scene, const LinearImage& picture, double seconds, std::uint32_t spp,
                            const std::function<bool()>& go_on);
 
-/// What samples of a program tell of its picture: 3 floats a pixel of the lattice.
-struct BookModel {
-  std::vector<float> expected;
-  std::vector<float> noise;  ///< variance of a pixel of a picture with the number of samples of the user's
-  double samples = 0;        ///< that number; 0: not known
+/// How the means of a picture differ from what is expected.
+struct Differences {
+  std::vector<CellDifference> small, large, objects;  ///< of small blocks, of large ones, of the objects seen
+  std::vector<CellDifference> all;                    ///< these three, one behind the other
+  std::vector<CellDifference> whole;                  ///< of the picture
+
+  double amount() const { return amount_of(all, all); }
+  /// Whether the small blocks differ by noise alone. The noise of few samples is no normal distribution: so now and
+  /// then one of them is beyond noise_limit.
+  bool agree_in_blocks() const;
+  /// Whether all of them do.
+  bool agree() const;
+  /// How much of the differences is left with `now` in place of these, as far as the two differ at all.
+  double left_by(const Differences& now) const;
+  /// How much of the differences is gone; nothing, if `after` is so noisy that little of them could be seen beside its
+  /// noise.
+  double gone(const Differences& after) const;
+  /// Fraction of the light by which the whole may be off without that it is seen.
+  double unseen_light() const;
 };
 
 /// The pictures that are expected of programs, and how the user's picture differs from them.
@@ -69,20 +77,19 @@ class Expectation {
   /// Renders a program; empty: there is no time left; in_time: whether that matters.
   std::vector<BookSample> samples_of(const BookProgram& program, bool in_time);
   /// What is expected of a program with these samples if the picture has `count` samples a pixel; 0: not known.
-  std::shared_ptr<const BookModel> model_of(const std::vector<BookSample>& samples, double count) const;
-  RegionDifferences differences(const BookModel& model, const Reading& reading);
+  ExpectedPixels expected_of(const std::vector<BookSample>& samples, double count) const;
+  Differences differences(const ExpectedPixels& expected, const Reading& reading);
 
  private:
   void take_samples(const CheckOptions& options);
-  const ReadPixels& read(const Reading& reading);
   Regions without_rare_light(Regions regions) const;
   double white() const { return picture_.coded ? 1 : std::numeric_limits<double>::infinity(); }
 
   const PictureNumbers& picture_;
   BookProgram start_;
   Lattice lattice_;
-  int edge_;                                           ///< of a small block, in pixels of the lattice
-  std::vector<float> reference_, reference_variance_;  ///< on the lattice
+  int edge_;  ///< of a small block, in pixels of the lattice
+  ExpectedPixels reference_;
   ThreadPool threads_;
   const std::function<bool()>& go_on_;
   SeenObjects seen_;
@@ -90,15 +97,13 @@ class Expectation {
   int count_ = 0;  ///< samples that were taken of each pixel
   double comparable_ = 1;
   std::vector<BookSample> samples_;
-  std::vector<float> mean_;       ///< of these
-  std::vector<double> variance_;  ///< of one of them, of each large region and channel
-  std::deque<std::pair<Reading, ReadPixels>> read_;
-  ReadPixels newest_read_;
+  std::vector<SampleStatistics> single_;  ///< of these, as if the picture had one
+  std::map<Reading, ReadPixels> read_;    ///< the picture, as the right readings take it
 };
 
 /// How a picture differs from the scene as a few samples of each pixel show it: enough to tell whether it is a picture
 /// of this scene at all.
-Misfit rough_misfit(const PictureNumbers& picture, const Scene& scene);
+std::vector<CellDifference> rough_differences(const PictureNumbers& picture, const Scene& scene);
 
 /// One thing that programs of the books do otherwise: by their edition, or by a usual mistake.
 struct Difference {
@@ -109,6 +114,7 @@ struct Difference {
   /// How much of the difference of a picture the scene rendered with it explains. 1: all that is more than noise; below
   /// 0: it makes things worse.
   double explained = 0;
+  Reading reading{};  ///< that goes best with it
 };
 
 /// What editions and compilers do otherwise: said, never counted as a mistake. The first of two that exclude each other
@@ -121,6 +127,13 @@ Difference mistake_of(const Reading& reading);
 Difference shorter_paths(int max_depth);
 /// Mistakes that are found by rendering the scene with each of them.
 std::vector<Difference> usual_mistakes();
+
+/// Means of linear light over the pixels of an object that differs.
+struct ObjectDifference {
+  SeenObjects::Object object;
+  int pixels = 0;
+  Vec3d image, expected;
+};
 
 /// What is found about a picture.
 struct Findings {
@@ -141,7 +154,7 @@ struct Findings {
   double samples = 0;  ///< a pixel, as the noise tells; 0: it does not tell
   int blocks = 0, different = 0, block_edge = 0;
   SeenObjects seen;
-  std::vector<ObjectDifference> objects;  ///< those that differ, before the mistake is taken into account
+  std::vector<ObjectDifference> objects;  ///< before the mistake is taken into account, the largest difference first
 };
 
 /// Finds out how a picture differs from a scene of its size. reference: the scene, rendered; go_on: asked now and then;

@@ -90,7 +90,7 @@ Regions regions_of(const SeenObjects& seen, const Lattice& lattice) {
   for (int y = 0; y < rows; ++y)
     for (int x = 0; x < columns; ++x) {
       const int object = seen.of_pixel[at(x, y)];
-      bool same = !seen.objects[static_cast<std::size_t>(object)].noisy_texture;
+      bool same = !seen.at(at(x, y)).noisy_texture;
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx)
           same =

@@ -1,6 +1,7 @@
 #include "app/check/explain.h"
 #include "app/report/contents.h"
 #include "core/base/math.h"
+#include "core/base/text.h"
 
 #include <cmath>
 #include <utility>
@@ -154,13 +155,6 @@ std::function<bool(BookProgram&)> mistyped_camera(int component) {
 
 bool always(Scene&) { return true; }
 
-std::string joined(const std::vector<std::pair<bool, const char*>>& parts, const std::string& between) {
-  std::string text;
-  for (const auto& [wanted, part] : parts)
-    if (wanted) text += (text.empty() ? "" : between) + part;
-  return text;
-}
-
 }  // namespace
 
 std::vector<Difference> usual_choices() {
@@ -176,20 +170,20 @@ std::vector<Difference> usual_choices() {
 }
 
 Difference mistake_of(const Reading& r) {
-  const std::string name = joined({{r.upside_down, "upside-down"},
-                                   {r.mirrored, "mirrored"},
-                                   {r.swapped, "red-blue"},
-                                   {r.curve == TransferCurve::none, "no-gamma"},
-                                   {r.curve == TransferCurve::gamma2_twice, "gamma-twice"}},
-                                  "+");
-  const std::string words = joined({{r.upside_down && r.mirrored, "the picture is turned by 180 degrees"},
-                                    {r.upside_down && !r.mirrored, "the picture is upside down"},
-                                    {!r.upside_down && r.mirrored, "the picture is mirrored, left and right"},
-                                    {r.swapped, "red and blue have changed places"},
-                                    {r.curve == TransferCurve::none, "light is written without gamma"},
-                                    {r.curve == TransferCurve::gamma2_twice, "gamma is applied twice"}},
-                                   ", and ");
-  return {name, words, [](BookProgram&) { return true; }};
+  struct Part {
+    bool wrong;
+    const char *name, *words;
+  };
+  const Part parts[] = {{r.upside_down && !r.mirrored, "upside-down", "the picture is upside down"},
+                        {!r.upside_down && r.mirrored, "mirrored", "the picture is mirrored, left and right"},
+                        {r.upside_down && r.mirrored, "upside-down+mirrored", "the picture is turned by 180 degrees"},
+                        {r.swapped, "red-blue", "red and blue have changed places"},
+                        {r.curve == TransferCurve::none, "no-gamma", "light is written without gamma"},
+                        {r.curve == TransferCurve::gamma2_twice, "gamma-twice", "gamma is applied twice"}};
+  std::vector<std::string> names, words;
+  for (const Part& part : parts)
+    if (part.wrong) names.emplace_back(part.name), words.emplace_back(part.words);
+  return {joined(names, "+"), joined(words, ", and "), [](BookProgram&) { return true; }, 0, r};
 }
 
 Difference shorter_paths(int depth) {
