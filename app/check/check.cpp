@@ -1,7 +1,7 @@
 #include "app/check/check.h"
 
 #include "app/book/load_program.h"
-#include "app/comparison/comparison.h"
+#include "app/comparison/baseline.h"
 #include "app/files/open_scene.h"
 #include "core/base/error.h"
 #include "core/base/seconds.h"
@@ -11,10 +11,11 @@
 #include "core/image/tonemap.h"
 #include "core/scene/load.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -29,10 +30,7 @@ constexpr double part_of_other_scene = 0.05;       // blocks that differ from th
 constexpr double part_of_right_scene = 0.5;        // of the difference that is left where another one is taken
 
 bool is_picture_name(const fs::path& name) {
-  const std::string ending = lower_case(name.extension().string());
-  constexpr const char* endings[] = {".png", ".jpg", ".jpeg", ".bmp", ".tga", ".ppm",
-                                     ".pgm", ".pnm", ".pfm",  ".hdr", ".exr"};
-  return std::any_of(std::begin(endings), std::end(endings), [&](const char* known) { return ending == known; });
+  return has_picture_ending(name) || lower_case(name.extension().string()) == ".pnm";
 }
 
 /// What read_picture() would have made of a PPM with PpmCurve::gamma2.
@@ -43,13 +41,13 @@ void read_as_gamma2(LinearImage& image) {
   }
 }
 
-std::string remark_on_size(const LoadedScene& loaded, const LinearImage& image, int width, int height) {
+std::string remark_on_size(const LoadedScene& loaded, const LinearImage& image) {
+  const int width = loaded.scene.width, height = loaded.scene.height;
   if (std::abs(static_cast<double>(width) * image.height - static_cast<double>(height) * image.width) <=
       std::max(width, image.width))
     return "";
-  return loaded.name + ": its picture is " + std::to_string(width) + "x" + std::to_string(height) +
-         ", which is rendered as " + std::to_string(image.width) + "x" + std::to_string(image.height) +
-         " with the same vertical field of view";
+  return fmt::format("{}: its picture is {}x{}, which is rendered as {}x{} with the same vertical field of view",
+                     loaded.name, width, height, image.width, image.height);
 }
 
 /// A program's scene with its balls where they lie in a picture.
@@ -57,19 +55,6 @@ struct Arrangement {
   LoadedScene loaded;
   std::string words;  ///< which compiler puts them there; "": the one that the program is compiled with
 };
-
-/// Loads the program again, compiled in another way; nothing: it cannot be.
-std::optional<LoadedScene> load(SceneRequest request, const std::string& compiler) {
-  request.program.compiler = compiler;
-  request.program.told = true;
-  try {
-    return open_scene(request);
-  } catch (const ProgramInterrupted&) {
-    throw;
-  } catch (const std::runtime_error&) {  // a compiler that is not there, or that refuses the program
-    return {};
-  }
-}
 
 /// Programs place balls at random, and where depends on the order in which a compiler computes arguments. If the
 /// picture clearly differs from the scene as it was loaded, the program is compiled by other compilers, and the scene
@@ -88,14 +73,22 @@ Arrangement find_arrangement(const PictureNumbers& picture, const SceneRequest& 
   if (misfit.different <= part_of_other_scene * misfit.blocks) return best;
   double allowed = part_of_right_scene * amount_of(plain, plain);
   const Scene first = best.loaded.scene;
+  SceneRequest again = request;
+  again.program.told = true;
   for (const char* compiler : {"g++", "clang++"}) {
     if (!go_on()) return best;
-    std::optional<LoadedScene> other = load(request, compiler);
-    if (!other || other->scene == first) continue;
-    const auto found = differences(*other);
-    if (amount_of(found, found) >= allowed) continue;
-    allowed = amount_of(found, found);
-    best = {std::move(*other), std::string("balls as ") + compiler + " places them"};
+    again.program.compiler = compiler;
+    try {
+      LoadedScene other = open_scene(again);
+      if (other.scene == first) continue;
+      const auto found = differences(other);
+      if (amount_of(found, found) >= allowed) continue;
+      allowed = amount_of(found, found);
+      best = {std::move(other), std::string("balls as ") + compiler + " places them"};
+    } catch (const ProgramInterrupted&) {
+      throw;
+    } catch (const std::runtime_error&) {  // a compiler that is not there, or that refuses the program
+    }
   }
   return best;
 }
@@ -135,7 +128,7 @@ Check check_picture(const CheckRequest& request) {
   const PictureNumbers numbers = numbers_of(picture);
   LoadedScene loaded = open_scene(request.scene);
   begin = std::chrono::steady_clock::now();  // how long compilers take is not for the user to say
-  const std::string remark = remark_on_size(loaded, picture.image, loaded.scene.width, loaded.scene.height);
+  const std::string remark = remark_on_size(loaded, picture.image);
   Arrangement arrangement = find_arrangement(numbers, request.scene, std::move(loaded), go_on);
   Scene& scene = arrangement.loaded.scene;
   scene.width = picture.image.width, scene.height = picture.image.height;
@@ -149,13 +142,11 @@ Check check_picture(const CheckRequest& request) {
   // Read by the square of its numbers, as that fits better.
   const bool gamma2 = ppm && request.ppm == PpmCurve::srgb && check.verdict.curve == TransferCurve::gamma2;
   if (ppm && (gamma2 || request.ppm == PpmCurve::gamma2)) read_as_gamma2(picture.image);
-  PicturePair pair{std::move(picture.image), std::move(reference.image)};
+  const std::size_t pixels = picture.image.rgb.size() / 3;
+  PicturePair pair{{pixels, pixels}, {}, std::move(reference.image)};
+  pair.image = take_pixels(pair, request.image, std::move(picture));
   pair.image.frame.reset();
-  pair.image_pixels = pair.reference_pixels = pair.image.rgb.size() / 3;
-  pair.has_ppm = ppm, pair.remarks = std::move(picture.remarks);
   if (!remark.empty()) pair.remarks.push_back(remark);
-  if (picture.has_alpha)
-    pair.remarks.push_back(request.image.string() + ": alpha is not looked at: what is hidden beneath it is compared");
   if (gamma2)
     pair.remarks.push_back(request.image.string() +
                            ": read as the books' programs write it (gamma 2), which fits the scene better");

@@ -1,4 +1,4 @@
-#include "app/check/explain.h"
+#include "app/check/expectation.h"
 
 #include <memory>
 #include <utility>

@@ -53,12 +53,6 @@ std::string how_made(const Findings& v) {
   return parts.empty() ? "" : "picture  " + joined(parts, "; ") + "\n";
 }
 
-std::string left_out_text(const Findings& v) {
-  const bool any = std::any_of(v.seen.objects.begin(), v.seen.objects.end(),
-                               [](const SeenObjects::Object& object) { return object.noisy_texture; });
-  return any ? "left out objects with noise textures: their veins lie elsewhere in Tyndall\n" : "";
-}
-
 int percent(double explained) { return static_cast<int>(std::lround(100 * std::clamp(explained, 0.0, 1.0))); }
 
 std::string mistake_text(const Findings& v) {
@@ -88,27 +82,28 @@ nlohmann::ordered_json json_of(const std::vector<Difference>& list) {
 }  // namespace
 
 std::string verdict_text(const Findings& v) {
-  const std::string blocks = fmt::format("of {} blocks of {}x{} pixels", v.blocks, v.block_edge, v.block_edge);
   if (v.unknown)
     return "check    it cannot be told whether they agree: programs of the books find the light of this scene so "
            "seldom\n"
            "         that few samples show little of it\n";
-  if (v.too_few)
-    return fmt::format("check    too few samples to tell: a change of all light by {} % would not show{}\n",
-                       std::lround(100 * v.unseen),
-                       v.enough > 0 ? fmt::format("; about {:.0f} a pixel would do", v.enough) : "") +
-           how_made(v) + left_out_text(v);
-  if (v.agrees)
-    return fmt::format("check    the pictures agree within the noise, in {} {}\n", v.blocks - v.different, blocks) +
-           how_made(v) + left_out_text(v);
+  const std::string blocks = fmt::format("of {} blocks of {}x{} pixels", v.blocks, v.block_edge, v.block_edge);
   std::string text = fmt::format("check    the pictures differ by more than noise, in {} {}\n", v.different, blocks);
-  text += how_made(v) + left_out_text(v);
+  if (v.too_few)
+    text = fmt::format("check    too few samples to tell: a change of all light by {} % would not show{}\n",
+                       std::lround(100 * v.unseen),
+                       v.enough > 0 ? fmt::format("; about {:.0f} a pixel would do", v.enough) : "");
+  else if (v.agrees)
+    text = fmt::format("check    the pictures agree within the noise, in {} {}\n", v.blocks - v.different, blocks);
+  text += how_made(v);
+  if (std::any_of(v.seen.objects.begin(), v.seen.objects.end(),
+                  [](const auto& object) { return object.noisy_texture; }))
+    text += "left out objects with noise textures: their veins lie elsewhere in Tyndall\n";
+  if (v.too_few || v.agrees) return text;
   for (std::size_t k = 0; k < std::min(max_objects, v.objects.size()); ++k) text += object_line(v.objects[k]);
   if (v.objects.size() > max_objects) text += fmt::format("object   and {} others\n", v.objects.size() - max_objects);
   const std::string kind = common_kind(v);
   if (!kind.empty()) text += fmt::format("object   only {} differ{}\n", kind, kind.back() == 's' ? "" : "s");
-  text += mistake_text(v);
-  return text;
+  return text + mistake_text(v);
 }
 
 nlohmann::ordered_json verdict_json(const Findings& v) {

@@ -281,17 +281,14 @@ def read_script(text, aspect):
             scene.inward += shape["inward"] and not light
             scene.lights += light
         else:
-            for flat in shape.get("flats", []):
-                scene.add_quad(*map(world, flat))
-            if "triangle" in shape:
-                scene.add_triangle(*map(world, shape["triangle"]))
-            if "disk" in shape:
-                scene.add_disk(*map(world, shape["disk"]), shape["inner"])
-            scene.lights += light * len(shape.get("flats", [None]))
+            for kind, add in (("quads", scene.add_quad), ("triangles", scene.add_triangle), ("disks", scene.add_disk)):
+                for *place, inner in shape.get(kind, []):
+                    add(*map(world, place), *([inner] if kind == "disks" else []))
+                    scene.lights += light
     sky = data["background"]
     if sky["type"] == "image":
         picture = Picture(sky["file"])
-        x, y, z = turned(unit(world(SKY_TOWARDS)), math.radians(-90 - sky["degrees"]), 2)
+        x, y, z = turned(unit(world(SKY_TOWARDS)), math.radians(-90 - sky["rotate_y"]), 2)
         u, v = 0.5 - math.atan2(y, x) / (2 * math.pi), math.acos(z) / math.pi
         scene.sky = scale(sky["scale"], picture.at(u * picture.width - 0.5, v * picture.height - 0.5))
     for texture in data["textures"]:
