@@ -3,7 +3,7 @@
 namespace tyndall {
 namespace {
 
-constexpr float Vec3f::*channels[] = {&Vec3f::x, &Vec3f::y, &Vec3f::z};
+constexpr float Vec3f::*each_channel[] = {&Vec3f::x, &Vec3f::y, &Vec3f::z};
 constexpr double amount_errors = 3;  // standard errors that an amount leaves to noise
 constexpr int min_pixels = 24;       // of a block that is compared
 
@@ -46,7 +46,7 @@ std::vector<SampleStatistics> statistics_of(const std::vector<BookSample>& sampl
                                             const std::vector<BookSample>* other) {
   std::vector<SampleStatistics> result;
   for (std::size_t first = 0; first < samples.size(); first += static_cast<std::size_t>(count))
-    for (float Vec3f::*channel : channels)
+    for (float Vec3f::*channel : each_channel)
       result.push_back(
           of_channel(samples.data() + first, (other ? *other : samples).data() + first, count, exposure, channel));
   return result;
@@ -62,7 +62,7 @@ Numbers excess_ratios(const std::vector<BookSample>& samples, int count, double 
       if (cell == Regions::no_cell) continue;
       Numbers sums(together);  // of groups of about `count` samples, each with samples of all pixels
       for (std::size_t k = 0; k < together * n; ++k)
-        sums[(k / n + k % n) % together] += static_cast<double>(samples[first * n + k].light.*channels[c]);
+        sums[(k / n + k % n) % together] += static_cast<double>(samples[first * n + k].light.*each_channel[c]);
       double all = 0;
       for (const double sum : sums) of_few[cell] += std::max(0.0, sum / count - 1), all += sum;
       const auto groups = static_cast<double>(together);

@@ -18,6 +18,8 @@
 namespace tyndall {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 /// RFC 4648, section 4.
 std::string base64(const std::vector<std::uint8_t>& bytes) {
   constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -151,7 +153,6 @@ std::string css_stops() {
 
 /// The numbers of the page, for programs.
 std::string json_text(const std::vector<CheckedPicture>& pictures) {
-  using Json = nlohmann::ordered_json;
   Json json{{"pictures", Json::array()}};
   for (const CheckedPicture& picture : pictures) {
     Json failures = Json::array(), measured = Json::object(), limits = Json::object();

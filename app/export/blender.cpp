@@ -39,11 +39,16 @@ LinearImage sky_copy(const Image::Pixels& sky) {
   return sky_in_rows(sky, times * sky.height, [](int row, int rows) { return (row + 0.5) / rows; });
 }
 
-Json camera(const Camera& c, const ForeignScene& foreign) {
-  return {{"at", c.look_from},    {"forward", foreign.forward},
-          {"up", foreign.up},     {"right", foreign.right},
-          {"vfov", c.vfov},       {"lens_radius", lens_radius(c)},
-          {"focus", focus_of(c)}, {"shutter", {c.shutter_open, c.shutter_close}}};
+Json camera(const Camera& c) {
+  const Vec3d forward = normalize(c.look_at - c.look_from), right = normalize(cross(forward, c.vup));
+  return {{"at", c.look_from},
+          {"forward", forward},
+          {"up", cross(right, forward)},
+          {"right", right},
+          {"vfov", c.vfov},
+          {"lens_radius", lens_radius(c)},
+          {"focus", focus_of(c)},
+          {"shutter", {c.shutter_open, c.shutter_close}}};
 }
 
 }  // namespace
@@ -80,7 +85,7 @@ ForeignFile blender_file(const Scene& scene, const std::string& name, const std:
             {"max_depth", scene.render.max_depth},
             {"spp", scene.render.spp.value_or(64)},
             {"seed", scene.render.seed & 0x7fffffffu},
-            {"camera", camera(scene.camera, foreign)},
+            {"camera", camera(scene.camera)},
             {"background", values_of(scene.background)},
             {"textures", Json::array()},
             {"materials", scene.materials},

@@ -24,25 +24,6 @@ struct Refusal {
   }
 };
 
-std::string place_of(const Material& material, const char* key) {
-  return "/materials/" + pointer_step(material.name) + "/" + key;
-}
-
-void check_texture(const Texture& texture, const Refusal& refuse) {
-  const std::string where = "/textures/" + pointer_step(texture.name) + "/type";
-  const ForeignRenderer& r = refuse.renderer;
-  std::visit(
-      Overloaded{[&](const Solid<>&) {},
-                 [&](const Checker<>&) {
-                   if (!r.solid_checkers) refuse(where, "a checker pattern in space", "a colour or an image");
-                 },
-                 [&](const Image&) {
-                   if (!r.images) refuse(where, "an image", "a colour");
-                 },
-                 [&](const auto& other) { refuse(where, in_quotes(other.type), "a colour, a checker or an image"); }},
-      texture.kind);
-}
-
 /// Null: the material has none.
 const Texture* texture_of(const Material& material, const Scene& scene) {
   const auto* texture = std::get_if<TextureIndex>(&material.colour);
@@ -50,16 +31,27 @@ const Texture* texture_of(const Material& material, const Scene& scene) {
 }
 bool is_image(const Texture* texture) { return texture && std::holds_alternative<Image>(texture->kind); }
 
+void check_texture(const Texture& texture, const Refusal& refuse) {
+  const std::string where = "/textures/" + pointer_step(texture.name) + "/type";
+  const bool checker = std::holds_alternative<Checker<>>(texture.kind);
+  if (checker && !refuse.renderer.solid_checkers) refuse(where, "a checker pattern in space", "a colour or an image");
+  if (is_image(&texture) && !refuse.renderer.images) refuse(where, "an image", "a colour");
+  if (!checker && !is_image(&texture) && !std::holds_alternative<Solid<>>(texture.kind))
+    refuse(where, in_quotes(std::visit([](const auto& kind) { return kind.type; }, texture.kind)),
+           "a colour, a checker or an image");
+}
+
 void check_material(const Material& material, const Scene& scene, const Refusal& refuse) {
+  const std::string where = "/materials/" + pointer_step(material.name) + "/";
   const Texture* texture = colour_name(material.kind) ? texture_of(material, scene) : nullptr;
   if (texture) check_texture(*texture, refuse);
   if (const auto* metal = std::get_if<Metal<double>>(&material.kind)) {
-    if (metal->fuzz > 0) refuse(place_of(material, "fuzz"), number_text(metal->fuzz), "0");
+    if (metal->fuzz > 0) refuse(where + "fuzz", number_text(metal->fuzz), "0");
     if (!refuse.renderer.even_mirrors)
-      refuse(place_of(material, "type"), "a mirror that reflects the same at every angle", "another material");
+      refuse(where + "type", "a mirror that reflects the same at every angle", "another material");
   }
   if (is_image(texture) && !std::holds_alternative<Lambertian<double>>(material.kind))
-    refuse(place_of(material, "type"), "an image on what is not lambertian", "a colour");
+    refuse(where + "type", "an image on what is not lambertian", "a colour");
 }
 
 ForeignSphere sphere_of(const Sphere<>& sphere, const Placement& placement, const Camera& camera) {
@@ -183,9 +175,6 @@ ForeignScene foreign_scene(const Scene& scene, const std::string& name, const Fo
   }
   for (const int material : used) check_material(scene.materials[static_cast<std::size_t>(material)], scene, refuse);
   add_media(scene, flat, refuse, out);
-  out.forward = normalize(scene.camera.look_at - scene.camera.look_from);
-  out.right = normalize(cross(out.forward, scene.camera.vup));
-  out.up = cross(out.right, out.forward);
   return out;
 }
 

@@ -61,8 +61,7 @@ struct ForeignRenderer {
 struct ForeignScene {
   std::vector<ForeignShape> shapes;
   std::vector<ForeignMedium> media;
-  int camera_medium = -1;    ///< that the eye is in; -1: none
-  Vec3d forward, up, right;  ///< unit, of the camera
+  int camera_medium = -1;  ///< that the eye is in; -1: none
 };
 
 /// name: what messages call the scene. Throws SceneError with the first thing that the renderer has no equal of.

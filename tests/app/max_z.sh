@@ -53,7 +53,7 @@ expect 0 "$tyndall" compare new --baseline kept --update --max-z 4
 grep -q '"max_z": 4.0' kept/tolerances.json || fail "tolerances: $(cat kept/tolerances.json)"
 expect 1 "$tyndall" compare other/cover.exr --baseline kept --max-flip 0.02
 expect 0 "$tyndall" compare other --baseline kept --report report.html --junit junit.xml :out '^ok .*noise: means '
-grep -q 'z of the blocks' report.html || fail 'no noise in the report'
+grep -q 'z of the blocks' report.html && grep -q '"block_z": [0-9]' report.json || fail 'no noise in the report'
 cp changed.exr other/cover.exr
 expect 1 "$tyndall" compare other --baseline kept --report report.html --junit junit.xml
 grep -q 'standard errors' report.html && grep -q 'failures="1"' junit.xml || fail 'the reports do not say it'
