@@ -62,7 +62,7 @@ def drawn(ending, source="scene.json"):
 
 def same_surfaces(ending):
     if HAS_EXR:
-        run("render scene.json --spp 16 -q -o scene.exr")
+        run("render scene.json --spp 16 -q -o scene.exr", loud=True)
         run(f"compare {ending}.pfm scene.exr:Depth.Z --max-relmse 0.03")
 
 
@@ -107,7 +107,7 @@ def test_skies(sky):
         if not HAS_EXR:
             pytest.skip("this build reads and writes no EXR")
         scene()
-        run("render scene.json --spp 1 -q -o scene.exr")
+        run("render scene.json --spp 1 -q -o scene.exr", loud=True)
     else:
         write(sky, {"one.pfm": picture(1, 1, lambda x, y: (1, 2, 3)),
                     "few.pfm": picture(3, 2, lambda x, y: (x, 2 - 2 * y, 0.5 + x * y)),
