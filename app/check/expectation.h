@@ -1,5 +1,5 @@
 #pragma once
-#include "app/check/explain.h"
+#include "app/check/statistics.h"
 #include "core/base/seconds.h"
 #include "core/base/thread_pool.h"
 
@@ -82,7 +82,7 @@ class Expectation {
         seen_(seen_objects(scene, lattice_)),
         small_(blocks_of(lattice_, edge_)),
         large_(blocks_of(lattice_, large_edge * edge_)),
-        objects_(regions_of(seen_, lattice_)) {
+        objects_(seen_.regions) {
     for (std::size_t pixel = 0; pixel < seen_.of_pixel.size(); ++pixel)
       if (seen_.at(pixel).noisy_texture) small_.of_pixel[pixel] = large_.of_pixel[pixel] = -1;
     take_samples(options);

@@ -1,3 +1,5 @@
+#include "app/check/explain.h"
+
 #include "app/check/expectation.h"
 
 #include <memory>

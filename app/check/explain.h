@@ -7,27 +7,6 @@
 
 namespace tyndall {
 
-struct CheckOptions {
-  double seconds = 20;  ///< for all of it, but for what is needed for any answer
-  int samples = 0;      ///< that are taken of each pixel for a program; 0: as many as the time allows
-};
-
-/// A picture rendered to measure another one against.
-struct Reference {
-  LinearImage image;
-  std::vector<float> variance;  ///< of each number of the image, from two halves of the samples
-};
-
-/// Renders the scene until the noise is small against the difference from `picture`, which has the scene's size, or
-/// a limit is reached, which the first samples may exceed. go_on: asked now and then; false ends it. Pixels share no
-/// paths, so that their errors are independent.
-Reference render_reference(Scene scene, const LinearImage& picture, double seconds, std::uint32_t spp,
-                           const std::function<bool()>& go_on);
-
-/// How a picture differs from the scene as a few samples of each pixel show it: enough to tell whether it is a picture
-/// of this scene at all.
-std::vector<CellDifference> rough_differences(const PictureNumbers& picture, const Scene& scene);
-
 /// One thing that programs of the books do otherwise: by their edition, or by a usual mistake.
 struct Difference {
   std::string name;   ///< for scripts: "schlick-always-1"

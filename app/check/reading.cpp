@@ -5,20 +5,12 @@ namespace tyndall {
 namespace {
 
 float light_of(TransferCurve curve, float number) {
-  switch (curve) {
-    case TransferCurve::srgb:
-      return srgb_decode(number);
-    case TransferCurve::power22:
-      return std::pow(number, 2.2f);
-    case TransferCurve::gamma2:
-      return number * number;
-    case TransferCurve::gamma2_twice:
-      return number * number * number * number;
-    case TransferCurve::light:
-    case TransferCurve::none:
-      break;
-  }
-  return number;
+  if (curve == TransferCurve::srgb) return srgb_decode(number);
+  const float power = curve == TransferCurve::power22        ? 2.2f
+                      : curve == TransferCurve::gamma2       ? 2
+                      : curve == TransferCurve::gamma2_twice ? 4
+                                                             : 1;
+  return power == 1 ? number : std::pow(number, power);
 }
 
 /// Half of the light between the numbers one step above and below, at least that of a dark grey: in black no step can

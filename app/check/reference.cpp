@@ -1,4 +1,4 @@
-#include "app/check/explain.h"
+#include "app/check/statistics.h"
 #include "core/accuracy/error.h"
 #include "core/render/render.h"
 

@@ -110,11 +110,10 @@ struct SeenObjects {
   };
   std::vector<Object> objects;
   std::vector<int> of_pixel;  ///< index into objects
+  Regions regions;            ///< of each object the pixels around which it is seen; of a noise texture none
   const Object& at(std::size_t pixel) const { return objects[static_cast<std::size_t>(of_pixel[pixel])]; }
 };
 SeenObjects seen_objects(const Scene& scene, const Lattice& lattice);
-/// The objects as regions: the pixels around which the same object is seen. Objects of a noise texture have none.
-Regions regions_of(const SeenObjects& seen, const Lattice& lattice);
 
 /// Means over the cells of three numbers a pixel, or of members of them.
 template <class Number, class Member = std::identity>
@@ -175,5 +174,26 @@ double amount_of(std::span<const CellDifference> differences, std::span<const Ce
 std::vector<double> likely_counts(const ReadPixels& picture, const ExpectedPixels& reference,
                                   const std::vector<BookSample>& samples, int count, const Regions& regions,
                                   double white);
+
+struct CheckOptions {
+  double seconds = 20;  ///< for all of it, but for what is needed for any answer
+  int samples = 0;      ///< that are taken of each pixel for a program; 0: as many as the time allows
+};
+
+/// A picture rendered to measure another one against.
+struct Reference {
+  LinearImage image;
+  std::vector<float> variance;  ///< of each number of the image, from two halves of the samples
+};
+
+/// Renders the scene until the noise is small against the difference from `picture`, which has the scene's size, or
+/// a limit is reached, which the first samples may exceed. go_on: asked now and then; false ends it. Pixels share no
+/// paths, so that their errors are independent.
+Reference render_reference(Scene scene, const LinearImage& picture, double seconds, std::uint32_t spp,
+                           const std::function<bool()>& go_on);
+
+/// How a picture differs from the scene as a few samples of each pixel show it: enough to tell whether it is a picture
+/// of this scene at all.
+std::vector<CellDifference> rough_differences(const PictureNumbers& picture, const Scene& scene);
 
 }  // namespace tyndall

@@ -83,30 +83,20 @@ ForeignShape shape_of(const auto& shape, const Placement& at, const Camera& came
   return out;
 }
 
+/// A medium's boundary, or the cube around a sphere.
+Block block_around(const PlacedVolume& volume) {
+  if (const auto* box = std::get_if<Box<>>(&volume.boundary)) return block_of(*box, volume.placement);
+  const Sphere<>& sphere = std::get<Sphere<>>(volume.boundary);
+  const double r = std::abs(sphere.radius);
+  return {place(volume.placement, sphere.center), {Vec3d{r, 0, 0}, Vec3d{0, r, 0}, Vec3d{0, 0, r}}};
+}
+
 bool is_inside(const PlacedVolume& volume, Vec3d point) {
   if (const auto* sphere = std::get_if<Sphere<>>(&volume.boundary))
     return length(point - place(volume.placement, sphere->center)) < std::abs(sphere->radius);
-  const Block block = block_of(std::get<Box<>>(volume.boundary), volume.placement);
+  const Block block = block_around(volume);
   return std::all_of(block.edge.begin(), block.edge.end(),
                      [&](Vec3d edge) { return std::abs(dot(point - block.middle, edge)) < dot(edge, edge); });
-}
-
-/// Whether two media may have a point in common; where one is a sphere, by the boxes around them.
-bool may_overlap(const PlacedVolume& a, const PlacedVolume& b, const Camera& camera) {
-  const auto *box_a = std::get_if<Box<>>(&a.boundary), *box_b = std::get_if<Box<>>(&b.boundary);
-  if (box_a && box_b) return !are_apart(block_of(*box_a, a.placement), block_of(*box_b, b.placement));
-  const auto range = [&](const PlacedVolume& volume, double Vec3d::*axis) {
-    const Extent extent = extent_of(volume, camera);
-    double low = extent.points[0].*axis, high = low;
-    for (const Vec3d& point : extent.points) low = std::min(low, point.*axis), high = std::max(high, point.*axis);
-    return std::pair{low - extent.radius, high + extent.radius};
-  };
-  for (const auto axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {
-    const auto [a0, a1] = range(a, axis);
-    const auto [b0, b1] = range(b, axis);
-    if (a1 < b0 || b1 < a0) return false;
-  }
-  return true;
 }
 
 /// Whether both half axes are as long and at right angles, up to the rounding of what wrote the scene.
@@ -137,7 +127,7 @@ void add_media(const Scene& scene, const Flattened& flat, const Refusal& refuse,
     const auto* albedo = std::get_if<Vec3d>(&volume.albedo);
     if (!albedo) refuse("/objects", "a texture as the albedo of a medium", "a colour");
     for (std::size_t k = 0; k < i && !refuse.renderer.overlapping_media; ++k)
-      if (may_overlap(volume, flat.volumes[k], scene.camera))
+      if (!are_apart(block_around(volume), block_around(flat.volumes[k])))
         refuse("/objects", "media that may overlap", "media apart from each other");
     const int index = static_cast<int>(out.media.size());
     out.media.push_back({volume.medium.density, volume.medium.g, *albedo});
