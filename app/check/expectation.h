@@ -196,15 +196,15 @@ class Expectation {
 
   /// Takes the samples of the scene as it is: as many as the time allows.
   void take_samples(const CheckOptions& options) {
-    constexpr int least = 4, most = 24;
+    constexpr int fewest = 4, limit = 24;
     constexpr double part_for_samples = 1 / 60.0;  // of the time, for the samples of one program
     const auto begin = std::chrono::steady_clock::now();
     count_ = options.samples;
     if (count_ == 0) {
-      count_ = least;
+      count_ = fewest;
       samples_of(start_, false);
-      const double fit = options.seconds * part_for_samples * least / std::max(seconds_since(begin), 1e-6);
-      count_ = static_cast<int>(std::clamp(fit, 1.0 * least, 1.0 * most));
+      const double fit = options.seconds * part_for_samples * fewest / std::max(seconds_since(begin), 1e-6);
+      count_ = static_cast<int>(std::clamp(fit, 1.0 * fewest, 1.0 * limit));
     }
     samples_ = samples_of(start_, false);
     single_ = statistics_of(samples_, count_, {});

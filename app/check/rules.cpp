@@ -11,13 +11,13 @@
 namespace tyndall {
 namespace {
 
-std::vector<Sphere<>*> balls_of(Scene& scene) {
-  std::vector<Sphere<>*> balls;
+std::vector<Sphere<>*> spheres_of(Scene& scene) {
+  std::vector<Sphere<>*> spheres;
   each_object(scene.objects, [&](Object& object) {
     auto* solid = std::get_if<Solid3d>(&object.kind);
-    if (auto* ball = solid ? std::get_if<Sphere<>>(&solid->shape) : nullptr) balls.push_back(ball);
+    if (auto* sphere = solid ? std::get_if<Sphere<>>(&solid->shape) : nullptr) spheres.push_back(sphere);
   });
-  return balls;
+  return spheres;
 }
 
 /// The materials of a kind that objects have.
@@ -39,8 +39,10 @@ bool has_material(Scene& scene) {
 bool is_fuzzy(const Material* metal) { return std::get<Metal<>>(metal->kind).fuzz > 0; }
 bool has_fuzz(Scene& scene) { return std::ranges::any_of(materials_of<Metal<>>(scene), is_fuzzy); }
 bool has_motion(Scene& scene) {
-  const auto moves = [](const Sphere<>* ball) { return ball->center_end && !(*ball->center_end == ball->center); };
-  return scene.camera.shutter_close > scene.camera.shutter_open && std::ranges::any_of(balls_of(scene), moves);
+  const auto moves = [](const Sphere<>* sphere) {
+    return sphere->center_end && !(*sphere->center_end == sphere->center);
+  };
+  return scene.camera.shutter_close > scene.camera.shutter_open && std::ranges::any_of(spheres_of(scene), moves);
 }
 
 template <class T, class Rule>
@@ -73,8 +75,8 @@ bool blacken(BookProgram& program) {
 
 bool flip_radii(BookProgram& program) {
   bool flipped = false;
-  for (Sphere<>* ball : balls_of(program.scene))
-    if (ball->radius <= 0) ball->radius = -ball->radius, flipped = true;
+  for (Sphere<>* sphere : spheres_of(program.scene))
+    if (sphere->radius <= 0) sphere->radius = -sphere->radius, flipped = true;
   return flipped;
 }
 

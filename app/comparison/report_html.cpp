@@ -183,7 +183,7 @@ void write_html_report(const std::filesystem::path& file, const std::vector<Chec
       sections += section(picture, number, ppm);
     }
   std::filesystem::path numbers = file;
-  numbers.replace_extension(file.extension() == ".json" ? ".json.json" : ".json");
+  numbers.replace_extension(".json");
   const std::string sentence = fmt::format("{} of {} pictures look like their baseline",
                                            std::count_if(pictures.begin(), pictures.end(), passes), pictures.size());
   write_text_or_rescue(file, from_template("report.html", {{"stops", css_stops()},
