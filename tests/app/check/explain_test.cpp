@@ -1,4 +1,4 @@
-#include "app/check/explain.h"
+#include "app/check/check.h"
 #include "tests/app/check/verdicts.h"
 #include "tests/support/thorough.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "app/check/explain.h"
+#include "app/check/check.h"
 #include "core/image/tonemap.h"
 #include "core/scene/load.h"
 #include "tests/support/book_tracer.h"
