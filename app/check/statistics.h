@@ -192,8 +192,4 @@ struct Reference {
 Reference render_reference(Scene scene, const LinearImage& picture, double seconds, std::uint32_t spp,
                            const std::function<bool()>& go_on);
 
-/// How a picture differs from the scene as a few samples of each pixel show it: enough to tell whether it is a picture
-/// of this scene at all.
-std::vector<CellDifference> rough_differences(const PictureNumbers& picture, const Scene& scene);
-
 }  // namespace tyndall
