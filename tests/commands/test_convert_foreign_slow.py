@@ -41,12 +41,13 @@ DISK, MEDIUM = 7, 12  # among the objects
 
 
 def scene(name="scene.json", **changes):
-    """Writes the scene, with another disk, medium, grey, textures; or without the disk."""
+    """Writes the scene, with another disk, medium, grey, textures, with one object more; or without the disk."""
     made = copy.deepcopy(SCENE)
     made["objects"][MEDIUM]["boundary"].update(changes.get("medium", {}))
     made["objects"][DISK].update(changes.get("disk") or {})
     made["materials"]["grey"].update(changes.get("grey", {}))
     made["textures"] = changes.get("textures", {})
+    made["objects"] += changes.get("more", [])
     if changes.get("disk", {}) is None:
         del made["objects"][DISK]
     write(name, json.dumps(made))
@@ -124,6 +125,8 @@ def test_skies(sky):
         assert foreign.read(f"sky.{ending}", 1, 1)[0].sky == pytest.approx(want, abs=1e-3)
 
 
+ROD = {"type": "medium", "boundary": {"type": "box", "min": [-2, 2.5, -0.1], "max": [2, 3.5, 0.1]}, "density": 1,
+       "albedo": [1, 1, 1]}  # turned, it passes the cube around the other medium
 IMAGE = {"grey": {"albedo": "map"}, "textures": {"map": {"type": "image", "file": "map.ppm"}}}
 
 
@@ -133,6 +136,8 @@ IMAGE = {"grey": {"albedo": "map"}, "textures": {"map": {"type": "image", "file"
     ({**IMAGE, "disk": None}, "pbrt py", "xml", "/textures/map/type image"),
     (IMAGE, "", "pbrt py", "/objects 'an image on a disk'"),
     ({"medium": {"center": [-4, 3, -4], "radius": 0.4}}, "", "xml", "/objects 'a medium within a light'"),
+    ({"more": [ROD | {"transform": [{"translate": [-1, 0, 1]}]}]}, "py", "pbrt xml", "/objects 'media that may overlap'"),
+    ({"more": [ROD | {"transform": [{"rotate_y": 45}, {"translate": [-0.1, 0, 1.9]}]}]}, "pbrt xml py", "", ""),
     ({"grey": {"type": "metal", "albedo": [1, 1, 1]}}, "xml", "pbrt", "/materials/grey/type mirror"),
 ])
 def test_equals(changes, endings, refused, words):
