@@ -93,15 +93,9 @@ std::string pictures_of(const CheckedPicture& picture, PpmCurve ppm) {
   const Comparison& c = *picture.comparison;
   const LinearImage flip = heat_colours(c.flip_map, c.width, c.height);
   const PicturePair pair = read_pair(picture.image, picture.reference, ppm);
-  return fmt::format(
-      "<div class=\"pair\"><figure><div class=\"slide\" tabindex=\"0\" role=\"slider\" aria-label=\"divider\" "
-      "aria-valuemin=\"0\" aria-valuemax=\"100\" aria-valuenow=\"50\">"
-      "<img alt=\"baseline\" src=\"{}\"><img alt=\"rendered\" class=\"top\" src=\"{}\"><span "
-      "class=\"bar\"></span></div>"
-      "<figcaption>left of the divider: rendered; right: baseline (pointer, or ← → Home End)</figcaption></figure>\n"
-      "<figure><img alt=\"FLIP\" src=\"{}\"><div class=\"scale\"></div><div class=\"marks\"><span>0</span>"
-      "<span>0.5</span><span>1</span></div><figcaption>FLIP of each pixel</figcaption></figure></div>\n",
-      data_of(pair.reference), data_of(pair.image), data_of(flip));
+  return from_template(
+      "report_pair.html",
+      {{"baseline", data_of(pair.reference)}, {"rendered", data_of(pair.image)}, {"flip", data_of(flip)}});
 }
 
 std::string table_of(const CheckedPicture& picture) {
