@@ -37,6 +37,12 @@ for file in better bare part; do expect 0 "$tyndall" compare "$file.exr" new/cov
 for file in better bare part; do
   expect 1 "$tyndall" compare "$file.exr" changed.exr --max-z 4 :err '^tyndall: check failed: .* standard errors'
 done
+expect 0 "$tyndall" compare bare.exr new/cover.exr --json --max-z 4
+python3 - <<'PY' || fail "the layer Variance says another noise than the film: $(cat out)"
+import json
+layer, film = (json.load(open(name))["noise"]["error"] for name in ("out", "noise.json"))
+assert all(0.9 < a / b < 1.1 for a, b in zip(layer, film))
+PY
 
 # A lamp three times as bright that few paths meet, and one that is off.
 lamp() { "$tyndall" render cornell-box --integrator path --size 32x32 --spp 2 -q --set /camera/vfov=20 "$@" || fail "lamp $*"; }

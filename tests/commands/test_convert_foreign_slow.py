@@ -41,13 +41,15 @@ DISK, MEDIUM = 7, 12  # among the objects
 
 
 def scene(name="scene.json", **changes):
-    """Writes the scene, with another disk, medium, grey, textures, with one object more; or without the disk."""
+    """Writes the scene, with another disk, medium, grey, textures, camera, with one object more; or without
+    the disk."""
     made = copy.deepcopy(SCENE)
     made["objects"][MEDIUM]["boundary"].update(changes.get("medium", {}))
     made["objects"][DISK].update(changes.get("disk") or {})
     made["materials"]["grey"].update(changes.get("grey", {}))
     made["textures"] = changes.get("textures", {})
     made["objects"] += changes.get("more", [])
+    made["camera"].update(changes.get("camera", {}))
     if changes.get("disk", {}) is None:
         del made["objects"][DISK]
     write(name, json.dumps(made))
@@ -138,6 +140,8 @@ IMAGE = {"grey": {"albedo": "map"}, "textures": {"map": {"type": "image", "file"
     ({"medium": {"center": [-4, 3, -4], "radius": 0.4}}, "", "xml", "/objects 'a medium within a light'"),
     ({"more": [ROD | {"transform": [{"translate": [-1, 0, 1]}]}]}, "py", "pbrt xml", "/objects 'media that may overlap'"),
     ({"more": [ROD | {"transform": [{"rotate_y": 45}, {"translate": [-0.1, 0, 1.9]}]}]}, "pbrt xml py", "", ""),
+    ({"more": [{"type": "sphere", "center": [0, 4, 0], "center_end": [1, 4, 0], "radius": 0.3, **LAMP}],
+      "camera": {"shutter": [0, 1]}}, "", "pbrt py", "/objects 'a light that moves'"),
     ({"grey": {"type": "metal", "albedo": [1, 1, 1]}}, "xml", "pbrt", "/materials/grey/type mirror"),
 ])
 def test_equals(changes, endings, refused, words):
