@@ -240,6 +240,18 @@ class BookPaths {
 
 }  // namespace
 
+BookProgram plain_program(const Scene& scene) {
+  BookProgram program{scene, {}};
+  program.rules.schlick = scene.render.fresnel == FresnelKind::schlick;
+  return program;
+}
+
+Lattice lattice_of(int width, int height) {
+  Lattice lattice{width, height, 1};
+  while (lattice.pixels() > 100'000) ++lattice.step;
+  return lattice;
+}
+
 std::vector<BookSample> book_samples(const BookProgram& program, const Lattice& lattice, int count, ThreadPool& threads,
                                      const std::function<bool()>& go_on) {
   SceneView scene{compile(program.scene)};

@@ -43,6 +43,9 @@ struct BookProgram {
   std::function<void(RenderScene&)> columns{};
 };
 
+/// The program that renders a scene as it is.
+BookProgram plain_program(const Scene& scene);
+
 /// Every step-th pixel of a picture in both directions, from the upper left one on.
 struct Lattice {
   int width = 0, height = 0;  ///< of the picture
@@ -51,6 +54,9 @@ struct Lattice {
   int rows() const { return (height + step - 1) / step; }
   std::size_t pixels() const { return static_cast<std::size_t>(columns()) * static_cast<std::size_t>(rows()); }
 };
+
+/// Of at most 100,000 pixels.
+Lattice lattice_of(int width, int height);
 
 /// What one path brings.
 struct BookSample {

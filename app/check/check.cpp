@@ -1,20 +1,23 @@
 #include "app/check/check.h"
 
 #include "app/book/load_program.h"
-#include "app/comparison/comparison.h"
+#include "app/comparison/baseline.h"
 #include "app/files/open_scene.h"
+#include "core/accuracy/error.h"
 #include "core/base/error.h"
 #include "core/base/seconds.h"
 #include "core/base/text.h"
 #include "core/image/image_io.h"
 #include "core/image/image_io_file.h"
 #include "core/image/tonemap.h"
+#include "core/render/render.h"
 #include "core/scene/load.h"
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -29,10 +32,7 @@ constexpr double part_of_other_scene = 0.05;       // blocks that differ from th
 constexpr double part_of_right_scene = 0.5;        // of the difference that is left where another one is taken
 
 bool is_picture_name(const fs::path& name) {
-  const std::string ending = lower_case(name.extension().string());
-  constexpr const char* endings[] = {".png", ".jpg", ".jpeg", ".bmp", ".tga", ".ppm",
-                                     ".pgm", ".pnm", ".pfm",  ".hdr", ".exr"};
-  return std::any_of(std::begin(endings), std::end(endings), [&](const char* known) { return ending == known; });
+  return has_picture_ending(name) || lower_case(name.extension().string()) == ".pnm";
 }
 
 /// What read_picture() would have made of a PPM with PpmCurve::gamma2.
@@ -43,13 +43,33 @@ void read_as_gamma2(LinearImage& image) {
   }
 }
 
-std::string remark_on_size(const LoadedScene& loaded, const LinearImage& image, int width, int height) {
+std::string remark_on_size(const LoadedScene& loaded, const LinearImage& image) {
+  const int width = loaded.scene.width, height = loaded.scene.height;
   if (std::abs(static_cast<double>(width) * image.height - static_cast<double>(height) * image.width) <=
       std::max(width, image.width))
     return "";
-  return loaded.name + ": its picture is " + std::to_string(width) + "x" + std::to_string(height) +
-         ", which is rendered as " + std::to_string(image.width) + "x" + std::to_string(image.height) +
-         " with the same vertical field of view";
+  return fmt::format("{}: its picture is {}x{}, which is rendered as {}x{} with the same vertical field of view",
+                     loaded.name, width, height, image.width, image.height);
+}
+
+/// How a picture differs from the scene as a few samples of each pixel show it: enough to tell whether it is a picture
+/// of this scene at all.
+std::vector<CellDifference> rough_differences(const PictureNumbers& picture, const Scene& scene) {
+  constexpr int count = 4;
+  const Lattice lattice = lattice_of(picture.width, picture.height);
+  ThreadPool pool(0);
+  const auto samples = book_samples(plain_program(scene), lattice, count, pool, [] { return true; });
+  ExpectedPixels expected;
+  for (const SampleStatistics& number : statistics_of(samples, count, {count}))
+    expected.light.push_back(number.mean - (picture.coded ? number.excess : 0));
+  expected.variance.resize(expected.light.size());
+  const Regions regions = blocks_of(lattice, edge_of_blocks(lattice));
+  std::vector<CellDifference> best;
+  for (const Reading& reading : readings_of(picture.coded, true)) {
+    auto found = differences_of(read_pixels(picture, lattice, reading), expected, regions);
+    if (best.empty() || amount_of(found, found) < amount_of(best, best)) best = std::move(found);
+  }
+  return best;
 }
 
 /// A program's scene with its balls where they lie in a picture.
@@ -57,19 +77,6 @@ struct Arrangement {
   LoadedScene loaded;
   std::string words;  ///< which compiler puts them there; "": the one that the program is compiled with
 };
-
-/// Loads the program again, compiled in another way; nothing: it cannot be.
-std::optional<LoadedScene> load(SceneRequest request, const std::string& compiler) {
-  request.program.compiler = compiler;
-  request.program.told = true;
-  try {
-    return open_scene(request);
-  } catch (const ProgramInterrupted&) {
-    throw;
-  } catch (const std::runtime_error&) {  // a compiler that is not there, or that refuses the program
-    return {};
-  }
-}
 
 /// Programs place balls at random, and where depends on the order in which a compiler computes arguments. If the
 /// picture clearly differs from the scene as it was loaded, the program is compiled by other compilers, and the scene
@@ -79,22 +86,31 @@ Arrangement find_arrangement(const PictureNumbers& picture, const SceneRequest& 
                              const std::function<bool()>& go_on) {
   Arrangement best{std::move(loaded), ""};
   if (!is_program(request.what)) return best;
-  const auto misfit = [&](LoadedScene& other) {
+  const auto differences = [&](LoadedScene& other) {
     other.scene.width = picture.width, other.scene.height = picture.height;
-    return rough_misfit(picture, other.scene);
+    return rough_differences(picture, other.scene);
   };
-  const Misfit plain = misfit(best.loaded);
-  if (plain.different <= part_of_other_scene * plain.blocks) return best;
-  double amount = part_of_right_scene * plain.amount;
+  const auto plain = differences(best.loaded);
+  const Misfit misfit = misfit_of(plain);
+  if (misfit.different <= part_of_other_scene * misfit.blocks) return best;
+  double allowed = part_of_right_scene * amount_of(plain, plain);
   const Scene first = best.loaded.scene;
+  SceneRequest again = request;
+  again.program.told = true;
   for (const char* compiler : {"g++", "clang++"}) {
     if (!go_on()) return best;
-    std::optional<LoadedScene> other = load(request, compiler);
-    if (!other || other->scene == first) continue;
-    const Misfit found = misfit(*other);
-    if (found.amount >= amount) continue;
-    amount = found.amount;
-    best = {std::move(*other), std::string("balls as ") + compiler + " places them"};
+    again.program.compiler = compiler;
+    try {
+      LoadedScene other = open_scene(again);
+      if (other.scene == first) continue;
+      const auto found = differences(other);
+      if (amount_of(found, found) >= allowed) continue;
+      allowed = amount_of(found, found);
+      best = {std::move(other), std::string("balls as ") + compiler + " places them"};
+    } catch (const ProgramInterrupted&) {
+      throw;
+    } catch (const std::runtime_error&) {  // a compiler that is not there, or that refuses the program
+    }
   }
   return best;
 }
@@ -122,6 +138,32 @@ void check_names_picture(const std::string& name) {
                    ", expected a picture, or a scene: its file, its name (\"tyndall scenes\" lists them) or a MAIN.cc");
 }
 
+Reference render_reference(Scene scene, const LinearImage& picture, double seconds, std::uint32_t spp,
+                           const std::function<bool()>& go_on) {
+  scene.render.sharing = false, scene.render.adaptive = false, scene.render.sampler = SamplerKind::sobol;
+  scene.render.integrator = Integrator::mis;
+  scene.render.seed += 0x5eed;  // the picture may be Tyndall's own, whose noise must not be taken for the truth
+  const auto prepared = prepare(scene);
+  const auto progress = [&](const RenderProgress&) { return go_on(); };
+  constexpr double part_of_difference = 0.05, min_error = 0.002;
+  RenderOptions options;
+  options.spp = 16;  // at first
+  RenderResult rendered = render(*prepared, options);
+  const double difference = std::sqrt(relative_mse(picture.rgb, resolve(rendered.film)));
+  options.spp = spp;
+  options.time_limit = std::max(0.0, seconds - rendered.seconds);
+  options.target_error = std::isfinite(difference) ? std::max(min_error, part_of_difference * difference) : min_error;
+  if (!rendered.interrupted) rendered = render(*prepared, options, progress, std::move(rendered.film));
+  const Film& film = rendered.film;
+  Reference reference{{film.region.width(), film.region.height(), resolve(film)}, {}};
+  reference.variance.reserve(3 * film.pixels.size());
+  for (const FilmPixel& pixel : film.pixels) {
+    const Vec3f half = half_mean(film, pixel, 0) - half_mean(film, pixel, 1);
+    for (const float off : {half.x, half.y, half.z}) reference.variance.push_back(off * off / 4);
+  }
+  return reference;
+}
+
 Check check_picture(const CheckRequest& request) {
   auto begin = std::chrono::steady_clock::now();
   const double limit = request.options.seconds;
@@ -134,7 +176,7 @@ Check check_picture(const CheckRequest& request) {
   const PictureNumbers numbers = numbers_of(picture);
   LoadedScene loaded = open_scene(request.scene);
   begin = std::chrono::steady_clock::now();  // how long compilers take is not for the user to say
-  const std::string remark = remark_on_size(loaded, picture.image, loaded.scene.width, loaded.scene.height);
+  const std::string remark = remark_on_size(loaded, picture.image);
   Arrangement arrangement = find_arrangement(numbers, request.scene, std::move(loaded), go_on);
   Scene& scene = arrangement.loaded.scene;
   scene.width = picture.image.width, scene.height = picture.image.height;
@@ -148,13 +190,11 @@ Check check_picture(const CheckRequest& request) {
   // Read by the square of its numbers, as that fits better.
   const bool gamma2 = ppm && request.ppm == PpmCurve::srgb && check.verdict.curve == TransferCurve::gamma2;
   if (ppm && (gamma2 || request.ppm == PpmCurve::gamma2)) read_as_gamma2(picture.image);
-  PicturePair pair{std::move(picture.image), std::move(reference.image)};
+  const std::size_t pixels = picture.image.rgb.size() / 3;
+  PicturePair pair{{pixels, pixels}, {}, std::move(reference.image)};
+  pair.image = take_pixels(pair, request.image, std::move(picture));
   pair.image.frame.reset();
-  pair.image_pixels = pair.reference_pixels = pair.image.rgb.size() / 3;
-  pair.has_ppm = ppm, pair.remarks = std::move(picture.remarks);
   if (!remark.empty()) pair.remarks.push_back(remark);
-  if (picture.has_alpha)
-    pair.remarks.push_back(request.image.string() + ": alpha is not looked at: what is hidden beneath it is compared");
   if (gamma2)
     pair.remarks.push_back(request.image.string() +
                            ": read as the books' programs write it (gamma 2), which fits the scene better");

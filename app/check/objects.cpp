@@ -53,12 +53,29 @@ SeenObjects::Object describe(const Scene& scene, const std::vector<int>& path) {
   return seen;
 }
 
+/// Of each object the pixels around which it is seen.
+Regions regions_of(const SeenObjects& seen, const Lattice& lattice) {
+  Regions regions{seen.of_pixel, static_cast<int>(seen.objects.size())};
+  const int right = lattice.columns() - 1, low = lattice.rows() - 1;
+  for (int y = 0; y <= low; ++y)
+    for (int x = 0; x <= right; ++x) {
+      const auto pixel = [&](int dx, int dy) {
+        return static_cast<std::size_t>(std::clamp(y + dy, 0, low) * (right + 1) + std::clamp(x + dx, 0, right));
+      };
+      const int object = seen.of_pixel[pixel(0, 0)];
+      bool same = !seen.at(pixel(0, 0)).noisy_texture;
+      for (int k = 0; k < 9; ++k) same = same && seen.of_pixel[pixel(k % 3 - 1, k / 3 - 1)] == object;
+      if (!same) regions.of_pixel[pixel(0, 0)] = -1;
+    }
+  return regions;
+}
+
 }  // namespace
 
 SeenObjects seen_objects(const Scene& scene, const Lattice& lattice) {
   const SceneView view{compile(scene)};
   const Kernels kernels = *choose_kernels("");
-  SeenObjects seen{{{"the sky", "sky"}}, {}};  // the media follow, and the others as they are seen
+  SeenObjects seen{{{"the sky", "sky"}}, {}, {}};  // the media follow, and the others as they are seen
   for (const std::vector<int>& path : media_of(scene)) seen.objects.push_back(describe(scene, path));
   std::map<std::int32_t, int> numbers;
   const auto number_of = [&](std::int32_t element) {
@@ -78,26 +95,8 @@ SeenObjects seen_objects(const Scene& scene, const Lattice& lattice) {
       seen.of_pixel.push_back(medium < 0 ? number_of(hit.element) : 1 + medium);
     }
   }
+  seen.regions = regions_of(seen, lattice);
   return seen;
-}
-
-Regions regions_of(const SeenObjects& seen, const Lattice& lattice) {
-  Regions regions{seen.of_pixel, static_cast<int>(seen.objects.size())};
-  const int columns = lattice.columns(), rows = lattice.rows();
-  const auto at = [&](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x);
-  };
-  for (int y = 0; y < rows; ++y)
-    for (int x = 0; x < columns; ++x) {
-      const int object = seen.of_pixel[at(x, y)];
-      bool same = !seen.objects[static_cast<std::size_t>(object)].noisy_texture;
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx)
-          same =
-              same && seen.of_pixel[at(std::clamp(x + dx, 0, columns - 1), std::clamp(y + dy, 0, rows - 1))] == object;
-      if (!same) regions.of_pixel[at(x, y)] = -1;
-    }
-  return regions;
 }
 
 }  // namespace tyndall

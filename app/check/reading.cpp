@@ -1,28 +1,16 @@
-#include "app/check/reading.h"
-
+#include "app/check/statistics.h"
 #include "core/image/tonemap.h"
-
-#include <algorithm>
-#include <cmath>
 
 namespace tyndall {
 namespace {
 
 float light_of(TransferCurve curve, float number) {
-  switch (curve) {
-    case TransferCurve::srgb:
-      return srgb_decode(number);
-    case TransferCurve::power22:
-      return std::pow(number, 2.2f);
-    case TransferCurve::gamma2:
-      return number * number;
-    case TransferCurve::gamma2_twice:
-      return number * number * number * number;
-    case TransferCurve::light:
-    case TransferCurve::none:
-      break;
-  }
-  return number;
+  if (curve == TransferCurve::srgb) return srgb_decode(number);
+  const float power = curve == TransferCurve::power22        ? 2.2f
+                      : curve == TransferCurve::gamma2       ? 2
+                      : curve == TransferCurve::gamma2_twice ? 4
+                                                             : 1;
+  return power == 1 ? number : std::pow(number, power);
 }
 
 /// Half of the light between the numbers one step above and below, at least that of a dark grey: in black no step can
@@ -35,12 +23,7 @@ float tolerance_of(TransferCurve curve, float number, float step) {
 
 }  // namespace
 
-bool is_right(const Reading& reading) {
-  const bool right_curve = reading.curve != TransferCurve::none && reading.curve != TransferCurve::gamma2_twice;
-  return right_curve && !reading.upside_down && !reading.mirrored && !reading.swapped;
-}
-
-std::vector<Reading> readings_of(bool coded) {
+std::vector<Reading> readings_of(bool coded, bool right) {
   std::vector<TransferCurve> curves{TransferCurve::light};
   if (coded)
     curves = {TransferCurve::gamma2, TransferCurve::srgb, TransferCurve::power22, TransferCurve::none,
@@ -49,21 +32,10 @@ std::vector<Reading> readings_of(bool coded) {
   for (const bool swapped : {false, true})
     for (const bool upside_down : {false, true})
       for (const bool mirrored : {false, true})
-        for (const TransferCurve curve : curves) readings.push_back({curve, upside_down, mirrored, swapped});
+        for (const TransferCurve curve : curves)
+          if (const Reading reading{curve, upside_down, mirrored, swapped}; reading.is_right() == right)
+            readings.push_back(reading);
   return readings;
-}
-
-std::string curve_text(TransferCurve curve) {
-  switch (curve) {
-    case TransferCurve::srgb:
-      return "sRGB's curve";
-    case TransferCurve::power22:
-      return "gamma 2.2";
-    case TransferCurve::gamma2:
-      return "gamma 2";
-    default:
-      return "";
-  }
 }
 
 PictureNumbers numbers_of(const PictureFile& picture) {
@@ -85,7 +57,6 @@ PictureNumbers numbers_of(const PictureFile& picture) {
 
 ReadPixels read_pixels(const PictureNumbers& picture, const Lattice& lattice, const Reading& reading) {
   ReadPixels pixels;
-  pixels.light.reserve(3 * lattice.pixels()), pixels.tolerance.reserve(3 * lattice.pixels());
   for (int y = 0; y < picture.height; y += lattice.step)
     for (int x = 0; x < picture.width; x += lattice.step) {
       const int column = reading.mirrored ? picture.width - 1 - x : x;
@@ -94,8 +65,8 @@ ReadPixels read_pixels(const PictureNumbers& picture, const Lattice& lattice, co
                            static_cast<std::size_t>(column));
       for (std::size_t c = 0; c < 3; ++c) {
         const float number = picture.numbers[at + (reading.swapped ? 2 - c : c)];
-        pixels.light.push_back(light_of(reading.curve, number));
-        pixels.tolerance.push_back(tolerance_of(reading.curve, number, picture.step));
+        pixels.light.push_back(static_cast<double>(light_of(reading.curve, number)));
+        pixels.tolerance.push_back(static_cast<double>(tolerance_of(reading.curve, number, picture.step)));
       }
     }
   return pixels;

@@ -1,4 +1,4 @@
-#include "app/check/explain.h"
+#include "app/check/check.h"
 
 #include "core/base/text.h"
 
@@ -22,21 +22,25 @@ std::string channel_text(double image, double expected) {
   return fmt::format("{:+.{}f} %", percent, std::abs(percent) < 9.5 ? 1 : 0);
 }
 
-const SeenObjects::Object& object_of(const Findings& v, const ObjectDifference& d) {
-  return v.seen.objects[static_cast<std::size_t>(d.object)];
-}
-
-std::string object_line(const Findings& v, const ObjectDifference& d) {
-  return fmt::format("object   {}: red {}, green {}, blue {} ({} pixels)\n", object_of(v, d).name,
+std::string object_line(const ObjectDifference& d) {
+  return fmt::format("object   {}: red {}, green {}, blue {} ({} pixels)\n", d.object.name,
                      channel_text(d.image.x, d.expected.x), channel_text(d.image.y, d.expected.y),
                      channel_text(d.image.z, d.expected.z), d.pixels);
+}
+
+/// Of a right curve; "": nothing has to be said of it.
+const char* curve_text(TransferCurve curve) {
+  return curve == TransferCurve::srgb      ? "sRGB's curve"
+         : curve == TransferCurve::power22 ? "gamma 2.2"
+         : curve == TransferCurve::gamma2  ? "gamma 2"
+                                           : "";
 }
 
 /// What the objects that differ have in common; "": nothing.
 std::string common_kind(const Findings& v) {
   std::set<std::string> differ, all;
-  for (const ObjectDifference& d : v.objects) differ.insert(object_of(v, d).kind);
-  for (const int object : v.seen.of_pixel) all.insert(v.seen.objects[static_cast<std::size_t>(object)].kind);
+  for (const ObjectDifference& d : v.objects) differ.insert(d.object.kind);
+  for (std::size_t pixel = 0; pixel < v.seen.of_pixel.size(); ++pixel) all.insert(v.seen.at(pixel).kind);
   return differ.size() == 1 && all.size() > 1 ? *differ.begin() : "";
 }
 
@@ -44,15 +48,9 @@ std::string how_made(const Findings& v) {
   std::vector<std::string> parts;
   if (v.samples > 0)
     parts.push_back(fmt::format("about {} samples a pixel, as its noise tells", std::lround(v.samples)));
-  if (!curve_text(v.curve).empty()) parts.push_back(curve_text(v.curve));
+  if (const std::string curve = curve_text(v.curve); !curve.empty()) parts.push_back(curve);
   for (const Difference& choice : v.choices) parts.push_back(choice.words);
   return parts.empty() ? "" : "picture  " + joined(parts, "; ") + "\n";
-}
-
-std::string left_out_text(const Findings& v) {
-  const bool any = std::any_of(v.seen.objects.begin(), v.seen.objects.end(),
-                               [](const SeenObjects::Object& object) { return object.noisy_texture; });
-  return any ? "left out objects with noise textures: their veins lie elsewhere in Tyndall\n" : "";
 }
 
 int percent(double explained) { return static_cast<int>(std::lround(100 * std::clamp(explained, 0.0, 1.0))); }
@@ -84,27 +82,28 @@ nlohmann::ordered_json json_of(const std::vector<Difference>& list) {
 }  // namespace
 
 std::string verdict_text(const Findings& v) {
-  const std::string blocks = fmt::format("of {} blocks of {}x{} pixels", v.blocks, v.block_edge, v.block_edge);
   if (v.unknown)
     return "check    it cannot be told whether they agree: programs of the books find the light of this scene so "
            "seldom\n"
            "         that few samples show little of it\n";
-  if (v.too_few)
-    return fmt::format("check    too few samples to tell: a change of all light by {} % would not show{}\n",
-                       std::lround(100 * v.unseen),
-                       v.enough > 0 ? fmt::format("; about {:.0f} a pixel would do", v.enough) : "") +
-           how_made(v) + left_out_text(v);
-  if (v.agrees)
-    return fmt::format("check    the pictures agree within the noise, in {} {}\n", v.blocks - v.different, blocks) +
-           how_made(v) + left_out_text(v);
+  const std::string blocks = fmt::format("of {} blocks of {}x{} pixels", v.blocks, v.block_edge, v.block_edge);
   std::string text = fmt::format("check    the pictures differ by more than noise, in {} {}\n", v.different, blocks);
-  text += how_made(v) + left_out_text(v);
-  for (std::size_t k = 0; k < std::min(max_objects, v.objects.size()); ++k) text += object_line(v, v.objects[k]);
+  if (v.too_few)
+    text = fmt::format("check    too few samples to tell: a change of all light by {} % would not show{}\n",
+                       std::lround(100 * v.unseen),
+                       v.enough > 0 ? fmt::format("; about {:.0f} a pixel would do", v.enough) : "");
+  else if (v.agrees)
+    text = fmt::format("check    the pictures agree within the noise, in {} {}\n", v.blocks - v.different, blocks);
+  text += how_made(v);
+  if (std::any_of(v.seen.objects.begin(), v.seen.objects.end(),
+                  [](const auto& object) { return object.noisy_texture; }))
+    text += "left out objects with noise textures: their veins lie elsewhere in Tyndall\n";
+  if (v.too_few || v.agrees) return text;
+  for (std::size_t k = 0; k < std::min(max_objects, v.objects.size()); ++k) text += object_line(v.objects[k]);
   if (v.objects.size() > max_objects) text += fmt::format("object   and {} others\n", v.objects.size() - max_objects);
   const std::string kind = common_kind(v);
   if (!kind.empty()) text += fmt::format("object   only {} differ{}\n", kind, kind.back() == 's' ? "" : "s");
-  text += mistake_text(v);
-  return text;
+  return text + mistake_text(v);
 }
 
 nlohmann::ordered_json verdict_json(const Findings& v) {
@@ -121,8 +120,8 @@ nlohmann::ordered_json verdict_json(const Findings& v) {
   json["blocks"] = {{"count", v.blocks}, {"different", v.different}, {"edge", v.block_edge}};
   json["objects"] = nlohmann::ordered_json::array();
   for (const ObjectDifference& d : v.objects)
-    json["objects"].push_back({{"name", object_of(v, d).name},
-                               {"kind", object_of(v, d).kind},
+    json["objects"].push_back({{"name", d.object.name},
+                               {"kind", d.object.kind},
                                {"pixels", d.pixels},
                                {"mean_image", channels(d.image)},
                                {"mean_reference", channels(d.expected)}});

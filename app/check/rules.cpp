@@ -1,45 +1,48 @@
-#include "app/check/explain.h"
+#include "app/check/check.h"
 #include "app/report/contents.h"
 #include "core/base/math.h"
+#include "core/base/text.h"
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace tyndall {
 namespace {
 
-Sphere<>* sphere_of(Object& object) {
-  auto* solid = std::get_if<Solid3d>(&object.kind);
-  return solid ? std::get_if<Sphere<>>(&solid->shape) : nullptr;
+std::vector<Sphere<>*> spheres_of(Scene& scene) {
+  std::vector<Sphere<>*> spheres;
+  each_object(scene.objects, [&](Object& object) {
+    auto* solid = std::get_if<Solid3d>(&object.kind);
+    if (auto* sphere = solid ? std::get_if<Sphere<>>(&solid->shape) : nullptr) spheres.push_back(sphere);
+  });
+  return spheres;
 }
 
-/// Calls change(material's kind, material) for materials of a kind that objects have. Whether there was one.
+/// The materials of a kind that objects have.
 template <class Kind>
-bool change_materials(Scene& scene, const std::function<bool(Kind&, Material&)>& change) {
-  std::vector<char> used(scene.materials.size());
+std::set<Material*> materials_of(Scene& scene) {
+  std::set<Material*> found;
   each_object(scene.objects, [&](Object& object) {
-    if (const auto* solid = std::get_if<Solid3d>(&object.kind)) used[static_cast<std::size_t>(solid->material)] = 1;
+    const auto* solid = std::get_if<Solid3d>(&object.kind);
+    Material* material = solid ? &scene.materials[static_cast<std::size_t>(solid->material)] : nullptr;
+    if (material && std::holds_alternative<Kind>(material->kind)) found.insert(material);
   });
-  bool changed = false;
-  for (std::size_t k = 0; k < scene.materials.size(); ++k)
-    if (auto* kind = std::get_if<Kind>(&scene.materials[k].kind); kind && used[k])
-      changed = change(*kind, scene.materials[k]) || changed;
-  return changed;
+  return found;
 }
+
 template <class Kind>
 bool has_material(Scene& scene) {
-  return change_materials<Kind>(scene, [](Kind&, Material&) { return true; });
+  return !materials_of<Kind>(scene).empty();
 }
-bool has_fuzz(Scene& scene) {
-  return change_materials<Metal<>>(scene, [](Metal<>& metal, Material&) { return metal.fuzz > 0; });
-}
+bool is_fuzzy(const Material* metal) { return std::get<Metal<>>(metal->kind).fuzz > 0; }
+bool has_fuzz(Scene& scene) { return std::ranges::any_of(materials_of<Metal<>>(scene), is_fuzzy); }
 bool has_motion(Scene& scene) {
-  bool moves = false;
-  each_object(scene.objects, [&](Object& object) {
-    const Sphere<>* sphere = sphere_of(object);
-    moves = moves || (sphere && sphere->center_end && !(*sphere->center_end == sphere->center));
-  });
-  return moves && scene.camera.shutter_close > scene.camera.shutter_open;
+  const auto moves = [](const Sphere<>* sphere) {
+    return sphere->center_end && !(*sphere->center_end == sphere->center);
+  };
+  return scene.camera.shutter_close > scene.camera.shutter_open && std::ranges::any_of(spheres_of(scene), moves);
 }
 
 template <class T, class Rule>
@@ -66,37 +69,32 @@ std::function<bool(BookProgram&)> other_sky(double scale, double offset) {
 /// Albedo 0: what is left of a colour that scatter() did not hand on.
 template <class Kind>
 bool blacken(BookProgram& program) {
-  return change_materials<Kind>(program.scene, [](Kind&, Material& material) {
-    material.colour = Vec3d{0, 0, 0};
-    return true;
-  });
+  for (Material* material : materials_of<Kind>(program.scene)) material->colour = Vec3d{0, 0, 0};
+  return has_material<Kind>(program.scene);
 }
 
 bool flip_radii(BookProgram& program) {
   bool flipped = false;
-  each_object(program.scene.objects, [&](Object& object) {
-    Sphere<>* sphere = sphere_of(object);
-    if (!sphere || sphere->radius > 0) return;
-    sphere->radius = -sphere->radius;
-    flipped = true;
-  });
+  for (Sphere<>* sphere : spheres_of(program.scene))
+    if (sphere->radius <= 0) sphere->radius = -sphere->radius, flipped = true;
   return flipped;
 }
 
 /// Of refractive indices below `limit`. 1: only the air in a hollow ball.
 std::function<bool(BookProgram&)> invert_indices(double limit) {
   return [=](BookProgram& program) {
-    return change_materials<Dielectric<>>(program.scene, [=](Dielectric<>& glass, Material&) {
-      if (glass.refractive_index >= limit) return false;
-      glass.refractive_index = 1 / glass.refractive_index;
-      return glass.refractive_index != 1;
-    });
+    bool changed = false;
+    for (Material* material : materials_of<Dielectric<>>(program.scene))
+      if (double& index = std::get<Dielectric<>>(material->kind).refractive_index; index < limit && index != 1)
+        index = 1 / index, changed = true;
+    return changed;
   };
 }
 
 bool remove_fuzz(BookProgram& program) {
-  return change_materials<Metal<>>(program.scene,
-                                   [](Metal<>& metal, Material&) { return std::exchange(metal.fuzz, 0) > 0; });
+  if (!has_fuzz(program.scene)) return false;
+  for (Material* material : materials_of<Metal<>>(program.scene)) std::get<Metal<>>(material->kind).fuzz = 0;
+  return true;
 }
 
 bool close_shutter(BookProgram& program) {
@@ -154,13 +152,6 @@ std::function<bool(BookProgram&)> mistyped_camera(int component) {
 
 bool always(Scene&) { return true; }
 
-std::string joined(const std::vector<std::pair<bool, const char*>>& parts, const std::string& between) {
-  std::string text;
-  for (const auto& [wanted, part] : parts)
-    if (wanted) text += (text.empty() ? "" : between) + part;
-  return text;
-}
-
 }  // namespace
 
 std::vector<Difference> usual_choices() {
@@ -176,20 +167,20 @@ std::vector<Difference> usual_choices() {
 }
 
 Difference mistake_of(const Reading& r) {
-  const std::string name = joined({{r.upside_down, "upside-down"},
-                                   {r.mirrored, "mirrored"},
-                                   {r.swapped, "red-blue"},
-                                   {r.curve == TransferCurve::none, "no-gamma"},
-                                   {r.curve == TransferCurve::gamma2_twice, "gamma-twice"}},
-                                  "+");
-  const std::string words = joined({{r.upside_down && r.mirrored, "the picture is turned by 180 degrees"},
-                                    {r.upside_down && !r.mirrored, "the picture is upside down"},
-                                    {!r.upside_down && r.mirrored, "the picture is mirrored, left and right"},
-                                    {r.swapped, "red and blue have changed places"},
-                                    {r.curve == TransferCurve::none, "light is written without gamma"},
-                                    {r.curve == TransferCurve::gamma2_twice, "gamma is applied twice"}},
-                                   ", and ");
-  return {name, words, [](BookProgram&) { return true; }};
+  struct Part {
+    bool wrong;
+    const char *name, *words;
+  };
+  const Part parts[] = {{r.upside_down && !r.mirrored, "upside-down", "the picture is upside down"},
+                        {!r.upside_down && r.mirrored, "mirrored", "the picture is mirrored, left and right"},
+                        {r.upside_down && r.mirrored, "upside-down+mirrored", "the picture is turned by 180 degrees"},
+                        {r.swapped, "red-blue", "red and blue have changed places"},
+                        {r.curve == TransferCurve::none, "no-gamma", "light is written without gamma"},
+                        {r.curve == TransferCurve::gamma2_twice, "gamma-twice", "gamma is applied twice"}};
+  std::vector<std::string> names, words;
+  for (const Part& part : parts)
+    if (part.wrong) names.emplace_back(part.name), words.emplace_back(part.words);
+  return {joined(names, "+"), joined(words, ", and "), [](BookProgram&) { return true; }, 0, r};
 }
 
 Difference shorter_paths(int depth) {

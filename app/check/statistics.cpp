@@ -1,23 +1,18 @@
 #include "app/check/statistics.h"
 
-#include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace tyndall {
 namespace {
 
-constexpr double amount_errors = 3;          // standard errors that an amount leaves to noise
-constexpr int min_pixels = 24;               // of a block that is compared
-constexpr double max_different = 1 / 150.0;  // of the small blocks of a picture that agrees
-constexpr double min_seen = 0.25;            // of a difference must be seen beside the noise of another picture
-
-struct Sums {
-  double expected = 0, value = 0, square = 0, variance = 0, tolerance = 0;
-};
-
-double excess_of(const BlockDifference& b, double error, double errors) {
-  return std::max(0.0, std::abs(b.difference) - b.tolerance - errors * error);
-}
+constexpr float Vec3f::*each_channel[] = {&Vec3f::x, &Vec3f::y, &Vec3f::z};
+constexpr double min_pairs = 20;       // of neighbours, that tell the noise of a cell
+constexpr std::size_t min_ratios = 8;  // blocks that tell how many samples a picture has
+constexpr double max_cut = 1e-3;       // of light, that white cuts off of blocks whose noise tells anything
+constexpr double max_black_off = 0.1;  // of the pixels, by which a picture is black more or less often
+constexpr double noise_factor = 2;     // by which noise tells the number of samples wrongly
+constexpr double amount_errors = 3;    // standard errors that an amount leaves to noise
+constexpr int min_pixels = 24;         // of a block that is compared
 
 /// Pairs of numbers: their covariance.
 struct Pairs {
@@ -27,8 +22,8 @@ struct Pairs {
 };
 
 /// One channel of a pixel.
-void add_channel(const BookSample* samples, const BookSample* other, int count, const Exposure& exposure,
-                 float Vec3f::*channel, SampleStatistics& to) {
+SampleStatistics of_channel(const BookSample* samples, const BookSample* other, int count, const Exposure& exposure,
+                            float Vec3f::*channel) {
   double of_group = 0, of_other = 0, excess = 0, black = 0;
   int in_group = 0;
   Pairs single, both, cut, cut_and_other;
@@ -39,62 +34,100 @@ void add_channel(const BookSample* samples, const BookSample* other, int count, 
     if (++in_group < exposure.group) continue;
     const double mean = of_group / exposure.group, shown = std::min(mean, exposure.white);
     cut.add(shown, shown), cut_and_other.add(shown, of_other / exposure.group), excess += mean - shown;
-    black += mean < static_cast<double>(max_black) ? 1 : 0;
+    black += mean < max_black ? 1 : 0;
     of_group = 0, of_other = 0, in_group = 0;
   }
-  const double variance = std::max(0.0, single.covariance()), uncut = variance / exposure.group;
+  const double variance = std::max(0.0, single.covariance());
   const bool several = cut.count > 1;
-  to.mean.push_back(static_cast<float>(single.a / count));
-  to.variance.push_back(static_cast<float>(variance));
-  to.excess.push_back(static_cast<float>(excess / cut.count));
-  to.noise.push_back(static_cast<float>(several ? std::max(0.0, cut.covariance()) : uncut));
-  to.black.push_back(static_cast<float>(black / cut.count));
-  to.common.push_back(static_cast<float>(several ? cut_and_other.covariance() : both.covariance() / exposure.group));
+  return {.mean = single.a / count,
+          .variance = variance,
+          .excess = excess / cut.count,
+          .noise = several ? std::max(0.0, cut.covariance()) : variance / exposure.group,
+          .common = several ? cut_and_other.covariance() : both.covariance() / exposure.group,
+          .black = black / cut.count};
+}
+
+/// The value below which a fraction of the values lies.
+double quantile_of(Numbers values, double fraction) {
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// The variance of a pixel of the picture, of each cell; negative where there are too few pixels. From neighbours in a
+/// row, so that what changes slowly from pixel to pixel counts little; what is brighter than white counts nothing.
+Numbers noise_of(const ReadPixels& picture, const ExpectedPixels& reference, const Regions& regions, double white) {
+  Numbers noise(regions.cells()), counts(regions.cells());
+  for (std::size_t at = 3; at < picture.light.size(); ++at) {
+    const std::size_t cell = regions.cell_of(at);
+    if (cell == Regions::no_cell || regions.cell_of(at - 3) != cell) continue;
+    if (std::max(reference.light[at], reference.light[at - 3]) > white) continue;
+    const double step = picture.light[at] - reference.light[at] - (picture.light[at - 3] - reference.light[at - 3]);
+    noise[cell] += step * step / 2, ++counts[cell];
+  }
+  const Numbers steps = means_of(regions, picture.tolerance), of_reference = means_of(regions, reference.variance);
+  for (std::size_t k = 0; k < noise.size(); ++k) {
+    const double rounding = steps[k] * steps[k] / 12, known = of_reference[k] + rounding;
+    const double variance = noise[k] / counts[k] - known;
+    noise[k] = counts[k] < min_pairs ? -1 : variance < rounding ? 0 : variance;
+  }
+  return noise;
+}
+
+/// What a program's noise is over that of the picture.
+double noise_ratio(const Numbers& of_program, const Numbers& of_picture) {
+  double program = 0, picture = 0;
+  for (std::size_t k = 0; k < of_program.size(); ++k)
+    if (of_picture[k] >= 0) program += of_program[k], picture += of_picture[k];
+  return picture > 0 ? program / picture : 0;
+}
+
+/// Median of that over the cells, among those of much noise of which white cuts off little: right also where edges lie
+/// elsewhere in the picture. 0: too few of them tell.
+double median_noise_ratio(const Numbers& of_program, const Numbers& cut, const Numbers& of_picture) {
+  const double median = quantile_of(of_program, 0.5);
+  Numbers ratios;
+  for (std::size_t k = 0; k < of_program.size(); ++k)
+    if (of_program[k] >= median && of_picture[k] > 0 && cut[k] <= max_cut)
+      ratios.push_back(of_program[k] / of_picture[k]);
+  // Edges that lie elsewhere in the picture make blocks look noisier than they are: so more than the median.
+  return ratios.size() >= min_ratios ? quantile_of(ratios, 0.6) : 0;
 }
 
 }  // namespace
 
-SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count, const Exposure& exposure,
-                               const std::vector<BookSample>* other) {
-  SampleStatistics result;
-  for (std::vector<float>* list :
-       {&result.mean, &result.variance, &result.excess, &result.noise, &result.common, &result.black})
-    list->reserve(3 * samples.size() / static_cast<std::size_t>(count));
+std::vector<SampleStatistics> statistics_of(const std::vector<BookSample>& samples, int count, const Exposure& exposure,
+                                            const std::vector<BookSample>* other) {
+  std::vector<SampleStatistics> result;
   for (std::size_t first = 0; first < samples.size(); first += static_cast<std::size_t>(count))
-    for (float Vec3f::*channel : {&Vec3f::x, &Vec3f::y, &Vec3f::z})
-      add_channel(samples.data() + first, (other ? *other : samples).data() + first, count, exposure, channel, result);
+    for (float Vec3f::*channel : each_channel)
+      result.push_back(
+          of_channel(samples.data() + first, (other ? *other : samples).data() + first, count, exposure, channel));
   return result;
 }
 
-std::vector<double> excess_ratios(const std::vector<BookSample>& samples, int count, double many,
-                                  const Regions& regions) {
+Numbers excess_ratios(const std::vector<BookSample>& samples, int count, double many, const Regions& regions) {
   const auto n = static_cast<std::size_t>(count), pixels = samples.size() / n;
   const std::size_t together = std::min(pixels, static_cast<std::size_t>(std::ceil(many / count)));
-  std::vector<double> of_many(3 * static_cast<std::size_t>(regions.count)), of_few(of_many.size());
-  std::vector<double> sums(together);  // of groups of about `count` samples, each with samples of all pixels
-  for (std::size_t first = 0; first + together <= pixels; first += together) {
-    if (regions.of_pixel[first] < 0) continue;
-    const std::size_t region = 3 * static_cast<std::size_t>(regions.of_pixel[first]);
-    std::size_t c = 0;
-    for (float Vec3f::*channel : {&Vec3f::x, &Vec3f::y, &Vec3f::z}) {
-      std::fill(sums.begin(), sums.end(), 0);
+  Numbers of_many(regions.cells()), of_few(regions.cells());
+  for (std::size_t first = 0; first + together <= pixels; first += together)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t cell = regions.cell_of(3 * first + c);
+      if (cell == Regions::no_cell) continue;
+      Numbers sums(together);  // of groups of about `count` samples, each with samples of all pixels
       for (std::size_t k = 0; k < together * n; ++k)
-        sums[(k / n + k % n) % together] += static_cast<double>(samples[first * n + k].light.*channel);
+        sums[(k / n + k % n) % together] += static_cast<double>(samples[first * n + k].light.*each_channel[c]);
       double all = 0;
-      for (const double sum : sums) {
-        of_few[region + c] += std::max(0.0, sum / count - 1);
-        all += sum;
-      }
-      of_many[region + c] += static_cast<double>(together) * std::max(0.0, all / static_cast<double>(together * n) - 1);
-      ++c;
+      for (const double sum : sums) of_few[cell] += std::max(0.0, sum / count - 1), all += sum;
+      const auto groups = static_cast<double>(together);
+      of_many[cell] += groups * std::max(0.0, all / (groups * count) - 1);
     }
-  }
   for (std::size_t k = 0; k < of_many.size(); ++k) of_many[k] = of_few[k] > 0 ? of_many[k] / of_few[k] : 1;
   return of_many;
 }
 
-std::vector<double> light_by_depth(const std::vector<BookSample>& samples) {
-  std::vector<double> light;
+Numbers light_by_depth(const std::vector<BookSample>& samples) {
+  Numbers light;
   for (const BookSample& sample : samples) {
     const auto depth = static_cast<std::size_t>(sample.depth);
     if (light.size() <= depth) light.resize(depth + 1);
@@ -118,129 +151,80 @@ Regions blocks_of(const Lattice& lattice, int edge) {
   return regions;
 }
 
-std::vector<double> means_of(const std::vector<float>& numbers, const Regions& regions) {
-  std::vector<double> sums(3 * static_cast<std::size_t>(regions.count)), counts(sums.size());
-  for (std::size_t at = 0; at < numbers.size(); ++at) {
-    const int region = regions.of_pixel[at / 3];
-    if (region < 0) continue;
-    sums[3 * static_cast<std::size_t>(region) + at % 3] += static_cast<double>(numbers[at]);
-    ++counts[3 * static_cast<std::size_t>(region) + at % 3];
+std::vector<CellDifference> differences_of(const ReadPixels& picture, const ExpectedPixels& expected,
+                                           const Regions& regions) {
+  std::vector<CellDifference> cells(regions.cells());  // sums at first
+  Numbers squares(cells.size()), variances(cells.size());
+  for (std::size_t at = 0; at < picture.light.size(); ++at) {
+    const double difference = picture.light[at] - expected.light[at];
+    const std::size_t k = regions.cell_of(at);
+    if (k == Regions::no_cell || !std::isfinite(difference)) continue;
+    CellDifference& sums = cells[k];
+    ++sums.pixels, sums.expected += expected.light[at], sums.difference += difference;
+    sums.tolerance += picture.tolerance[at];
+    squares[k] += difference * difference, variances[k] += expected.variance[at];
   }
-  for (std::size_t k = 0; k < sums.size(); ++k) sums[k] /= std::max(counts[k], 1.0);
-  return sums;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    CellDifference& cell = cells[k];
+    const double n = cell.pixels, mean = cell.difference / n;
+    const double scatter = std::max(0.0, squares[k] - cell.difference * mean) / (n - 1);
+    if (cell.pixels < min_pixels)
+      cell = {};
+    else
+      cell = {cell.pixels, cell.expected / n, mean, std::sqrt(std::max(scatter, variances[k] / n) / n),
+              cell.tolerance / n};
+  }
+  return cells;
 }
 
-std::vector<BlockDifference> block_differences(const ComparedPixels& p, const Regions& regions) {
-  std::vector<Sums> sums(3 * static_cast<std::size_t>(regions.count));
-  std::vector<BlockDifference> result(sums.size());
-  for (std::size_t pixel = 0; pixel < regions.of_pixel.size(); ++pixel) {
-    if (regions.of_pixel[pixel] < 0) continue;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t at = 3 * pixel + c, block = 3 * static_cast<std::size_t>(regions.of_pixel[pixel]) + c;
-      const double difference = static_cast<double>(p.light[at]) - static_cast<double>(p.expected[at]);
-      if (!std::isfinite(difference)) continue;
-      Sums& sum = sums[block];
-      sum.expected += static_cast<double>(p.expected[at]);
-      sum.value += difference, sum.square += difference * difference;
-      sum.variance += static_cast<double>(p.variance[at]), sum.tolerance += static_cast<double>(p.tolerance[at]);
-      ++result[block].pixels;
-    }
-  }
-  for (std::size_t k = 0; k < result.size(); ++k) {
-    BlockDifference& block = result[k];
-    const Sums& sum = sums[k];
-    if (block.pixels < min_pixels) {
-      block = {};
-      continue;
-    }
-    const double n = block.pixels, mean = sum.value / n;
-    const double scatter = std::max(0.0, sum.square - sum.value * mean) / (n - 1);
-    block = {block.pixels, sum.expected / n, mean, std::sqrt(std::max(scatter, sum.variance / n) / n),
-             sum.tolerance / n};
-  }
-  return result;
-}
-
-Misfit misfit_of(std::span<const BlockDifference> differences) {
+Misfit misfit_of(std::span<const CellDifference> differences) {
   Misfit misfit;
-  for (std::size_t block = 0; block < differences.size(); block += 3) {
-    if (differences[block].pixels == 0) continue;
-    bool different = false;
-    for (std::size_t c = 0; c < 3; ++c)
-      different = different || excess_of(differences[block + c], differences[block + c].error, noise_limit) > 0;
+  for (; !differences.empty(); differences = differences.subspan(3)) {
+    const auto block = differences.first(3);
+    if (block[0].pixels == 0) continue;
     ++misfit.blocks;
-    misfit.different += different ? 1 : 0;
+    misfit.different += std::any_of(block.begin(), block.end(), [](const CellDifference& cell) {
+      return cell.beyond(noise_limit, cell.error) > 0;
+    });
   }
-  misfit.amount = amount_of(differences, differences);
   return misfit;
 }
 
-double amount_of(std::span<const BlockDifference> differences, std::span<const BlockDifference> other) {
+double amount_of(std::span<const CellDifference> differences, std::span<const CellDifference> other) {
   double amount = 0;
-  for (std::size_t k = 0; k < differences.size(); ++k) {
-    const BlockDifference& block = differences[k];
-    if (block.pixels == 0) continue;
-    amount += block.pixels * excess_of(block, std::max(block.error, other[k].error), amount_errors) / block.tolerance;
-  }
+  for (std::size_t k = 0; k < differences.size(); ++k)
+    if (const CellDifference& cell = differences[k]; cell.pixels > 0)
+      amount += cell.pixels * cell.beyond(amount_errors, std::max(cell.error, other[k].error)) / cell.tolerance;
   return amount;
 }
 
-bool agrees_in_blocks(const RegionDifferences& regions) {
-  const Misfit small = misfit_of(regions.of_small());
-  return small.different <= max_different * small.blocks;
-}
-
-bool agrees(const RegionDifferences& regions) {
-  return agrees_in_blocks(regions) && misfit_of(regions.of_large()).different == 0 &&
-         misfit_of(regions.of_objects()).different == 0 && misfit_of(regions.whole).different == 0;
-}
-
-double left_by(const RegionDifferences& old, const RegionDifferences& now) {
-  double before = 0, after = 0;
-  for (std::size_t k = 0; k < old.all.size(); ++k) {
-    const BlockDifference &a = old.all[k], &b = now.all[k];
-    const double error = std::max(a.error, b.error);
-    if (a.pixels == 0 || std::abs(a.difference - b.difference) <= a.tolerance + 2 * error) continue;
-    const double weight = a.pixels / a.tolerance;
-    before += weight * std::max(0.0, std::abs(a.difference) - 2 * error);
-    after += weight * std::max(0.0, std::abs(b.difference) - 2 * error);
+std::vector<double> likely_counts(const ReadPixels& picture, const ExpectedPixels& reference,
+                                  const std::vector<BookSample>& samples, int count, const Regions& regions,
+                                  double white) {
+  const Numbers noise = noise_of(picture, reference, regions, white);
+  double black = 0;
+  for (std::size_t at = 0; at < picture.light.size(); ++at)
+    black += picture.light[at] <= std::max(max_black, picture.tolerance[at]) ? 1 : 0;
+  std::vector<std::pair<double, double>> likely;  // how far off the noise is, and samples
+  for (int group = 1; 2 * group <= count; ++group) {
+    const auto few = statistics_of(samples, count, {group, white});
+    const double ratio = noise_ratio(means_of(regions, few, &SampleStatistics::noise), noise);
+    double more_black = -black;
+    for (const SampleStatistics& number : few) more_black += number.black;
+    if (ratio > 1 / noise_factor && ratio < noise_factor &&
+        std::abs(more_black) < max_black_off * static_cast<double>(few.size()))
+      likely.emplace_back(std::abs(std::log(ratio)), group);
   }
-  return before > 0 ? after / before : 1;
-}
-
-double gone(const RegionDifferences& before, const RegionDifferences& after) {
-  const double seen = amount_of(before.all, after.all);
-  return seen > min_seen * before.amount() ? 1 - amount_of(after.all, before.all) / seen : 0;
-}
-
-bool clearly_closer(const RegionDifferences& a, const RegionDifferences& b) {
-  return amount_of(a.all, b.all) < clear_improvement * amount_of(b.all, a.all);
-}
-
-double unseen_light(const RegionDifferences& regions) {
-  double light = 0, unseen = 0;
-  for (const BlockDifference& channel : regions.whole)
-    light += channel.expected, unseen += channel.tolerance + noise_limit * channel.error;
-  return light > 0 ? unseen / light : 0;
-}
-
-std::vector<ObjectDifference> different_objects(const RegionDifferences& regions) {
-  std::vector<ObjectDifference> found;
-  const auto objects = regions.of_objects();
-  for (std::size_t k = 0; k < objects.size(); k += 3) {
-    const auto channels = objects.subspan(k, 3);
-    if (misfit_of(channels).different == 0) continue;
-    const Vec3d expected{channels[0].expected, channels[1].expected, channels[2].expected};
-    const Vec3d off{channels[0].difference, channels[1].difference, channels[2].difference};
-    found.push_back({static_cast<int>(k / 3), channels[0].pixels, expected + off, expected});
-  }
-  const auto amount = [](const ObjectDifference& d) {
-    const Vec3d off = d.image - d.expected;
-    return d.pixels * (std::abs(off.x) + std::abs(off.y) + std::abs(off.z));
-  };
-  std::sort(found.begin(), found.end(),
-            [&](const ObjectDifference& a, const ObjectDifference& b) { return amount(a) > amount(b); });
-  return found;
+  const auto many = statistics_of(samples, count, {count, white});
+  const double told = median_noise_ratio(means_of(regions, many, &SampleStatistics::variance),
+                                         means_of(regions, many, &SampleStatistics::excess), noise);
+  for (const double factor : {1.0, 1 / 1.1, 1.1, 1 / 1.25, 1.25, 1 / 1.4, 1.4, 1 / 1.7, 1.7, 0.5, 2.0})
+    if (2 * factor * told > count) likely.emplace_back(std::abs(std::log(factor)), factor * told);
+  std::stable_sort(likely.begin(), likely.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<double> counts;
+  for (const auto& [off, of_picture] : likely) counts.push_back(of_picture);
+  if (counts.empty()) counts = {0};
+  return counts;
 }
 
 }  // namespace tyndall

@@ -1,26 +1,76 @@
 #pragma once
 #include "app/check/book_paths.h"
+#include "core/image/image.h"
 #include "core/scene/scene.h"
 
+#include <algorithm>
+#include <cmath>
+#include <compare>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
-/// What many samples of each pixel tell: the picture that a program would have shown of them, and how noisy it is; and
-/// how two pictures differ, by blocks, by objects and as a whole, and whether that is more than noise.
+/// What a picture shows by one way of reading its file or another; what many samples of each pixel tell of the picture
+/// that a program would have shown, and how noisy it is; and how the two differ, by blocks, by objects and as a whole.
 namespace tyndall {
 
-/// Of each pixel and channel, 3 floats a pixel.
-struct SampleStatistics {
-  std::vector<float> mean;
-  std::vector<float> variance;  ///< of one sample
-  /// By how much white cuts the mean of a picture: the part of a mean of `group` samples that is above it, averaged.
-  std::vector<float> excess;
-  std::vector<float> noise;   ///< variance of a mean of `group` samples, cut at white
-  std::vector<float> common;  ///< covariance of such a mean with that of other samples, which is not cut
-  std::vector<float> black;   ///< fraction of such means that are below max_black
+/// Three a pixel of a lattice, or of cells of its regions.
+using Numbers = std::vector<double>;
+
+/// How numbers of a file stand for light. light: they are light, without limits (floating-point files).
+enum class TransferCurve { light, srgb, power22, gamma2, none, gamma2_twice };
+
+/// One way to read a picture. The first members are what programs choose, the others mistakes.
+struct Reading {
+  TransferCurve curve = TransferCurve::srgb;
+  bool upside_down = false, mirrored = false;  ///< the first row is at the bottom; the first column at the right
+  bool swapped = false;                        ///< red and blue have changed places
+  /// Whether it holds no mistake.
+  bool is_right() const {
+    return curve != TransferCurve::none && curve != TransferCurve::gamma2_twice && !upside_down && !mirrored &&
+           !swapped;
+  }
+  auto operator<=>(const Reading&) const = default;
 };
-inline constexpr float max_black = 1e-3f;
+
+/// The readings that are tried for a picture, the right ones or those with mistakes.
+std::vector<Reading> readings_of(bool coded, bool right);
+
+/// The pixels of a file before they are read as light.
+struct PictureNumbers {
+  int width = 0, height = 0;
+  /// 3 a pixel, top row first. coded: in [0, 1], in the middle of the interval that the file's number stands for.
+  std::vector<float> numbers;
+  bool coded = true;        ///< numbers stand for light by a curve, and end at white
+  float step = 1 / 256.0f;  ///< how far the numbers may be off by themselves: 8 bits, compression
+};
+
+PictureNumbers numbers_of(const PictureFile& picture);
+
+/// Light at the pixels of a lattice.
+struct ReadPixels {
+  Numbers light;
+  Numbers tolerance;  ///< by how much the light may be off because of PictureNumbers::step
+};
+ReadPixels read_pixels(const PictureNumbers& picture, const Lattice& lattice, const Reading& reading);
+
+/// What light is expected at the pixels of a lattice.
+struct ExpectedPixels {
+  Numbers light;
+  Numbers variance;  ///< of a pixel's noise, as far as it is known
+};
+
+/// What the samples of a pixel tell of one channel.
+struct SampleStatistics {
+  double mean = 0;
+  double variance = 0;  ///< of one sample
+  double excess = 0;    ///< the part of a mean of `group` samples that is above white, averaged: what white cuts off
+  double noise = 0;     ///< variance of a mean of `group` samples, cut at white
+  double common = 0;    ///< covariance of such a mean with that of other samples, which is not cut
+  double black = 0;     ///< fraction of such means that are below max_black
+};
+inline constexpr double max_black = 1e-3;
 
 /// What a picture holds of a pixel's samples: the mean of `group` of them, at most `white`.
 struct Exposure {
@@ -28,25 +78,28 @@ struct Exposure {
   double white = 1;  ///< infinity for pictures that are not cut
 };
 
-/// count: samples a pixel, from Exposure::group on. Where there are not two groups, noise and common are those of means
-/// that are not cut. other: of the same random numbers; null: the samples themselves.
-SampleStatistics statistics_of(const std::vector<BookSample>& samples, int count, const Exposure& exposure,
-                               const std::vector<BookSample>* other = nullptr);
+/// Of each pixel and channel. count: samples a pixel, from Exposure::group on. Where there are not two groups, noise
+/// and common are those of means that are not cut. other: of the same random numbers; null: the samples themselves.
+std::vector<SampleStatistics> statistics_of(const std::vector<BookSample>& samples, int count, const Exposure& exposure,
+                                            const std::vector<BookSample>* other = nullptr);
 
-/// What white cuts off of means of many samples, over what it cuts off of means of `count`, of each region and channel.
-/// many: more samples than there are of a pixel, so that those of neighbours are taken together; in the same way for
-/// both. 1 where nothing is cut off.
-std::vector<double> excess_ratios(const std::vector<BookSample>& samples, int count, double many,
-                                  const struct Regions& regions);
-
-/// Fraction of the light of samples that is found after at most so many scattering events, from 0 on.
-std::vector<double> light_by_depth(const std::vector<BookSample>& samples);
-
-/// Sets of pixels whose mean differences are looked at.
+/// Sets of pixels whose mean differences are looked at. A cell is a region in one channel.
 struct Regions {
+  static constexpr std::size_t no_cell = ~std::size_t{0};
   std::vector<int> of_pixel;  ///< -1: the pixel is in none
   int count = 0;
+  std::size_t cells() const { return 3 * static_cast<std::size_t>(count); }
+  /// The cell of a number; no_cell: its pixel is in none.
+  std::size_t cell_of(std::size_t number) const {
+    const int region = of_pixel[number / 3];
+    return region < 0 ? no_cell : 3 * static_cast<std::size_t>(region) + number % 3;
+  }
 };
+
+/// Squares of a lattice, `edge` of its pixels wide; those at the right and the lower edge may be smaller.
+Regions blocks_of(const Lattice& lattice, int edge);
+/// The edge of some 400 blocks, with as many pixels each as statistics need.
+int edge_of_blocks(const Lattice& lattice);
 
 /// The object that is seen first through the centre of each pixel of a lattice.
 struct SeenObjects {
@@ -57,39 +110,48 @@ struct SeenObjects {
   };
   std::vector<Object> objects;
   std::vector<int> of_pixel;  ///< index into objects
+  Regions regions;            ///< of each object the pixels around which it is seen; of a noise texture none
+  const Object& at(std::size_t pixel) const { return objects[static_cast<std::size_t>(of_pixel[pixel])]; }
 };
 SeenObjects seen_objects(const Scene& scene, const Lattice& lattice);
 
-/// The objects as regions: the pixels around which the same object is seen. Objects of a noise texture have none.
-Regions regions_of(const SeenObjects& seen, const Lattice& lattice);
-/// Squares of a lattice, `edge` of its pixels wide; those at the right and the lower edge may be smaller.
-Regions blocks_of(const Lattice& lattice, int edge);
-/// The edge of some 400 blocks, with as many pixels each as statistics need.
-int edge_of_blocks(const Lattice& lattice);
-/// Means over the pixels of each region and channel, of three numbers a pixel.
-std::vector<double> means_of(const std::vector<float>& numbers, const Regions& regions);
+/// Means over the cells of three numbers a pixel, or of members of them.
+template <class Number, class Member = std::identity>
+Numbers means_of(const Regions& regions, const std::vector<Number>& numbers, Member member = {}) {
+  Numbers sums(regions.cells()), counts(regions.cells());
+  for (std::size_t at = 0; at < numbers.size(); ++at)
+    if (const std::size_t cell = regions.cell_of(at); cell != Regions::no_cell)
+      sums[cell] += std::invoke(member, numbers[at]), ++counts[cell];
+  for (std::size_t cell = 0; cell < sums.size(); ++cell) sums[cell] /= std::max(counts[cell], 1.0);
+  return sums;
+}
 
-/// The mean difference in one channel of a region.
-struct BlockDifference {
-  int pixels = 0;
+/// What white cuts off of means of many samples, over what it cuts off of means of `count`, of each cell. many: more
+/// samples than there are of a pixel, so that those of neighbours are taken together; in the same way for both. 1 where
+/// nothing is cut off.
+Numbers excess_ratios(const std::vector<BookSample>& samples, int count, double many, const Regions& regions);
+
+/// Fraction of the light of samples that is found after at most so many scattering events, from 0 on.
+Numbers light_by_depth(const std::vector<BookSample>& samples);
+
+/// The mean difference in a cell.
+struct CellDifference {
+  int pixels = 0;         ///< 0: too few to be compared
   double expected = 0;    ///< mean over the pixels
   double difference = 0;  ///< mean of the picture minus that
   double error = 0;       ///< standard error of the mean
   double tolerance = 0;   ///< by how much it may be off without noise
+  /// By how much it is off beyond its tolerance and so many errors.
+  double beyond(double errors, double of_error) const {
+    return std::max(0.0, std::abs(difference) - tolerance - errors * of_error);
+  }
 };
 
-/// What is compared.
-struct ComparedPixels {
-  const std::vector<float>& light;      ///< of the picture, 3 floats a pixel
-  const std::vector<float>& expected;   ///< likewise
-  const std::vector<float>& tolerance;  ///< likewise
-  const std::vector<float>& variance;   ///< of each pixel's noise, as far as it is known; likewise
-};
-
-/// Three of each region. The error of a region is the greater of two: what the scatter of its pixels' differences
-/// shows, and what their known variance predicts. The first also holds the noise of the expected values. The second is
-/// right where rare bright paths have not happened to be met.
-std::vector<BlockDifference> block_differences(const ComparedPixels& pixels, const Regions& regions);
+/// Of each cell. The error is the greater of two: what the scatter of the pixels' differences shows, and what their
+/// known variance predicts. The first also holds the noise of the expected light. The second is right where rare bright
+/// paths have not happened to be met.
+std::vector<CellDifference> differences_of(const ReadPixels& picture, const ExpectedPixels& expected,
+                                           const Regions& regions);
 
 /// Standard errors beyond which a difference is no noise. Errors are estimated, and the noise of few samples is no
 /// normal distribution, so that now and then a block of a right picture is beyond, too.
@@ -99,55 +161,35 @@ inline constexpr double noise_limit = 5;
 struct Misfit {
   int blocks = 0;     ///< that were compared
   int different = 0;  ///< in some channel by more than their tolerance and noise_limit errors
-  double amount = 0;  ///< of the difference beyond tolerance and 3 errors, in tolerances, summed over all pixels
 };
-Misfit misfit_of(std::span<const BlockDifference> differences);
-/// The amount alone, where each block's error is the greater of its own and that of `other`: two amounts that are
-/// compared must not differ because one of the pictures is noisier.
-double amount_of(std::span<const BlockDifference> differences, std::span<const BlockDifference> other);
-
-/// How the means of a picture differ from what is expected, in small blocks, in large ones, and by object: three of
-/// each region; and over the whole picture.
-struct RegionDifferences {
-  std::vector<BlockDifference> all, whole;
-  std::size_t small = 0, large = 0;  ///< how many of them are of small and of large blocks, which come first
-  std::span<const BlockDifference> of_small() const { return {all.data(), small}; }
-  std::span<const BlockDifference> of_large() const { return {all.data() + small, large}; }
-  std::span<const BlockDifference> of_objects() const { return std::span(all).subspan(small + large); }
-  double amount() const { return amount_of(all, all); }
-};
-
-/// Whether the small blocks differ by noise alone. The noise of few samples is no normal distribution: so now and then
-/// one of them is beyond noise_limit.
-bool agrees_in_blocks(const RegionDifferences& regions);
-/// Whether all of it does.
-bool agrees(const RegionDifferences& regions);
-
-/// How much of the difference is left with `now` in place of `old`, as far as the two differ at all.
-double left_by(const RegionDifferences& old, const RegionDifferences& now);
-/// How much of a difference is gone; nothing, if `after` is so noisy that little of it could be seen beside its noise.
-double gone(const RegionDifferences& before, const RegionDifferences& after);
-/// Whether clearly less is left of a difference, where both have the same noise.
-bool clearly_closer(const RegionDifferences& a, const RegionDifferences& b);
-inline constexpr double clear_improvement = 0.7;  ///< of a difference is left where it has become clearly less
-
-/// Fraction of the light by which the whole may be off without that it is seen.
-double unseen_light(const RegionDifferences& regions);
-
-/// Means of linear light over the pixels of an object.
-struct ObjectDifference {
-  int object = 0;  ///< index into SeenObjects::objects
-  int pixels = 0;
-  Vec3d image, expected;
-};
-
-/// The objects that differ, those with the largest difference first.
-std::vector<ObjectDifference> different_objects(const RegionDifferences& regions);
+Misfit misfit_of(std::span<const CellDifference> differences);
+/// The difference beyond tolerance and 3 errors, in tolerances, summed over all pixels. The error of each cell is the
+/// greater of its own and that of `other`: two amounts that are compared must not differ because one of the pictures is
+/// noisier.
+double amount_of(std::span<const CellDifference> differences, std::span<const CellDifference> other);
 
 /// The numbers of samples a pixel that a picture's noise may stand for if a program with these samples, `count` of each
 /// pixel, has made it, the likeliest first; 0: not known. White makes few samples show as little noise as many, so that
-/// there may be several. picture: with the picture without noise as what is expected, and the variance of that.
-std::vector<double> likely_counts(const ComparedPixels& picture, const std::vector<BookSample>& samples, int count,
-                                  const Regions& regions, double white);
+/// there may be several. reference: the picture without noise, and the variance of that.
+std::vector<double> likely_counts(const ReadPixels& picture, const ExpectedPixels& reference,
+                                  const std::vector<BookSample>& samples, int count, const Regions& regions,
+                                  double white);
+
+struct CheckOptions {
+  double seconds = 20;  ///< for all of it, but for what is needed for any answer
+  int samples = 0;      ///< that are taken of each pixel for a program; 0: as many as the time allows
+};
+
+/// A picture rendered to measure another one against.
+struct Reference {
+  LinearImage image;
+  std::vector<float> variance;  ///< of each number of the image, from two halves of the samples
+};
+
+/// Renders the scene until the noise is small against the difference from `picture`, which has the scene's size, or
+/// a limit is reached, which the first samples may exceed. go_on: asked now and then; false ends it. Pixels share no
+/// paths, so that their errors are independent.
+Reference render_reference(Scene scene, const LinearImage& picture, double seconds, std::uint32_t spp,
+                           const std::function<bool()>& go_on);
 
 }  // namespace tyndall

@@ -26,73 +26,51 @@ using Json = nlohmann::ordered_json;
 /// The endings of pictures' names, for messages.
 constexpr const char* picture_endings = ".png .exr .pfm .hdr .ppm .pgm .jpg .jpeg .bmp .tga";
 
-/// Which pictures a folder holds, the folders within it included.
-struct PictureFolder {
-  /// By their names from the folder on, with "/" between them: "box.png", "fog/thin.exr".
-  std::map<std::string, fs::path> pictures;
-  std::vector<std::string> others;  ///< files that are no pictures by their names; those that begin with "." go untold
-  std::vector<std::string> loops;   ///< links that lead back to a folder around them; all other links are followed
+/// Pictures by name, with what is to be said of the folders that they are in, a line each.
+struct Pictures {
+  /// Names from the folder on, with "/" between them: "box.png", "fog/thin.exr". Those in the baseline that should be
+  /// there and are not have an empty path.
+  std::map<std::string, fs::path> files;
+  std::vector<std::string> notes;
 };
-
-bool is_picture(const fs::path& file) {
-  const std::string ending = lower_case(file.extension().string());
-  const std::string endings = picture_endings + std::string(" ");
-  return !ending.empty() && endings.find(ending + " ") != endings.npos;
-}
-
-class Walk {
- public:
-  explicit Walk(const std::vector<fs::path>& without) : without_(without) {}
-
-  /// name: of the folder, as the names of what is in it begin; empty for the outermost.
-  void into(const fs::path& folder, const std::string& name) {
-    around_.push_back(folder);
-    std::error_code error;
-    fs::directory_iterator entry(folder, error);
-    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-      take(*entry, (fs::path(name) / entry->path().filename()).generic_string());
-    }
-    if (error) throw IoError(folder.string() + ": cannot read the folder: " + error.message());
-    around_.pop_back();
-  }
-
-  PictureFolder found;
-
- private:
-  void take(const fs::directory_entry& entry, const std::string& name) {
-    std::error_code ignored;  // what cannot be looked at is no folder, and as a picture it fails
-    const fs::path& path = entry.path();
-    const auto is_this = [&](const fs::path& other) { return fs::equivalent(path, other, ignored); };
-    if (!entry.is_directory(ignored)) {
-      if (is_picture(path))
-        found.pictures.emplace(name, path);
-      else if (path.filename().string().front() != '.')
-        found.others.push_back(name);
-    } else if (std::any_of(around_.begin(), around_.end(), is_this)) {
-      found.loops.push_back(name);
-    } else if (std::none_of(without_.begin(), without_.end(), is_this)) {
-      into(path, name);
-    }
-  }
-
-  const std::vector<fs::path>& without_;
-  std::vector<fs::path> around_;  ///< the folders that are being gone through, the outermost first
-};
-
-/// without: folders that are not gone into. Throws IoError for a folder that cannot be read.
-PictureFolder pictures_in(const fs::path& folder, const std::vector<fs::path>& without) {
-  Walk walk(without);
-  walk.into(folder, "");
-  std::sort(walk.found.others.begin(), walk.found.others.end());
-  std::sort(walk.found.loops.begin(), walk.found.loops.end());
-  return std::move(walk.found);
-}
 
 constexpr char tolerances_name[] = "tolerances.json";
-constexpr std::pair<const char*, std::optional<double> Tolerance::*> keys[] = {{"max_rmse", &Tolerance::rmse},
-                                                                               {"max_relmse", &Tolerance::rel_mse},
-                                                                               {"max_flip", &Tolerance::flip},
-                                                                               {"max_z", &Tolerance::z}};
+
+/// The pictures in a folder, those in folders within it included. Links are followed, but for those that lead back to a
+/// folder around them. without: folders that are not gone into. Throws IoError for a folder that cannot be read.
+Pictures pictures_in(const fs::path& folder, const std::vector<fs::path>& without) {
+  Pictures found;
+  std::vector<std::string> others, loops;  // others: no pictures by their names; those that begin with "." go untold
+  fs::path at = folder;
+  std::error_code error, ignored;  // what cannot be looked at is no folder, and as a picture it fails
+  fs::recursive_directory_iterator entry(folder, fs::directory_options::follow_directory_symlink, error);
+  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    at = entry->path();
+    const std::string name = at.lexically_relative(folder).generic_string();
+    const auto is_this = [&](const fs::path& other) { return fs::equivalent(at, other, ignored); };
+    if (!entry->is_directory(ignored)) {
+      entry.disable_recursion_pending();
+      if (has_picture_ending(at))
+        found.files.emplace(name, at);
+      else if (at.filename().string().front() != '.' && name != tolerances_name)
+        others.push_back(name);
+      continue;
+    }
+    bool loop = false;
+    fs::path around = at;
+    for (int depth = entry.depth(); depth >= 0; --depth) loop = loop || is_this(around = around.parent_path());
+    if (loop) loops.push_back(name);
+    if (loop || std::any_of(without.begin(), without.end(), is_this)) entry.disable_recursion_pending();
+  }
+  if (error) throw IoError(at.string() + ": cannot read the folder: " + error.message());
+  const auto note = [&](const std::string& why, std::vector<std::string> names) {
+    std::sort(names.begin(), names.end());
+    if (!names.empty()) found.notes.push_back(folder.string() + ": left out, as " + why + ": " + listed(names, 3));
+  };
+  note(std::string("their names end in none of ") + picture_endings, others);
+  note("links to folders around them", loops);
+  return found;
+}
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& found, const std::string& expected) {
   throw UsageError(file.string() + ": found " + found + ", expected " + expected);
@@ -102,9 +80,9 @@ Tolerance read_limits(const fs::path& file, const std::string& picture, const Js
   Tolerance limits;
   if (!json.is_object()) refuse(file, "no object for " + in_quotes(picture), "{\"max_flip\": 0.02}");
   for (const auto& [key, value] : json.items()) {
-    const auto* known =
-        std::find_if(std::begin(keys), std::end(keys), [&k = key](const auto& e) { return k == e.first; });
-    if (known == std::end(keys)) refuse(file, in_quotes(key), "max_rmse, max_relmse, max_flip or max_z");
+    const auto* known = std::find_if(std::begin(tolerance_keys), std::end(tolerance_keys),
+                                     [&k = key](const auto& e) { return k == e.first; });
+    if (known == std::end(tolerance_keys)) refuse(file, in_quotes(key), "max_rmse, max_relmse, max_flip or max_z");
     if (!value.is_number() || !(value.get<double>() >= 0)) refuse(file, value.dump() + " for " + key, "a number >= 0");
     limits.*known->second = value.get<double>();
   }
@@ -129,27 +107,10 @@ void write_tolerances(const fs::path& folder, const std::map<std::string, Tolera
   Json json = Json::object();
   for (const auto& [picture, limits] : tolerances) {
     Json& entry = json[picture] = Json::object();
-    for (const auto& [key, member] : keys)
+    for (const auto& [key, member] : tolerance_keys)
       if (limits.*member) entry[key] = *(limits.*member);
   }
   write_text_file(folder / tolerances_name, json.dump(2) + "\n");
-}
-
-/// Pictures by name, with what is to be said of the folders that they are in.
-struct Pictures {
-  std::map<std::string, fs::path> files;  ///< those in the baseline that should be there and are not have an empty path
-  std::vector<std::string> notes;
-};
-
-/// What is left out of a folder, a line for each reason.
-void add_notes(const fs::path& folder, const PictureFolder& found, std::vector<std::string>& notes) {
-  std::vector<std::string> others = found.others;
-  std::erase(others, tolerances_name);
-  if (!others.empty())
-    notes.push_back(folder.string() + ": left out, as their names end in none of " + picture_endings + ": " +
-                    listed(others, 3));
-  if (!found.loops.empty())
-    notes.push_back(folder.string() + ": left out, as links to folders around them: " + listed(found.loops, 3));
 }
 
 Pictures pictures_of(const BaselineRequest& request) {
@@ -168,12 +129,12 @@ Pictures pictures_of(const BaselineRequest& request) {
       continue;
     }
     whole = true;
-    const PictureFolder found = pictures_in(image, {request.folder});
-    for (const auto& [name, file] : found.pictures) add(name, file);
-    add_notes(image, found, pictures.notes);
+    const Pictures found = pictures_in(image, {request.folder});
+    for (const auto& [name, file] : found.files) add(name, file);
+    pictures.notes.insert(pictures.notes.end(), found.notes.begin(), found.notes.end());
   }
   if (!whole || !fs::is_directory(request.folder, error)) return pictures;
-  for (const auto& [name, file] : pictures_in(request.folder, request.images).pictures)
+  for (const auto& [name, file] : pictures_in(request.folder, request.images).files)
     pictures.files.emplace(name, fs::path());
   return pictures;
 }
@@ -253,6 +214,12 @@ void copy_all(const std::map<fs::path, fs::path>& copies) {
 }
 
 }  // namespace
+
+bool has_picture_ending(const fs::path& file) {
+  const std::string ending = lower_case(file.extension().string());
+  const std::string endings = picture_endings + std::string(" ");
+  return !ending.empty() && endings.find(ending + " ") != endings.npos;
+}
 
 BaselineCheck check_baseline(const BaselineRequest& request) {
   std::error_code error;

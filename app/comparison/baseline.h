@@ -12,6 +12,9 @@ namespace tyndall {
 inline constexpr Tolerance usual_tolerance{{}, {}, 0.02};
 inline constexpr double usual_outside = 0.01;
 
+/// Whether a file is a picture by its name.
+bool has_picture_ending(const std::filesystem::path& file);
+
 /// One picture and what became of it.
 struct CheckedPicture {
   std::string name;                        ///< from the folder on: "box.png", "fog/thin.exr"
@@ -52,8 +55,8 @@ struct BaselineUpdate {
 /// though a limit asks for it, or there is none, nothing is changed. Throws UsageError, IoError, ImageFileError.
 BaselineUpdate update_baseline(const BaselineRequest& request);
 
-/// One page with everything in it: numbers, both pictures behind a slider, the map of FLIP. ppm: how PPM files are
-/// read. Throws ImageFileError.
+/// One page with everything in it: numbers, both pictures behind a slider, the map of FLIP; and beside it the numbers
+/// for programs, in a file of the same name that ends in .json. ppm: how PPM files are read. Throws ImageFileError.
 void write_html_report(const std::filesystem::path& file, const std::vector<CheckedPicture>& pictures, PpmCurve ppm);
 
 /// A report in the form that JUnit gave to continuous integration.

@@ -61,11 +61,13 @@ std::string noise_text(const NoiseScores& s) {
 Comparison compare_pair(PicturePair pair, const std::filesystem::path& image_file,
                         const std::filesystem::path& reference_file) {
   const LinearImage &image = pair.image, &reference = pair.reference;
-  Comparison result{image.width, image.height, image_error(image.rgb, reference.rgb), 0, {}};
-  result.image_pixels = pair.image_pixels, result.reference_pixels = pair.reference_pixels;
-  result.has_ppm = pair.has_ppm, result.remarks = std::move(pair.remarks);
-  result.flip_map = flip_map(image.rgb, reference.rgb, image.width, image.height);
-  result.outside = outside_error(image.rgb, reference.rgb);
+  Comparison result{std::move(static_cast<PairFiles&>(pair)),
+                    image.width,
+                    image.height,
+                    image_error(image.rgb, reference.rgb),
+                    0,
+                    flip_map(image.rgb, reference.rgb, image.width, image.height),
+                    outside_error(image.rgb, reference.rgb)};
   // What is equal to nothing: says so in words, and in the map of FLIP, which takes such values for black or white.
   for (const auto& [file, picture] : {std::pair(&image_file, &image), std::pair(&reference_file, &reference)})
     if (const std::string text = not_finite_text(*picture); !text.empty())

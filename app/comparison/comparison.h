@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// How far a picture is from the one it should look like, and whether that is too far.
@@ -19,16 +20,29 @@ struct Tolerance {
   bool operator==(const Tolerance&) const = default;
 };
 
-struct Comparison {
+/// The keys of the limits in files; options spell them with dashes.
+inline constexpr std::pair<const char*, std::optional<double> Tolerance::*> tolerance_keys[] = {
+    {"max_rmse", &Tolerance::rmse},
+    {"max_relmse", &Tolerance::rel_mse},
+    {"max_flip", &Tolerance::flip},
+    {"max_z", &Tolerance::z}};
+
+/// What is known of two pictures' files.
+struct PairFiles {
+  std::size_t image_pixels = 0, reference_pixels = 0;  ///< that the files have; more than those compared where cut
+  bool has_ppm = false;                                ///< one of the two is a PPM
+  std::vector<std::string> remarks{};                  ///< what a user should know of how they were read, a line each
+};
+
+/// Takes over what is told of a picture's file, and returns its pixels.
+LinearImage take_pixels(PairFiles& files, const std::filesystem::path& name, PictureFile picture);
+
+struct Comparison : PairFiles {
   int width = 0, height = 0;  ///< of what was compared: the pixels that both pictures have
   ImageError error;
-  double flip = 0;                                     ///< mean
-  std::vector<float> flip_map;                         ///< of each pixel, top row first; 1 where one is not finite
-  std::size_t image_pixels = 0, reference_pixels = 0;  ///< that the pictures have
-  bool has_ppm = false;                                ///< one of the two is a PPM
-  /// What a user should know of how the files were read, a line each.
-  std::vector<std::string> remarks{};
-  OutsideError outside{};  ///< of the values that FLIP clips
+  double flip = 0;              ///< mean
+  std::vector<float> flip_map;  ///< of each pixel, top row first; 1 where one is not finite
+  OutsideError outside{};       ///< of the values that FLIP clips
   /// "FILE: 3 of 256 pixels are not finite, the first at 5,0 (red is nan)" of each of both that has such pixels.
   std::vector<std::string> not_finite{};
   std::optional<NoiseScores> noise{};  ///< where it was asked for, and all values are finite
@@ -40,12 +54,9 @@ Comparison compare_images(const std::filesystem::path& image, const std::filesys
                           PpmCurve ppm = PpmCurve::srgb, bool noise = false);
 
 /// The pixels that two pictures both have.
-struct PicturePair {
-  LinearImage image, reference;                        ///< of the same size
-  Region image_place{}, reference_place{};             ///< where the pixels of the files lie, before they were cut
-  std::size_t image_pixels = 0, reference_pixels = 0;  ///< that the files have; more than those compared where cut
-  bool has_ppm = false;                                ///< one of the two is a PPM
-  std::vector<std::string> remarks{};                  ///< what a user should know of how they were read, a line each
+struct PicturePair : PairFiles {
+  LinearImage image, reference;             ///< of the same size
+  Region image_place{}, reference_place{};  ///< where the pixels of the files lie, before they were cut
 };
 
 /// Reads two pictures and cuts them to the pixels that both have.

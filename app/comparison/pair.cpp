@@ -85,15 +85,6 @@ void cut(LinearImage& image, const Region& place, const Region& part) {
   if (image.frame) image.frame->data = part;
 }
 
-/// Takes over what is told of a file, and returns its pixels.
-LinearImage take(PicturePair& pair, const Path& name, PictureFile picture) {
-  pair.has_ppm = pair.has_ppm || picture.kind == ImageKind::ppm;
-  for (std::string& remark : picture.remarks) pair.remarks.push_back(std::move(remark));
-  if (picture.has_alpha)
-    pair.remarks.push_back(name.string() + ": alpha is not looked at: what is hidden beneath it is compared");
-  return std::move(picture.image);
-}
-
 [[noreturn]] void refuse_noise(const Path& file, const std::string& found, const std::string& expected) {
   throw UsageError("--max-z: " + file.string() + ": found " + found + ", expected " + expected);
 }
@@ -153,11 +144,19 @@ NoisyImage read_noisy(const Path& name) {
 
 }  // namespace
 
+LinearImage take_pixels(PairFiles& files, const Path& name, PictureFile picture) {
+  files.has_ppm = files.has_ppm || picture.kind == ImageKind::ppm;
+  for (std::string& remark : picture.remarks) files.remarks.push_back(std::move(remark));
+  if (picture.has_alpha)
+    files.remarks.push_back(name.string() + ": alpha is not looked at: what is hidden beneath it is compared");
+  return std::move(picture.image);
+}
+
 PicturePair read_pair(const Path& image_name, const Path& reference_name, PpmCurve ppm) {
   PicturePair pair;
-  pair.image = take(pair, image_name, read_picture(image_name, ppm));
+  pair.image = take_pixels(pair, image_name, read_picture(image_name, ppm));
   const std::vector<std::string> told = pair.remarks;
-  pair.reference = take(pair, reference_name, read_picture(reference_name, ppm));
+  pair.reference = take_pixels(pair, reference_name, read_picture(reference_name, ppm));
   if (image_name == reference_name) pair.remarks = told;
   pair.image_pixels = pair.image.rgb.size() / 3, pair.reference_pixels = pair.reference.rgb.size() / 3;
   const Placed image{image_name, pair.image}, reference{reference_name, pair.reference};

@@ -8,13 +8,17 @@
 #include "core/image/tonemap.h"
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 namespace tyndall {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 /// RFC 4648, section 4.
 std::string base64(const std::vector<std::uint8_t>& bytes) {
@@ -34,10 +38,30 @@ std::string data_of(const LinearImage& image) {
   return "data:image/png;base64," + base64(encode_png(image.width, image.height, rgb.data()));
 }
 
-std::string row(const char* name, double value, const std::optional<double>& limit) {
-  const char* bad = limit && !(value <= *limit) ? " class=\"bad\"" : "";
-  return fmt::format("<tr{}><th>{}</th><td>{:.6g}</td><td>{}</td></tr>\n", bad, name, value,
-                     limit ? fmt::format("{:.6g}", *limit) : "–");
+/// What was measured.
+struct Row {
+  const char *key, *name;  ///< for programs, and on the page
+  double value;
+  std::optional<double> limit{};
+};
+
+std::vector<Row> rows_of(const CheckedPicture& picture) {
+  const Comparison& c = *picture.comparison;
+  const Tolerance& limits = picture.limits;
+  std::vector<Row> rows;
+  if (c.noise) {
+    rows = {{"mean_z", "z of the means", *std::max_element(c.noise->mean_z.begin(), c.noise->mean_z.end()), limits.z},
+            {"block_z", "z of the blocks", c.noise->block_z, limits.z}};
+    if (c.noise->compares_outliers) rows.push_back({"outlier_z", "z of outliers", c.noise->outlier_z, limits.z});
+  }
+  rows.insert(rows.end(), {{"flip", "FLIP", c.flip, limits.flip},
+                           {"relmse", "relMSE", c.error.rel_mse, limits.rel_mse},
+                           {"rmse", "RMSE", c.error.rmse, limits.rmse},
+                           {"psnr", "PSNR (dB)", c.error.psnr}});
+  if (c.outside.values > 0)
+    rows.push_back({"relmse_outside", "relMSE outside [0, 1]", c.outside.rel_mse,
+                    limits == usual_tolerance ? std::optional(usual_outside) : std::nullopt});
+  return rows;
 }
 
 /// A line to copy.
@@ -59,10 +83,9 @@ std::string commands_of(const CheckedPicture& picture) {
   made("The baseline again:", picture.reference);
   std::string compare =
       "tyndall compare " + in_shell(picture.image.string()) + " " + in_shell(picture.reference.string());
-  if (picture.limits.z) compare += fmt::format(" --max-z {:g}", *picture.limits.z);
-  if (picture.limits.flip) compare += fmt::format(" --max-flip {:g}", *picture.limits.flip);
-  if (picture.limits.rel_mse) compare += fmt::format(" --max-relmse {:g}", *picture.limits.rel_mse);
-  if (picture.limits.rmse) compare += fmt::format(" --max-rmse {:g}", *picture.limits.rmse);
+  for (const auto& [key, member] : tolerance_keys)
+    if (picture.limits.*member)
+      compare += fmt::format(" --max-{} {:g}", key + std::strlen("max_"), *(picture.limits.*member));
   return text + command_line("Compared:", compare);
 }
 
@@ -70,36 +93,20 @@ std::string pictures_of(const CheckedPicture& picture, PpmCurve ppm) {
   const Comparison& c = *picture.comparison;
   const LinearImage flip = heat_colours(c.flip_map, c.width, c.height);
   const PicturePair pair = read_pair(picture.image, picture.reference, ppm);
-  return fmt::format(
-      "<div class=\"pair\"><figure><div class=\"slide\" tabindex=\"0\" role=\"slider\" aria-label=\"divider\" "
-      "aria-valuemin=\"0\" aria-valuemax=\"100\" aria-valuenow=\"50\">"
-      "<img alt=\"baseline\" src=\"{}\"><img alt=\"rendered\" class=\"top\" src=\"{}\"><span "
-      "class=\"bar\"></span></div>"
-      "<figcaption>left of the divider: rendered; right: baseline (pointer, or ← → Home End)</figcaption></figure>\n"
-      "<figure><img alt=\"FLIP\" src=\"{}\"><div class=\"scale\"></div><div class=\"marks\"><span>0</span>"
-      "<span>0.5</span><span>1</span></div><figcaption>FLIP of each pixel</figcaption></figure></div>\n",
-      data_of(pair.reference), data_of(pair.image), data_of(flip));
-}
-
-/// The rows of the noise, of what was tested.
-std::string noise_rows(const NoiseScores& s, const std::optional<double>& limit) {
-  std::string text = row("z of the means", *std::max_element(s.mean_z.begin(), s.mean_z.end()), limit) +
-                     row("z of the blocks", s.block_z, limit);
-  if (s.compares_outliers) text += row("z of outliers", s.outlier_z, limit);
-  return text +
-         fmt::format("<tr><th>blocks: cannot tell</th><td>{} of {}</td><td>–</td></tr>\n", s.unclear_blocks, s.blocks);
+  return from_template(
+      "report_pair.html",
+      {{"baseline", data_of(pair.reference)}, {"rendered", data_of(pair.image)}, {"flip", data_of(flip)}});
 }
 
 std::string table_of(const CheckedPicture& picture) {
-  const Comparison& c = *picture.comparison;
   std::string text = "<table><tr><th></th><th>measured</th><th>at most</th></tr>\n";
-  if (c.noise) text += noise_rows(*c.noise, picture.limits.z);
-  text += row("FLIP", c.flip, picture.limits.flip) + row("relMSE", c.error.rel_mse, picture.limits.rel_mse) +
-          row("RMSE", c.error.rmse, picture.limits.rmse) + row("PSNR (dB)", c.error.psnr, {});
-  if (c.outside.values > 0) {
-    const bool looked_at = picture.limits == usual_tolerance;
-    text += row("relMSE outside [0, 1]", c.outside.rel_mse, looked_at ? std::optional(usual_outside) : std::nullopt);
-  }
+  for (const Row& row : rows_of(picture))
+    text += fmt::format("<tr{}><th>{}</th><td>{:.6g}</td><td>{}</td></tr>\n",
+                        row.limit && !(row.value <= *row.limit) ? " class=\"bad\"" : "", row.name, row.value,
+                        row.limit ? fmt::format("{:.6g}", *row.limit) : "–");
+  if (const auto& noise = picture.comparison->noise)
+    text += fmt::format("<tr><th>blocks: cannot tell</th><td>{} of {}</td><td>–</td></tr>\n", noise->unclear_blocks,
+                        noise->blocks);
   return text + "</table>\n";
 }
 
@@ -138,24 +145,47 @@ std::string css_stops() {
   return text;
 }
 
+/// The numbers of the page, for programs.
+std::string json_text(const std::vector<CheckedPicture>& pictures) {
+  Json json{{"pictures", Json::array()}};
+  for (const CheckedPicture& picture : pictures) {
+    Json failures = Json::array(), measured = Json::object(), limits = Json::object();
+    for (const std::string& failure : picture.failures) failures.push_back(all_printable(failure));
+    for (const Row& row : picture.comparison ? rows_of(picture) : std::vector<Row>{}) {
+      measured[row.key] = row.value;  // null where it is not finite
+      if (row.limit) limits[row.key] = *row.limit;
+    }
+    json["pictures"].push_back({{"name", all_printable(picture.name)},
+                                {"passed", picture.failures.empty()},
+                                {"failures", failures},
+                                {"measured", measured},
+                                {"limits", limits}});
+  }
+  return json.dump(2) + "\n";
+}
+
 }  // namespace
 
 void write_html_report(const std::filesystem::path& file, const std::vector<CheckedPicture>& pictures, PpmCurve ppm) {
-  std::size_t failed = 0;
-  for (const CheckedPicture& picture : pictures) failed += !picture.failures.empty();
+  const auto passes = [](const CheckedPicture& picture) { return picture.failures.empty(); };
   std::string rows, sections;
   std::size_t number = 0;
   for (const bool good : {false, true})  // failures first
     for (const CheckedPicture& picture : pictures) {
-      if (picture.failures.empty() != good) continue;
+      if (passes(picture) != good) continue;
       rows += summary_row(picture, ++number);
       sections += section(picture, number, ppm);
     }
-  const std::string sentence =
-      fmt::format("{} of {} pictures look like their baseline", pictures.size() - failed, pictures.size());
-  write_text_or_rescue(
-      file, from_template("report.html",
-                          {{"stops", css_stops()}, {"sentence", sentence}, {"rows", rows}, {"sections", sections}}));
+  std::filesystem::path numbers = file;
+  numbers.replace_extension(".json");
+  const std::string sentence = fmt::format("{} of {} pictures look like their baseline",
+                                           std::count_if(pictures.begin(), pictures.end(), passes), pictures.size());
+  write_text_or_rescue(file, from_template("report.html", {{"stops", css_stops()},
+                                                           {"sentence", sentence},
+                                                           {"numbers", in_html(numbers.filename().string())},
+                                                           {"rows", rows},
+                                                           {"sections", sections}}));
+  write_text_or_rescue(numbers, json_text(pictures));
 }
 
 std::string junit_report(const std::vector<CheckedPicture>& pictures) {

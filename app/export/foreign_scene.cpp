@@ -24,25 +24,6 @@ struct Refusal {
   }
 };
 
-std::string place_of(const Material& material, const char* key) {
-  return "/materials/" + pointer_step(material.name) + "/" + key;
-}
-
-void check_texture(const Texture& texture, const Refusal& refuse) {
-  const std::string where = "/textures/" + pointer_step(texture.name) + "/type";
-  const ForeignRenderer& r = refuse.renderer;
-  std::visit(
-      Overloaded{[&](const Solid<>&) {},
-                 [&](const Checker<>&) {
-                   if (!r.solid_checkers) refuse(where, "a checker pattern in space", "a colour or an image");
-                 },
-                 [&](const Image&) {
-                   if (!r.images) refuse(where, "an image", "a colour");
-                 },
-                 [&](const auto& other) { refuse(where, in_quotes(other.type), "a colour, a checker or an image"); }},
-      texture.kind);
-}
-
 /// Null: the material has none.
 const Texture* texture_of(const Material& material, const Scene& scene) {
   const auto* texture = std::get_if<TextureIndex>(&material.colour);
@@ -50,16 +31,27 @@ const Texture* texture_of(const Material& material, const Scene& scene) {
 }
 bool is_image(const Texture* texture) { return texture && std::holds_alternative<Image>(texture->kind); }
 
+void check_texture(const Texture& texture, const Refusal& refuse) {
+  const std::string where = "/textures/" + pointer_step(texture.name) + "/type";
+  const bool checker = std::holds_alternative<Checker<>>(texture.kind);
+  if (checker && !refuse.renderer.solid_checkers) refuse(where, "a checker pattern in space", "a colour or an image");
+  if (is_image(&texture) && !refuse.renderer.images) refuse(where, "an image", "a colour");
+  if (!checker && !is_image(&texture) && !std::holds_alternative<Solid<>>(texture.kind))
+    refuse(where, in_quotes(std::visit([](const auto& kind) { return kind.type; }, texture.kind)),
+           "a colour, a checker or an image");
+}
+
 void check_material(const Material& material, const Scene& scene, const Refusal& refuse) {
+  const std::string where = "/materials/" + pointer_step(material.name) + "/";
   const Texture* texture = colour_name(material.kind) ? texture_of(material, scene) : nullptr;
   if (texture) check_texture(*texture, refuse);
   if (const auto* metal = std::get_if<Metal<double>>(&material.kind)) {
-    if (metal->fuzz > 0) refuse(place_of(material, "fuzz"), number_text(metal->fuzz), "0");
+    if (metal->fuzz > 0) refuse(where + "fuzz", number_text(metal->fuzz), "0");
     if (!refuse.renderer.even_mirrors)
-      refuse(place_of(material, "type"), "a mirror that reflects the same at every angle", "another material");
+      refuse(where + "type", "a mirror that reflects the same at every angle", "another material");
   }
   if (is_image(texture) && !std::holds_alternative<Lambertian<double>>(material.kind))
-    refuse(place_of(material, "type"), "an image on what is not lambertian", "a colour");
+    refuse(where + "type", "an image on what is not lambertian", "a colour");
 }
 
 ForeignSphere sphere_of(const Sphere<>& sphere, const Placement& placement, const Camera& camera) {
@@ -71,73 +63,61 @@ ForeignSphere sphere_of(const Sphere<>& sphere, const Placement& placement, cons
   return out;
 }
 
-ForeignFlat flat_of(Vec3d corner, Vec3d u, Vec3d v, const Placement& placement) {
-  return {place(placement, corner), rotate(placement, u), rotate(placement, v)};
+ForeignShape shape_of(const auto& shape, const Placement& at, const Camera& camera) {
+  ForeignShape out;
+  using enum ForeignFlat::Kind;
+  const auto add = [&](ForeignFlat::Kind kind, Vec3d origin, Vec3d u, Vec3d v, double inner = 0) {
+    out.flats.push_back({kind, place(at, origin), rotate(at, u), rotate(at, v), inner});
+  };
+  std::visit(Overloaded{[&](const Sphere<>& s) { out.sphere = sphere_of(s, at, camera); },
+                        [&](const Quad<>& q) { add(quad, q.corner, q.u, q.v); },
+                        [&](const Box<>& b) {
+                          for (int i = 0; i < 6; ++i) {
+                            const BoxFace face = box_face_edges(b, i);
+                            add(quad, face.corner, face.u, face.v);
+                          }
+                        },
+                        [&](const Triangle<>& t) { add(triangle, t.corner, t.u, t.v); },
+                        [&](const Disk<>& d) { add(disk, d.center, d.u, d.v, d.inner); }},
+             shape);
+  return out;
 }
 
-ForeignGeometry shape_of(const auto& shape, const Placement& placement, const Camera& camera) {
-  using Result = ForeignGeometry;
-  return std::visit(
-      Overloaded{
-          [&](const Sphere<>& s) -> Result { return sphere_of(s, placement, camera); },
-          [&](const Quad<>& q) -> Result { return std::vector{flat_of(q.corner, q.u, q.v, placement)}; },
-          [&](const Box<>& b) -> Result {
-            std::vector<ForeignFlat> faces;
-            for (int i = 0; i < 6; ++i) {
-              const BoxFace face = box_face_edges(b, i);
-              faces.push_back(flat_of(face.corner, face.u, face.v, placement));
-            }
-            return faces;
-          },
-          [&](const Triangle<>& t) -> Result { return ForeignTriangle{flat_of(t.corner, t.u, t.v, placement)}; },
-          [&](const Disk<>& d) -> Result {
-            return ForeignDisk{place(placement, d.center), rotate(placement, d.u), rotate(placement, d.v), d.inner};
-          }},
-      shape);
+/// A medium's boundary, or the cube around a sphere.
+Block block_around(const PlacedVolume& volume) {
+  if (const auto* box = std::get_if<Box<>>(&volume.boundary)) return block_of(*box, volume.placement);
+  const Sphere<>& sphere = std::get<Sphere<>>(volume.boundary);
+  const double r = std::abs(sphere.radius);
+  return {place(volume.placement, sphere.center), {Vec3d{r, 0, 0}, Vec3d{0, r, 0}, Vec3d{0, 0, r}}};
 }
 
 bool is_inside(const PlacedVolume& volume, Vec3d point) {
   if (const auto* sphere = std::get_if<Sphere<>>(&volume.boundary))
     return length(point - place(volume.placement, sphere->center)) < std::abs(sphere->radius);
-  const Block block = block_of(std::get<Box<>>(volume.boundary), volume.placement);
+  const Block block = block_around(volume);
   return std::all_of(block.edge.begin(), block.edge.end(),
                      [&](Vec3d edge) { return std::abs(dot(point - block.middle, edge)) < dot(edge, edge); });
 }
 
-/// Whether two media may have a point in common; where one is a sphere, by the boxes around them.
-bool may_overlap(const PlacedVolume& a, const PlacedVolume& b, const Camera& camera) {
-  const auto *box_a = std::get_if<Box<>>(&a.boundary), *box_b = std::get_if<Box<>>(&b.boundary);
-  if (box_a && box_b) return !are_apart(block_of(*box_a, a.placement), block_of(*box_b, b.placement));
-  const auto range = [&](const PlacedVolume& volume, double Vec3d::*axis) {
-    const Extent extent = extent_of(volume, camera);
-    double low = extent.points[0].*axis, high = low;
-    for (const Vec3d& point : extent.points) low = std::min(low, point.*axis), high = std::max(high, point.*axis);
-    return std::pair{low - extent.radius, high + extent.radius};
-  };
-  for (const auto axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {
-    const auto [a0, a1] = range(a, axis);
-    const auto [b0, b1] = range(b, axis);
-    if (a1 < b0 || b1 < a0) return false;
-  }
-  return true;
-}
-
 /// Whether both half axes are as long and at right angles, up to the rounding of what wrote the scene.
-bool is_circle(const ForeignDisk& disk) {
+bool is_circle(const ForeignFlat& disk) {
   const double a = dot(disk.u, disk.u), b = dot(disk.v, disk.v), small = 1e-6 * std::max(a, b);
   return std::abs(a - b) <= small && std::abs(dot(disk.u, disk.v)) <= small;
 }
 
-void check_disk(const ForeignDisk& disk, const Material& material, const Scene& scene, const Refusal& refuse) {
-  if (!refuse.renderer.ellipses && !is_circle(disk)) refuse("/objects", "an ellipse", "a circle");
-  if (!refuse.renderer.rings && disk.inner > 0) refuse("/objects", "a ring", "a disk without a hole");
-  if (is_image(texture_of(material, scene))) refuse("/objects", "an image on a disk", "a colour");
-}
-
-void check_sphere(const ForeignSphere& sphere, const Material& material, const Refusal& refuse) {
-  if (!sphere.moves()) return;
-  if (!refuse.renderer.moving_spheres) refuse("/camera/shutter", "spheres that move while it is open", "an instant");
-  if (std::holds_alternative<Light<double>>(material.kind)) refuse("/objects", "a light that moves", "one at rest");
+void check_shape(const ForeignShape& shape, const Scene& scene, const Refusal& refuse) {
+  const ForeignRenderer& r = refuse.renderer;
+  const Material& material = scene.materials[static_cast<std::size_t>(shape.material)];
+  if (shape.sphere && shape.sphere->moves()) {
+    if (!r.moving_spheres) refuse("/camera/shutter", "spheres that move while it is open", "an instant");
+    if (std::holds_alternative<Light<double>>(material.kind)) refuse("/objects", "a light that moves", "one at rest");
+  }
+  for (const ForeignFlat& flat : shape.flats) {
+    if (flat.kind != ForeignFlat::Kind::disk) continue;
+    if (!r.ellipses && !is_circle(flat)) refuse("/objects", "an ellipse", "a circle");
+    if (!r.rings && flat.inner > 0) refuse("/objects", "a ring", "a disk without a hole");
+    if (is_image(texture_of(material, scene))) refuse("/objects", "an image on a disk", "a colour");
+  }
 }
 
 /// Adds the media; those whose boundary is a surface become its interior.
@@ -147,20 +127,21 @@ void add_media(const Scene& scene, const Flattened& flat, const Refusal& refuse,
     const auto* albedo = std::get_if<Vec3d>(&volume.albedo);
     if (!albedo) refuse("/objects", "a texture as the albedo of a medium", "a colour");
     for (std::size_t k = 0; k < i && !refuse.renderer.overlapping_media; ++k)
-      if (may_overlap(volume, flat.volumes[k], scene.camera))
+      if (!are_apart(block_around(volume), block_around(flat.volumes[k])))
         refuse("/objects", "media that may overlap", "media apart from each other");
     const int index = static_cast<int>(out.media.size());
     out.media.push_back({volume.medium.density, volume.medium.g, *albedo});
     if (is_inside(volume, scene.camera.look_from)) out.camera_medium = index;
     if (!volume.surface) {
-      out.shapes.push_back({shape_of(volume.boundary, volume.placement, scene.camera), -1, index});
+      out.shapes.push_back(shape_of(volume.boundary, volume.placement, scene.camera));
+      out.shapes.back().medium = index;
       continue;
     }
     ForeignShape& shape = out.shapes[static_cast<std::size_t>(*volume.surface)];
     const Material& material = scene.materials[static_cast<std::size_t>(shape.material)];
     if (!refuse.renderer.media_in_lights && std::holds_alternative<Light<double>>(material.kind))
       refuse("/objects", "a medium within a light", "one within another surface");
-    if (const auto* sphere = std::get_if<ForeignSphere>(&shape.shape); sphere && sphere->inward)
+    if (shape.sphere && shape.sphere->inward)
       refuse("/objects", "a medium within a sphere of negative radius", "a positive one");
     if (shape.medium >= 0) refuse("/objects", "two media within one surface", "one");
     shape.medium = index;
@@ -178,18 +159,12 @@ ForeignScene foreign_scene(const Scene& scene, const std::string& name, const Fo
   std::set<int> used;
   for (const PlacedShape& shape : flat.shapes) {
     used.insert(shape.material);
-    out.shapes.push_back({shape_of(shape.shape, shape.placement, scene.camera), shape.material, -1});
-    const Material& material = scene.materials[static_cast<std::size_t>(shape.material)];
-    std::visit(
-        Overloaded{[&](const ForeignSphere& sphere) { check_sphere(sphere, material, refuse); },
-                   [&](const ForeignDisk& disk) { check_disk(disk, material, scene, refuse); }, [](const auto&) {}},
-        out.shapes.back().shape);
+    out.shapes.push_back(shape_of(shape.shape, shape.placement, scene.camera));
+    out.shapes.back().material = shape.material;
+    check_shape(out.shapes.back(), scene, refuse);
   }
   for (const int material : used) check_material(scene.materials[static_cast<std::size_t>(material)], scene, refuse);
   add_media(scene, flat, refuse, out);
-  out.forward = normalize(scene.camera.look_at - scene.camera.look_from);
-  out.right = normalize(cross(out.forward, scene.camera.vup));
-  out.up = cross(out.right, out.forward);
   return out;
 }
 
@@ -207,38 +182,36 @@ double focus_of(const Camera& camera) {
   return camera.focus_distance.value_or(length(camera.look_at - camera.look_from));
 }
 
-LinearImage sky_in_rows(const Image::Pixels& sky, int rows, double (*place)(int row, int rows)) {
-  LinearImage out{std::max(sky.width, 2), rows, {}};
-  out.rgb.reserve(3 * static_cast<std::size_t>(out.width) * static_cast<std::size_t>(rows));
-  for (int y = 0; y < rows; ++y) {
-    const double at = std::clamp(place(y, rows) * sky.height - 0.5, 0.0, sky.height - 1.0);
-    const int above = static_cast<int>(at), below = std::min(above + 1, sky.height - 1);
-    for (int x = 0; x < out.width; ++x)
-      for (int c = 0; c < 3; ++c) {
-        const auto texel = [&](int row) {
-          return static_cast<double>(sky.rgb[3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(sky.width) +
-                                                  static_cast<std::size_t>(x % sky.width)) +
-                                             static_cast<std::size_t>(c)]);
-        };
-        out.rgb.push_back(static_cast<float>(texel(above) + (at - above) * (texel(below) - texel(above))));
-      }
-  }
+LinearImage picture_of(int width, int height, const std::function<Vec3d(int x, int y)>& colour) {
+  LinearImage out{width, height, {}};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const Vec3f c = to_float(colour(x, y));
+      out.rgb.insert(out.rgb.end(), {c.x, c.y, c.z});
+    }
   return out;
 }
 
-LinearImage sky_of_heights(const Background& sky, int width, int rows, const std::function<double(int, int)>& height) {
-  LinearImage out{width, rows, {}};
-  for (int y = 0; y < rows; ++y)
-    for (int x = 0; x < width; ++x) {
-      const double at = height(x, y);
-      const Vec3d c =
-          std::visit(Overloaded{[](const Vec3d& colour) { return colour; }, [](const SkyPicture&) { return Vec3d{}; },
-                                [at](const Gradient& g) { return g.bottom + (at + 1) / 2 * (g.top - g.bottom); },
-                                [at](const Hemispheres& h) { return at > 0 ? h.up : h.down; }},
-                     sky);
-      out.rgb.insert(out.rgb.end(), {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)});
-    }
-  return out;
+Vec3d texel(const Image::Pixels& pixels, int x, int y) {
+  const auto at = pixels.rgb.begin() + 3 * (std::ptrdiff_t{y} * pixels.width + x);
+  return to_double({at[0], at[1], at[2]});
+}
+
+LinearImage sky_in_rows(const Image::Pixels& sky, int rows, double (*place)(int row, int rows)) {
+  return picture_of(std::max(sky.width, 2), rows, [&](int x, int y) {
+    const double at = std::clamp(place(y, rows) * sky.height - 0.5, 0.0, sky.height - 1.0);
+    const int row = static_cast<int>(at);
+    const Vec3d above = texel(sky, x % sky.width, row),
+                below = texel(sky, x % sky.width, std::min(row + 1, sky.height - 1));
+    return above + (at - row) * (below - above);
+  });
+}
+
+Vec3d colour_at(const Background& sky, double height) {
+  return std::visit(Overloaded{[](const Vec3d& colour) { return colour; }, [](const SkyPicture&) { return Vec3d{}; },
+                               [&](const Gradient& g) { return g.bottom + (height + 1) / 2 * (g.top - g.bottom); },
+                               [&](const Hemispheres& h) { return height > 0 ? h.up : h.down; }},
+                    sky);
 }
 
 std::string beside(const std::string& file, const std::string& ending) {

@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 /// Writes scenes for other renderers. What a renderer has no equal of is refused; nothing is approximated.
@@ -15,17 +14,11 @@
 /// First step: a scene as shapes in world space with one material and at most one medium each.
 namespace tyndall {
 
-/// A parallelogram; the normal is along u × v, out of a box.
+/// A flat shape. The points are origin + a u + b v; the normal is along u × v, out of a box.
 struct ForeignFlat {
-  Vec3d corner, u, v;
-};
-
-/// corner + a u + b v where a, b >= 0 and a + b <= 1; the normal is along u × v.
-struct ForeignTriangle : ForeignFlat {};
-
-/// center + a u + b v where inner <= sqrt(a² + b²) <= 1; the normal is along u × v.
-struct ForeignDisk {
-  Vec3d center, u, v;
+  enum class Kind { quad, triangle, disk };
+  Kind kind;  ///< 0 <= a, b <= 1; a, b >= 0 and a + b <= 1; inner <= sqrt(a² + b²) <= 1
+  Vec3d origin, u, v;
   double inner = 0;
 };
 
@@ -37,11 +30,10 @@ struct ForeignSphere {
   bool moves() const { return !(center == center_end); }
 };
 
-/// Several ForeignFlat: the faces of a box.
-using ForeignGeometry = std::variant<ForeignSphere, std::vector<ForeignFlat>, ForeignTriangle, ForeignDisk>;
-
+/// A sphere, or flat shapes: one, or the faces of a box.
 struct ForeignShape {
-  ForeignGeometry shape;
+  std::optional<ForeignSphere> sphere;
+  std::vector<ForeignFlat> flats;
   int material = -1;  ///< index into Scene::materials; -1: the boundary of a medium alone, which is not seen
   int medium = -1;    ///< index into ForeignScene::media, behind the surface; -1: none
 };
@@ -69,8 +61,7 @@ struct ForeignRenderer {
 struct ForeignScene {
   std::vector<ForeignShape> shapes;
   std::vector<ForeignMedium> media;
-  int camera_medium = -1;    ///< that the eye is in; -1: none
-  Vec3d forward, up, right;  ///< unit, of the camera
+  int camera_medium = -1;  ///< that the eye is in; -1: none
 };
 
 /// name: what messages call the scene. Throws SceneError with the first thing that the renderer has no equal of.
@@ -96,13 +87,15 @@ std::string numbers_of(Vec3d v, const char* between = " ");
 std::optional<Vec3d> plain_colour(const Material& material, const Scene& scene);
 /// Distance of the plane in focus, along the axis.
 double focus_of(const Camera& camera);
+/// A picture of the colours that a function gives its pixels.
+LinearImage picture_of(int width, int height, const std::function<Vec3d(int x, int y)>& colour);
+/// One pixel of a picture.
+Vec3d texel(const Image::Pixels& pixels, int x, int y);
 /// A sky's picture in rows of another number: as it is seen at the distances from its top, of 1, that `place` gives for
 /// each of them. At least two columns.
 LinearImage sky_in_rows(const Image::Pixels& sky, int rows, double (*place)(int row, int rows));
-/// A picture of a background that depends on the height of a direction (y of the unit vector) alone; height: of a
-/// pixel.
-LinearImage sky_of_heights(const Background& sky, int width, int rows,
-                           const std::function<double(int x, int y)>& height);
+/// A background that depends on the height of a direction (y of the unit vector) alone.
+Vec3d colour_at(const Background& sky, double height);
 /// The first name without folder and ending, with another ending: "a/box.pbrt" gives "box.exr".
 std::string beside(const std::string& file, const std::string& ending);
 

@@ -41,9 +41,11 @@ std::string background(const Scene& scene, const std::string& file, ForeignFile&
   const std::string name = beside(file, ".xml.sky.pfm");
   // Every second of their rows, from the second one on, lies where one of ours does.
   constexpr int rows = 2049;  // of a sky that depends on the height alone
-  const auto height = [](int, int y) { return std::cos(place_of_row(y, rows) * std::numbers::pi); };
-  out.pictures.emplace_back(name, sky ? sky_in_rows(*sky->pixels, 2 * sky->pixels->height + 1, place_of_row)
-                                      : sky_of_heights(scene.background, 4, rows, height));
+  const auto colour = [&](int, int y) {
+    return colour_at(scene.background, std::cos(place_of_row(y, rows) * std::numbers::pi));
+  };
+  out.pictures.emplace_back(
+      name, sky ? sky_in_rows(*sky->pixels, 2 * sky->pixels->height + 1, place_of_row) : picture_of(4, rows, colour));
   return fmt::format(
       "  <emitter type=\"envmap\"><string name=\"filename\" value=\"{}\"/>{}<transform name=\"to_world\"><rotate "
       "y=\"1\" angle=\"{}\"/></transform></emitter>\n",
@@ -132,11 +134,13 @@ struct Flat {
   Vec3d x, y, origin;
 };
 
-/// Their rectangle is [-1, 1]² in x and y.
-Flat flat_of(const ForeignFlat& f) { return {"rectangle\">", 0.5 * f.u, 0.5 * f.v, f.corner + 0.5 * (f.u + f.v)}; }
-Flat flat_of(const ForeignDisk& d) { return {"disk\">", d.u, d.v, d.center}; }
-Flat flat_of(const ForeignTriangle& t) {
-  return {std::string("ply\"><string name=\"filename\" value=\"") + triangle_file + "\"/>", t.u, t.v, t.corner};
+/// Their rectangle is [-1, 1]² in x and y. out: gets the triangle's mesh.
+Flat flat_of(const ForeignFlat& f, ForeignFile& out) {
+  using enum ForeignFlat::Kind;
+  if (f.kind == quad) return {"rectangle\">", 0.5 * f.u, 0.5 * f.v, f.origin + 0.5 * (f.u + f.v)};
+  if (f.kind == disk) return {"disk\">", f.u, f.v, f.origin};
+  out.meshes[triangle_file] = triangle_mesh;
+  return {std::string("ply\"><string name=\"filename\" value=\"") + triangle_file + "\"/>", f.u, f.v, f.origin};
 }
 
 std::string placed(const Flat& f, const std::string& inner) {
@@ -157,26 +161,16 @@ std::string flat_light(Flat f, const std::string& inner) {
   return placed(f, inner) + placed(other, inner);
 }
 
-/// out: gets the triangle's mesh, if there is one.
 std::string shape(const ForeignShape& s, const Scene& scene, const ForeignScene& foreign, ForeignFile& out) {
   const Material* material = s.material < 0 ? nullptr : &scene.materials[static_cast<std::size_t>(s.material)];
   const std::string inner = (material ? surface(*material, scene) : "<bsdf type=\"null\"/>") +
                             (s.medium < 0 ? "" : medium(foreign, s.medium, "interior"));
   const bool light = material && std::holds_alternative<Light<double>>(material->kind);
-  const auto write = [&](const Flat& flat) { return light ? flat_light(flat, inner) : placed(flat, inner); };
-  return std::visit(
-      Overloaded{[&](const ForeignSphere& own) { return light ? sphere_light(own, inner) : sphere(own, inner); },
-                 [&](const std::vector<ForeignFlat>& flats) {
-                   std::string text;
-                   for (const ForeignFlat& flat : flats) text += write(flat_of(flat));
-                   return text;
-                 },
-                 [&](const ForeignTriangle& triangle) {
-                   out.meshes[triangle_file] = triangle_mesh;
-                   return write(flat_of(triangle));
-                 },
-                 [&](const ForeignDisk& disk) { return write(flat_of(disk)); }},
-      s.shape);
+  if (s.sphere) return light ? sphere_light(*s.sphere, inner) : sphere(*s.sphere, inner);
+  std::string text;
+  for (const ForeignFlat& flat : s.flats)
+    text += light ? flat_light(flat_of(flat, out), inner) : placed(flat_of(flat, out), inner);
+  return text;
 }
 
 }  // namespace

@@ -38,36 +38,33 @@ Vec3d direction_of(double x, double y) {
   return {std::copysign(std::cos(phi), u) * out, std::copysign(std::sin(phi), v) * out, std::copysign(1 - r * r, rest)};
 }
 
-/// A sky's picture, in the layout that pbrt reads: a square that has about as many pixels. Each pixel is a mean over
-/// some of its area, so that a sun of one texel keeps its light.
-LinearImage square_sky(const SkyPicture& picture) {
-  const SkyColumns sky = sky_columns(picture, false, nullptr);
-  constexpr int parts = 4;
+/// A sky in the layout that pbrt reads: a square. One of a picture has about as many pixels, each a mean over some of
+/// its area, so that a sun of one texel keeps its light.
+LinearImage square_sky(const Background& background) {
+  const auto* picture = std::get_if<SkyPicture>(&background);
   int edge = 512;
-  while (edge < picture.pixels->width && edge < 4096) edge *= 2;
-  LinearImage out{edge, edge, {}};
-  for (int y = 0; y < edge; ++y)
-    for (int x = 0; x < edge; ++x) {
-      Vec3d sum;
-      for (int k = 0; k < parts * parts; ++k) {
-        const int across = k % parts, down = k / parts;
-        const double column = x + (across + 0.5) / parts, row = y + (down + 0.5) / parts;
-        sum = sum + sky_towards<double>(sky, direction_of(column / edge, row / edge)).radiance;
-      }
-      for (const double c : {sum.x, sum.y, sum.z}) out.rgb.push_back(static_cast<float>(c / (parts * parts)));
+  if (!picture)
+    return picture_of(edge, edge, [&](int x, int y) {
+      return colour_at(background, direction_of((x + 0.5) / edge, (y + 0.5) / edge).y);
+    });
+  const SkyColumns sky = sky_columns(*picture, false, nullptr);
+  constexpr int parts = 4;
+  while (edge < picture->pixels->width && edge < 4096) edge *= 2;
+  return picture_of(edge, edge, [&](int x, int y) {
+    Vec3d sum;
+    for (int k = 0; k < parts * parts; ++k) {
+      const double column = x + (k % parts + 0.5) / parts, row = y + (k / parts + 0.5) / parts;
+      sum = sum + sky_towards<double>(sky, direction_of(column / edge, row / edge)).radiance;
     }
-  return out;
+    return 1.0 / (parts * parts) * sum;
+  });
 }
 
 std::string background(const Scene& scene, const std::string& file, ForeignFile& out) {
   if (const auto* colour = std::get_if<Vec3d>(&scene.background))
     return *colour == Vec3d{} ? "" : "LightSource \"infinite\" " + rgb("L", *colour) + "\n";
-  const auto* picture = std::get_if<SkyPicture>(&scene.background);
   const std::string name = beside(file, ".pbrt.sky.pfm");
-  constexpr int edge = 512;  // of a sky that depends on the height alone
-  const auto height = [](int x, int y) { return direction_of((x + 0.5) / edge, (y + 0.5) / edge).y; };
-  out.pictures.emplace_back(name,
-                            picture ? square_sky(*picture) : sky_of_heights(scene.background, edge, edge, height));
+  out.pictures.emplace_back(name, square_sky(scene.background));
   return "LightSource \"infinite\" \"string filename\" " + in_pbrt(name) + "\n";
 }
 
@@ -93,32 +90,22 @@ std::string camera(const Scene& scene, const ForeignScene& foreign, const std::s
   return text + fmt::format("Integrator \"volpath\" \"integer maxdepth\" {}\n", scene.render.max_depth);
 }
 
-bool is_round(const ForeignShape& shape) { return std::holds_alternative<ForeignSphere>(shape.shape); }
-
 std::string texture_name(std::size_t index, bool round) {
   return fmt::format("\"texture {}{}\"", index, round ? " round" : "");
 }
 
-/// An image with its last column before the first, and the first behind the last: what a sphere has at u = 0.
-LinearImage closed(const Image::Pixels& pixels) {
-  LinearImage out{pixels.width + 2, pixels.height, {}};
-  for (int y = 0; y < out.height; ++y)
-    for (int x = -1; x <= pixels.width; ++x) {
-      const auto row = pixels.rgb.begin() + 3 * std::ptrdiff_t{y} * pixels.width;
-      const auto texel = row + 3 * std::ptrdiff_t{(x + pixels.width) % pixels.width};
-      out.rgb.insert(out.rgb.end(), texel, texel + 3);
-    }
-  return out;
-}
-
-/// Their images wrap in both directions or in none. round: for spheres, around which only u goes on.
+/// Their images wrap in both directions or in none. round: for spheres, around which only u goes on: with the last
+/// column before the first, and the first behind the last.
 std::string image(const Image& image, std::size_t index, bool round, const std::string& file, ForeignFile& out) {
   const std::string name = beside(file, fmt::format(".pbrt.texture-{}{}.pfm", index, round ? "-round" : ""));
   const Image::Pixels& pixels = *image.pixels;
-  out.pictures.emplace_back(name, round ? closed(pixels) : LinearImage{pixels.width, pixels.height, pixels.rgb});
-  const double columns = pixels.width + 2;
+  const int width = pixels.width, more = round ? 1 : 0;
+  out.pictures.emplace_back(name, picture_of(width + 2 * more, pixels.height, [&](int x, int y) {
+                              return texel(pixels, (x - more + width) % width, y);
+                            }));
+  const double columns = width + 2;
   return "\"imagemap\" \"string filter\" \"bilinear\" \"string wrap\" \"clamp\" \"string filename\" " + in_pbrt(name) +
-         (round ? " " + number("uscale", pixels.width / columns) + " " + number("udelta", 1 / columns) : "");
+         (round ? " " + number("uscale", width / columns) + " " + number("udelta", 1 / columns) : "");
 }
 
 /// The textures that shapes have.
@@ -128,7 +115,7 @@ std::string textures(const Scene& scene, const ForeignScene& foreign, const std:
     if (shape.material < 0) continue;
     const auto& colour = scene.materials[static_cast<std::size_t>(shape.material)].colour;
     if (const auto* texture = std::get_if<TextureIndex>(&colour))
-      used.emplace(static_cast<std::size_t>(texture->index), is_round(shape));
+      used.emplace(static_cast<std::size_t>(texture->index), shape.sphere.has_value());
   }
   std::string text;
   for (const auto& [index, round] : used) {
@@ -180,31 +167,24 @@ std::string shape(const ForeignSphere& s) {
   return text + "  Shape \"sphere\" " + number("radius", s.radius) + "\n";
 }
 
-std::string shape(const std::vector<ForeignFlat>& flats) {
-  std::string text;
-  for (const ForeignFlat& f : flats)
-    text += fmt::format(
-        "  Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point3 P\" [ {}  {}  {}  {} ]\n    \"point2 "
-        "uv\" [ 0 0 1 0 1 1 0 1 ]\n",
-        numbers_of(f.corner), numbers_of(f.corner + f.u), numbers_of(f.corner + f.u + f.v), numbers_of(f.corner + f.v));
-  return text;
-}
-
-std::string shape(const ForeignTriangle& t) {
-  return fmt::format(
-      "  Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 ] \"point3 P\" [ {}  {}  {} ]\n    \"point2 uv\" [ 0 0 1 "
-      "0 0 1 ]\n",
-      numbers_of(t.corner), numbers_of(t.corner + t.u), numbers_of(t.corner + t.v));
-}
-
 /// Their disk lies in the plane of x and y; its normal is z. The transform only turns and shifts it: under one that
 /// scales, lights would have the wrong area.
-std::string shape(const ForeignDisk& d) {
+std::string disk(const ForeignFlat& d) {
   const double radius = length(d.u);
   const Vec3d x = normalize(d.u), z = normalize(cross(d.u, d.v)), y = cross(z, x);
   return fmt::format("  ConcatTransform [ {} 0  {} 0  {} 0  {} 1 ]\n  Shape \"disk\" {} {}\n", numbers_of(x),
-                     numbers_of(y), numbers_of(z), numbers_of(d.center), number("radius", radius),
+                     numbers_of(y), numbers_of(z), numbers_of(d.origin), number("radius", radius),
                      number("innerradius", d.inner * radius));
+}
+
+std::string shape(const ForeignFlat& f) {
+  if (f.kind == ForeignFlat::Kind::disk) return disk(f);
+  const bool quad = f.kind == ForeignFlat::Kind::quad;
+  return fmt::format(
+      "  Shape \"trianglemesh\" \"integer indices\" [ {} ] \"point3 P\" [ {}  {}{}  {} ]\n    \"point2 uv\" [ {} ]\n",
+      quad ? "0 1 2 0 2 3" : "0 1 2", numbers_of(f.origin), numbers_of(f.origin + f.u),
+      quad ? "  " + numbers_of(f.origin + f.u + f.v) : "", numbers_of(f.origin + f.v),
+      quad ? "0 0 1 0 1 1 0 1" : "0 0 1 0 0 1");
 }
 
 std::string medium(const ForeignMedium& m, std::size_t index) {
@@ -229,10 +209,13 @@ ForeignFile pbrt_file(const Scene& scene, const std::string& name, const std::st
   out.text += background(scene, file, out) + textures(scene, foreign, file, out);
   for (const ForeignShape& s : foreign.shapes) {
     out.text += "AttributeBegin\n";
-    out.text += s.material < 0 ? "  Material \"interface\"\n"
-                               : surface(scene.materials[static_cast<std::size_t>(s.material)], scene, is_round(s));
+    out.text += s.material < 0
+                    ? "  Material \"interface\"\n"
+                    : surface(scene.materials[static_cast<std::size_t>(s.material)], scene, s.sphere.has_value());
     if (s.medium >= 0) out.text += "  MediumInterface " + medium_name(s.medium) + " \"\"\n";
-    out.text += std::visit([](const auto& own) { return shape(own); }, s.shape) + "AttributeEnd\n";
+    if (s.sphere) out.text += shape(*s.sphere);
+    for (const ForeignFlat& flat : s.flats) out.text += shape(flat);
+    out.text += "AttributeEnd\n";
   }
   return out;
 }

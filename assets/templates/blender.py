@@ -103,7 +103,7 @@ def colour_of(tree, material, round_shape):
         return rgba(material["colour"])
     texture = scene["textures"][material["texture"]]
     if texture["type"] == "solid":
-        return rgba(texture["colour"])
+        return rgba(texture["color"])
     if texture["type"] == "checker":
         return checker(tree, texture)
     return picture(tree, texture, round_shape)
@@ -112,7 +112,7 @@ def colour_of(tree, material, round_shape):
 def surface(tree, material, round_shape):
     kind = material["type"]
     if kind == "dielectric":
-        values = [("Color", (1, 1, 1, 1)), ("Roughness", 0.0), ("IOR", material["index"])]
+        values = [("Color", (1, 1, 1, 1)), ("Roughness", 0.0), ("IOR", material["refractive_index"])]
         return node(tree, "ShaderNodeBsdfGlass", values, distribution="GGX")
     colour = colour_of(tree, material, round_shape)
     if kind == "metal":
@@ -240,17 +240,17 @@ def add_mesh(name, points, faces, uvs, shape):
     add(name, mesh, shape)
 
 
-def add_flats(shape):
+def add_quads(shape):
     points, faces = [], []
-    for corner, u, v in shape["flats"]:
+    for corner, u, v, _ in shape["quads"]:
         corner, u, v = world(corner), world(u), world(v)
         faces.append(list(range(len(points), len(points) + 4)))
         points += [corner, corner + u, corner + u + v, corner + v]
-    add_mesh("flats", points, faces, [(0, 0), (1, 0), (1, 1), (0, 1)] * len(faces), shape)
+    add_mesh("quads", points, faces, [(0, 0), (1, 0), (1, 1), (0, 1)] * len(faces), shape)
 
 
 def add_triangle(shape):
-    corner, u, v = map(world, shape["triangle"])
+    corner, u, v = map(world, shape["triangles"][0][:3])
     add_mesh("triangle", [corner, corner + u, corner + v], [[0, 1, 2]], [(0, 0), (1, 0), (0, 1)], shape)
 
 
@@ -258,12 +258,13 @@ SIDES = 1024
 
 
 def add_disk(shape):
-    center, u, v = map(world, shape["disk"])
+    *place, inner = shape["disks"][0]
+    center, u, v = map(world, place)
     # The polygon has the area of the disk.
     full = math.sqrt(2 * math.pi / SIDES / math.sin(2 * math.pi / SIDES))
     rims = [[center + radius * full * (math.cos(a) * u + math.sin(a) * v)
              for a in (2 * math.pi * k / SIDES for k in range(SIDES))]
-            for radius in (1.0, shape["inner"]) if radius > 0]
+            for radius in (1.0, inner) if radius > 0]
     if len(rims) == 1:
         faces = [list(range(SIDES))]
     else:
@@ -298,22 +299,21 @@ def add_background():
     strength = sky.get("scale", 1.0)
     if sky["type"] == "image":
         # Blender's picture begins a quarter of a turn before ours.
-        angle = math.radians(-90.0 - sky["degrees"])
+        angle = math.radians(-90.0 - sky["rotate_y"])
         direction = node(tree, "ShaderNodeTexCoord").outputs["Generated"]
         turned = node(tree, "ShaderNodeVectorRotate", [("Vector", direction), ("Angle", angle)], rotation_type="Z_AXIS")
         made = node(tree, "ShaderNodeTexEnvironment", [("Vector", turned.outputs[0])], interpolation="Linear")
         made.image = picture_in(sky["file"])
         colour = made.outputs["Color"]
+    elif sky["type"] == "constant":
+        colour = rgba(sky["color"])
     else:
-        colour = rgba(sky["low"])
-    if sky["type"] in ("gradient", "hemispheres"):
         direction = node(tree, "ShaderNodeTexCoord").outputs["Generated"]
         height = node(tree, "ShaderNodeSeparateXYZ", [("Vector", direction)]).outputs["Z"]
         if sky["type"] == "gradient":
-            height = math_node(tree, "MULTIPLY_ADD", height, 0.5, 0.5)
+            colour = mixed(tree, math_node(tree, "MULTIPLY_ADD", height, 0.5, 0.5), sky["bottom"], sky["top"])
         else:
-            height = math_node(tree, "GREATER_THAN", height, 0.0)
-        colour = mixed(tree, height, sky["low"], sky["high"])
+            colour = mixed(tree, math_node(tree, "GREATER_THAN", height, 0.0), sky["down"], sky["up"])
     shader = node(tree, "ShaderNodeBackground", [("Color", colour), ("Strength", strength)])
     output = tree.nodes.new("ShaderNodeOutputWorld")
     tree.links.new(output.inputs["Surface"], shader.outputs[0])
@@ -348,7 +348,7 @@ def set_up_render():
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 for each in scene["shapes"]:
-    kinds = {"radius": add_sphere, "flats": add_flats, "triangle": add_triangle, "disk": add_disk}
+    kinds = {"radius": add_sphere, "quads": add_quads, "triangles": add_triangle, "disks": add_disk}
     next(make for key, make in kinds.items() if key in each)(each)
 add_camera()
 add_background()

@@ -36,7 +36,7 @@ grep -q '^tyndall: gone.png: the baseline has it, and it was not rendered; delet
 grep -q '^tyndall: fresh.png: the baseline lacks it; --update keeps it$' err || fail "new: $(cat err)"
 grep -q '^tyndall: broken.png: ' err || fail "no picture: $(cat err)"
 python3 - <<'MSG' || fail 'the reports'
-import base64, html.parser, re, xml.etree.ElementTree
+import base64, json, re, xml.etree.ElementTree
 suite = xml.etree.ElementTree.parse("junit.xml").getroot()
 assert suite.get("tests") == "5" and suite.get("failures") == "5", suite.attrib
 assert {case.get("name") for case in suite} == {"box.png", "a & <b>.pfm", "gone.png", "fresh.png", "broken.png"}
@@ -47,6 +47,11 @@ assert len(images) == 3 and all(base64.b64decode(i, validate=True).startswith(b"
 assert not re.search(r'(src|href)="(?!data:|#p)', text), "the page needs other files"
 assert "a &amp; &lt;b>.pfm" in text and "0 of 5 pictures" in text
 assert text.count("<tr class=\"bad\"><th><a href") == 5 and "<code>tyndall render &#39;new/box.png&#39; -o &#39;box-again.png&#39;</code>" in text
+pictures = {p["name"]: p for p in json.load(open("report.json"))["pictures"]}
+box = pictures.pop("box.png")
+assert not box["passed"] and box["failures"][0].startswith("FLIP is"), box
+assert box["measured"]["flip"] > 0.05 and box["limits"] == {"flip": 0.05, "rmse": 0.5} and set(box["measured"]) >= {"relmse", "psnr"}, box
+assert len(pictures) == 4 and all(p["failures"] and not p["measured"] for p in pictures.values()), pictures
 MSG
 [ -z "$(find . -name '*.part*')" ] || fail 'scraps are left'
 # Some pictures only: the others of the baseline are not missed.

@@ -19,10 +19,8 @@ for folder in none texts deep; do
 done
 expect 1 "$tyndall" compare texts --baseline none
 grep -q '^tyndall: texts: left out, as their names end in none of .png .*: notes.txt$' err || fail "left out: $(cat err)"
-mkdir one && cp a.pfm one
-expect 1 "$tyndall" compare one --baseline none
 complains_of() { grep -q "^tyndall: $1" err || fail "expected '$1' in: $(cat err)"; }
-complains_of 'a.pfm: the baseline lacks it'
+mkdir one && cp a.pfm one
 expect 1 "$tyndall" compare none --baseline one
 complains_of 'a.pfm: the baseline has it, and it was not rendered'
 

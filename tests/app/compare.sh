@@ -44,10 +44,7 @@ has_exr || finish
 render() { "$tyndall" render cornell-box --size 32x24 --spp 2 -q "$@" || fail "rendering $*"; }
 render -o whole.exr -o whole.pfm
 render --region 5,3,25,20 -o part.exr -o part.pfm
-for pair in 'part.exr whole.exr' 'part.exr whole.pfm' 'part.pfm part.exr' 'whole.pfm part.exr'; do
-  read -r image reference <<<"$pair"
-  expect 0 "$tyndall" compare "$image" "$reference" --max-rmse 0 --max-flip 0 --max-relmse 0 --heatmap region.png
-done
+expect 0 "$tyndall" compare whole.pfm part.exr --max-rmse 0 --max-flip 0 --max-relmse 0 --heatmap region.png
 expect 0 "$tyndall" compare part.exr whole.exr
 grep -qx 'pixels   340 that both have, of 340 in the image and 768 in the reference' out || fail "no number of pixels: $(cat out)"
 expect 0 "$tyndall" compare part.exr whole.exr --json

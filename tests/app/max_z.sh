@@ -37,6 +37,12 @@ for file in better bare part; do expect 0 "$tyndall" compare "$file.exr" new/cov
 for file in better bare part; do
   expect 1 "$tyndall" compare "$file.exr" changed.exr --max-z 4 :err '^tyndall: check failed: .* standard errors'
 done
+expect 0 "$tyndall" compare bare.exr new/cover.exr --json --max-z 4
+python3 - <<'PY' || fail "the layer Variance says another noise than the film: $(cat out)"
+import json
+layer, film = (json.load(open(name))["noise"]["error"] for name in ("out", "noise.json"))
+assert all(0.9 < a / b < 1.1 for a, b in zip(layer, film))
+PY
 
 # A lamp three times as bright that few paths meet, and one that is off.
 lamp() { "$tyndall" render cornell-box --integrator path --size 32x32 --spp 2 -q --set /camera/vfov=20 "$@" || fail "lamp $*"; }
@@ -53,7 +59,7 @@ expect 0 "$tyndall" compare new --baseline kept --update --max-z 4
 grep -q '"max_z": 4.0' kept/tolerances.json || fail "tolerances: $(cat kept/tolerances.json)"
 expect 1 "$tyndall" compare other/cover.exr --baseline kept --max-flip 0.02
 expect 0 "$tyndall" compare other --baseline kept --report report.html --junit junit.xml :out '^ok .*noise: means '
-grep -q 'z of the blocks' report.html || fail 'no noise in the report'
+grep -q 'z of the blocks' report.html && grep -q '"block_z": [0-9]' report.json || fail 'no noise in the report'
 cp changed.exr other/cover.exr
 expect 1 "$tyndall" compare other --baseline kept --report report.html --junit junit.xml
 grep -q 'standard errors' report.html && grep -q 'failures="1"' junit.xml || fail 'the reports do not say it'

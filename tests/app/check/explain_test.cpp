@@ -1,4 +1,4 @@
-#include "app/check/explain.h"
+#include "app/check/check.h"
 #include "tests/app/check/verdicts.h"
 #include "tests/support/thorough.h"
 
@@ -16,12 +16,6 @@ BookProgramPlan planted(Plant plant, int samples = 40) {
   BookProgramPlan plan;
   plan.plant = plant, plan.spp = samples;
   return plan;
-}
-
-bool has_choice(const Findings& verdict, const std::string& name) {
-  for (const Difference& choice : verdict.choices)
-    if (choice.name == name) return true;
-  return false;
 }
 
 }  // namespace
@@ -45,7 +39,8 @@ TEST_CASE("check: what editions do otherwise is said, and is no mistake") {
   const Scene glass = scene_for_book("glass-spheres", 128, 72);
   const Findings verdict = verdict_of(glass, planted(Plant::none, 100), spp);
   CHECK(name_of(verdict) == "agrees");
-  CHECK(has_choice(verdict, "schlick"));
+  REQUIRE_FALSE(verdict.choices.empty());
+  CHECK(verdict.choices[0].name == "schlick");
   CHECK(verdict.curve == TransferCurve::gamma2);
   const std::string text = verdict_text(verdict);
   CHECK(text.find("agree within the noise") != std::string::npos);
@@ -94,12 +89,7 @@ TEST_CASE("check: pictures of one sample or two are not accused, and of few it i
 
 TEST_CASE("check: no mistake is named where there was no time to try them all, and what helps is told") {
   const Scene scene = scene_for_book("metal-spheres", 96, 54);
-  const BookProgramPlan plan = planted(Plant::short_paths);
-  const PictureNumbers picture = numbers_of_bytes(scene.width, scene.height, book_picture(scene, plan));
-  LinearImage light{picture.width, picture.height, picture.numbers};
-  for (float& value : light.rgb) value *= value;
-  const Reference reference = render_reference(scene, light, 0, 64, [] { return true; });
-  const Findings verdict = explain(picture, scene, reference, {5, 8}, [] { return false; });
+  const Findings verdict = verdict_of(scene, planted(Plant::short_paths), 64, {5, 8}, [] { return false; });
   CHECK_FALSE(verdict.agrees);
   CHECK_FALSE(verdict.mistake);
   CHECK(verdict.untried > 5);
@@ -114,10 +104,8 @@ TEST_CASE("check: a mistake that nobody knows is not given another's name, and t
   const Scene scene = scene_for_book("metal-spheres", 96, 54);
   const Findings verdict = verdict_of(scene, planted(Plant::own_sky), spp);
   CHECK(name_of(verdict) == "unexplained");
-  bool sky = false;
-  for (const ObjectDifference& d : verdict.objects)
-    sky = sky || verdict.seen.objects[static_cast<std::size_t>(d.object)].kind == "sky";
-  CHECK(sky);
+  const auto is_sky = [](const ObjectDifference& d) { return d.object.kind == "sky"; };
+  CHECK(std::any_of(verdict.objects.begin(), verdict.objects.end(), is_sky));
   CHECK(verdict_text(verdict).find("none of the usual ones explains it") != std::string::npos);
   const auto json = verdict_json(verdict);
   CHECK(json["agrees"] == false);

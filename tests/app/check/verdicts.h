@@ -1,5 +1,5 @@
 #pragma once
-#include "app/check/explain.h"
+#include "app/check/check.h"
 #include "core/image/tonemap.h"
 #include "core/scene/load.h"
 #include "tests/support/book_tracer.h"
@@ -24,16 +24,16 @@ inline Scene scene_for_book(const std::string& name, int width, int height) {
 }
 
 /// By a fixed number of samples, so that the answer does not depend on the speed of the machine. spp: of the reference.
-inline Findings verdict_of(const Scene& scene, const PictureNumbers& picture, std::uint32_t spp) {
-  constexpr double endless = std::numeric_limits<double>::infinity();
-  const auto always = [] { return true; };
+inline Findings verdict_of(
+    const Scene& scene, const BookProgramPlan& plan, std::uint32_t spp,
+    const CheckOptions& options = {std::numeric_limits<double>::infinity(), 24},
+    const std::function<bool()>& go_on = [] { return true; }) {
+  const PictureNumbers picture = numbers_of_bytes(scene.width, scene.height, book_picture(scene, plan));
   LinearImage light{picture.width, picture.height, picture.numbers};
   for (float& value : light.rgb) value *= value;
-  const Reference reference = render_reference(scene, light, endless, spp, always);
-  return explain(picture, scene, reference, {endless, 24}, always);
-}
-inline Findings verdict_of(const Scene& scene, const BookProgramPlan& plan, std::uint32_t spp) {
-  return verdict_of(scene, numbers_of_bytes(scene.width, scene.height, book_picture(scene, plan)), spp);
+  const double endless = std::numeric_limits<double>::infinity();
+  const Reference reference = render_reference(scene, light, endless, spp, [] { return true; });
+  return explain(picture, scene, reference, options, go_on);
 }
 
 /// "agrees", "too few", "unknown", "schlick-always-1", or "unexplained".

@@ -1,18 +1,15 @@
 """Reads scenes for other renderers by those renderers' own rules, and draws how far away the first surface is.
 
-Usage: _foreign.py FILE.pbrt|FILE.xml|FILE.py WIDTHxHEIGHT OUT.pfm
-
-Own code, from the formats' pages: pbrt.org/fileformat-v4, mitsuba.readthedocs.io, docs.blender.org. Prints the number of
-shapes, of inward normals of what is no light, and of lights. Fails where a light shines on one side alone, where a surface is
-in a medium on its outer side, and where a picture is not there.
+Own code, from the formats' pages: pbrt.org/fileformat-v4, mitsuba.readthedocs.io, docs.blender.org. Fails where a light shines on
+one side alone, where a surface is in a medium on its outer side, and where a picture is not there.
 """
+
 import ast
 import json
 import math
 import os
 import re
 import struct
-import sys
 import xml.etree.ElementTree
 
 
@@ -65,14 +62,11 @@ class Scene:
     def __init__(self):
         self.spheres, self.flats, self.inward, self.lights, self.sky = [], [], 0, 0, None
 
-    def add_quad(self, corner, u, v):
-        self.flats.append((corner, u, v, lambda a, b: 0 <= a <= 1 and 0 <= b <= 1))
-
-    def add_triangle(self, corner, u, v):
-        self.flats.append((corner, u, v, lambda a, b: a >= 0 and b >= 0 and a + b <= 1))
-
-    def add_disk(self, center, u, v, inner=0.0):
-        self.flats.append((center, u, v, lambda a, b: inner * inner <= a * a + b * b <= 1))
+    def add_flat(self, kind, corner, u, v, inner=0.0):
+        within = {"quad": lambda a, b: 0 <= a <= 1 and 0 <= b <= 1,
+                  "triangle": lambda a, b: a >= 0 and b >= 0 and a + b <= 1,
+                  "disk": lambda a, b: inner * inner <= a * a + b * b <= 1}
+        self.flats.append((corner, u, v, within[kind]))
 
     def distance(self, origin, direction):
         nearest = math.inf
@@ -169,12 +163,12 @@ def read_pbrt(text, aspect):
             elif kind == '"disk"':
                 assert all(abs(dot(axes[i], axes[k]) - (i == k)) < 1e-9 for i in range(3) for k in range(3))
                 radius, inner = float(values["radius"][0]), float(values["innerradius"][0])
-                scene.add_disk(axes[3], scale(radius, axes[0]), scale(radius, axes[1]), inner / radius)
+                scene.add_flat("disk", axes[3], scale(radius, axes[0]), scale(radius, axes[1]), inner / radius)
             else:
                 p = [float(v) for v in values["P"]]
                 corners = [p[k:k + 3] for k in range(0, len(p), 3)]
-                add_flat = scene.add_quad if len(corners) == 4 else scene.add_triangle
-                add_flat(corners[0], sub(corners[1], corners[0]), sub(corners[-1], corners[0]))
+                scene.add_flat("quad" if len(corners) == 4 else "triangle", corners[0], sub(corners[1], corners[0]),
+                               sub(corners[-1], corners[0]))
         elif word == "ReverseOrientation":
             state["inward"] = not state["inward"]
         elif word == "MediumInterface":
@@ -229,13 +223,13 @@ def read_xml(text, aspect):
             if light:
                 shines(middle, unit(cross(x, y)))
             if shape.get("type") == "rectangle":
-                scene.add_quad(sub(middle, add(x, y)), scale(2, x), scale(2, y))
+                scene.add_flat("quad", sub(middle, add(x, y)), scale(2, x), scale(2, y))
             elif shape.get("type") == "disk":
                 assert abs(dot(x, x) - dot(y, y)) < 1e-5 * dot(x, x) and abs(dot(x, y)) < 1e-5 * dot(x, x)
-                scene.add_disk(middle, x, y)
+                scene.add_flat("disk", middle, x, y)
             else:
                 check_mesh(shape.find("string[@name='filename']").get("value"))
-                scene.add_triangle(middle, x, y)
+                scene.add_flat("triangle", middle, x, y)
     for normals in sides.values():
         total = [sum(n[k] for n in normals) for k in range(3)]
         assert dot(total, total) < 1e-6, f"a light shines on one side: {normals}"
@@ -281,17 +275,14 @@ def read_script(text, aspect):
             scene.inward += shape["inward"] and not light
             scene.lights += light
         else:
-            for flat in shape.get("flats", []):
-                scene.add_quad(*map(world, flat))
-            if "triangle" in shape:
-                scene.add_triangle(*map(world, shape["triangle"]))
-            if "disk" in shape:
-                scene.add_disk(*map(world, shape["disk"]), shape["inner"])
-            scene.lights += light * len(shape.get("flats", [None]))
+            for kind in ("quad", "triangle", "disk"):
+                for *place, inner in shape.get(kind + "s", []):
+                    scene.add_flat(kind, *map(world, place), inner)
+                    scene.lights += light
     sky = data["background"]
     if sky["type"] == "image":
         picture = Picture(sky["file"])
-        x, y, z = turned(unit(world(SKY_TOWARDS)), math.radians(-90 - sky["degrees"]), 2)
+        x, y, z = turned(unit(world(SKY_TOWARDS)), math.radians(-90 - sky["rotate_y"]), 2)
         u, v = 0.5 - math.atan2(y, x) / (2 * math.pi), math.acos(z) / math.pi
         scene.sky = scale(sky["scale"], picture.at(u * picture.width - 0.5, v * picture.height - 0.5))
     for texture in data["textures"]:
@@ -305,24 +296,15 @@ def read_script(text, aspect):
     return scene
 
 
-def main(file, size, out):
-    width, height = map(int, size.split("x"))
+def read(file, width, height):
+    """The scene, and a line of it: the number of shapes, of inward normals of what is no light, and of lights."""
     text = open(file, encoding="utf-8").read()
-    read = {"pbrt": read_pbrt, "xml": read_xml, "py": read_script}[file.rsplit(".", 1)[1]]
-    scene = read(text, width / height)
-    rows = []
-    for y in range(height):
-        row = []
-        for x in range(width):
-            t = scene.distance(*scene.ray((x + 0.5) / width, (y + 0.5) / height))
-            row += [t if t < math.inf else 0.0] * 3
-        rows.append(row)
-    with open(out, "wb") as picture:
-        picture.write(b"PF\n%d %d\n-1.0\n" % (width, height))
-        for row in reversed(rows):
-            picture.write(struct.pack(f"<{len(row)}f", *row))
-    print(len(scene.spheres) + len(scene.flats), "shapes,", scene.inward, "inward,", scene.lights, "lights")
+    scene = {"pbrt": read_pbrt, "xml": read_xml, "py": read_script}[file.rsplit(".", 1)[1]](text, width / height)
+    return scene, f"{len(scene.spheres) + len(scene.flats)} shapes, {scene.inward} inward, {scene.lights} lights"
 
 
-if __name__ == "__main__":
-    main(*sys.argv[1:])
+def distances(scene, width, height):
+    """How far away the first surface is, of each pixel; 0: there is none. A PFM, bottom row first."""
+    rows = [[scene.distance(*scene.ray((x + 0.5) / width, (y + 0.5) / height)) for x in range(width)] for y in range(height)]
+    numbers = [t if t < math.inf else 0.0 for row in reversed(rows) for t in row for _ in range(3)]
+    return b"PF\n%d %d\n-1.0\n" % (width, height) + struct.pack(f"<{len(numbers)}f", *numbers)
