@@ -1,14 +1,11 @@
 #include "app/check/check.h"
 #include "app/cli/requests.h"
-#include "app/files/outputs.h"
 #include "app/report/heat_map.h"
-#include "app/text/progress.h"
 #include "app/text/standard_streams.h"
 #include "core/accuracy/error.h"
 #include "core/base/text.h"
 #include "core/system/process.h"
 
-#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -30,13 +27,13 @@ std::optional<Check> check_against_scene(const CommandRequest& command) {
     const bool of_scene = command.seconds || !command.scene.overrides.empty() || !sources.include_folders.empty() ||
                           !sources.files.empty();
     check_names_picture(command.reference.string());
-    if (of_scene) throw UsageError("--time, --set, -I and further files need a scene in place of REFERENCE");
+    if (of_scene) refuse("--time, --set, -I and further files need a scene in place of REFERENCE");
     return {};
   }
-  if (command.limits.z)
-    throw UsageError(
-        "--max-z needs two pictures that know their noise; a scene in place of REFERENCE is compared within "
-        "the noise without it");
+  if (command.baseline.limits.z)
+    refuse(
+        "--max-z needs two pictures that know their noise; a scene in place of REFERENCE is compared within the noise "
+        "without it");
   CheckRequest request{command.image, command.baseline.ppm, command.scene, {}, {}};
   request.options.seconds = command.seconds.value_or(request.options.seconds);
   ProgressReport report(is_terminal(standard_error) ? ProgressStyle::automatic : ProgressStyle::none);
@@ -161,9 +158,9 @@ int run_compare(const CommandRequest& command) {
                 {picture_name(command.image).file, picture_name(command.reference).file});
   if (!command.heatmap.empty()) check_can_write(command.heatmap);
   const std::optional<Check> check = check_against_scene(command);
-  const Comparison comparison =
-      check ? check->comparison
-            : compare_images(command.image, command.reference, command.baseline.ppm, command.limits.z.has_value());
+  const Comparison comparison = check ? check->comparison
+                                      : compare_images(command.image, command.reference, command.baseline.ppm,
+                                                       command.baseline.limits.z.has_value());
   check_gamma2(command.baseline.ppm, comparison.has_ppm);
   for (const std::string& remark : comparison.remarks) complain(remark);
   const BlockScores blocks = check ? BlockScores{} : compare_films(command);
@@ -174,7 +171,7 @@ int run_compare(const CommandRequest& command) {
   const std::string text = command.json ? json_text(comparison, blocks, check ? &check->verdict : nullptr)
                                         : table(comparison, blocks) + (check ? verdict_text(check->verdict) : "");
   whole = written_or_told([&text] { write_standard_output(text); }) && whole;
-  const std::vector<std::string> failures = too_large(comparison, command.limits);
+  const std::vector<std::string> failures = too_large(comparison, command.baseline.limits);
   for (const std::string& failure : failures) complain("check failed: " + failure);
   if (!whole) return output_failed;
   return failures.empty() ? 0 : 1;

@@ -1,6 +1,4 @@
-#include "app/cli/render_setup.h"
-#include "app/cli/requests.h"
-#include "app/files/open_scene.h"
+#include "app/cli/pictures.h"
 #include "app/report/contents.h"
 #include "app/report/gain.h"
 #include "app/report/replay.h"
@@ -12,7 +10,6 @@
 #include "core/guide/find_guide.h"
 #include "core/render/prepare.h"
 
-#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -30,24 +27,24 @@ struct Report {
 
 /// "1 box", "2 boxes".
 std::string counted(int count, const std::string& noun) {
-  const char* plural = count == 1 ? "" : noun.back() == 'x' ? "es" : "s";
-  return std::to_string(count) + " " + noun + plural;
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : noun.back() == 'x' ? "es" : "s");
 }
 
 std::string listed(const std::map<std::string, int>& counts, bool nouns) {
-  std::string text;
+  std::vector<std::string> texts;
   for (const auto& [type, count] : counts)
-    text += (text.empty() ? "" : ", ") + (nouns ? counted(count, type) : std::to_string(count) + " " + type);
-  return text.empty() ? "none" : text;
+    texts.push_back(nouns ? counted(count, type) : std::to_string(count) + " " + type);
+  return texts.empty() ? "none" : joined(texts);
 }
 
 /// The objects that elements belong to, the first few by name.
 std::string named(const Report& report, const auto& elements) {
   constexpr std::size_t maximum = 3;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(elements.size(), maximum); ++i)
-    text += (i > 0 ? ", " : "") + object_text(report.loaded.scene, report.prepared->columns().object_of(elements[i]));
-  return text + (elements.size() > maximum ? ", ..." : "");
+  std::vector<std::string> names;
+  for (const auto element : elements)
+    if (names.size() < maximum)
+      names.push_back(object_text(report.loaded.scene, report.prepared->columns().object_of(element)));
+  return joined(names) + (elements.size() > maximum ? ", ..." : "");
 }
 
 /// Why a scene has no chains, and so neither splitting nor a guide; null: its settings allow them.
@@ -59,32 +56,32 @@ const char* no_caustics_text(const RenderSettings& render) {
 
 /// What exact chains are looked for.
 std::string specular_paths_text(const Report& report) {
-  const SpecularPairs& specular = report.prepared->columns().specular;
-  const RenderSettings& render = report.loaded.scene.render;
-  if (const char* off = no_caustics_text(render)) return off;
-  const SceneFeatures& features = report.prepared->columns().features;
-  const bool outlined = features.triangles || features.disks;
+  if (const char* off = no_caustics_text(report.loaded.scene.render)) return off;
+  const RenderScene& columns = report.prepared->columns();
+  const SpecularPairs& specular = columns.specular;
+  const bool outlined = columns.features.triangles || columns.features.disks;
   if (specular.sphere.empty())
     return std::string("none: no lamp that is small as seen from a ball of glass, a mirror or a pane") +
            (outlined ? "; triangles and disks of metal are no such mirrors, but left to BSDF sampling" : "");
   const int flat = specular.first_slab - specular.first_mirror;
   const int slabs = static_cast<int>(specular.index.size()) - specular.first_slab;
-  int mirrors = -flat, shells = 0;
-  for (const float index : specular.index) mirrors += index == 0 ? 1 : 0;
-  for (const float radius : specular.inner_radius) shells += radius > 0 ? 1 : 0;
-  const int solid = specular.first_mirror - mirrors - shells;
+  const int mirrors = static_cast<int>(std::count(specular.index.begin(), specular.index.end(), 0)) - flat;
+  const int shells = static_cast<int>(std::count_if(specular.inner_radius.begin(), specular.inner_radius.end(),
+                                                    [](auto radius) { return radius > 0; }));
+  const std::pair<int, const char*> kinds[] = {{mirrors, "mirror ball"},
+                                               {specular.first_mirror - mirrors - shells, "glass ball"},
+                                               {shells, "glass shell"},
+                                               {flat, "flat mirror"},
+                                               {slabs, "pane"}};
+  std::string text;
+  for (const auto& [count, noun] : kinds)
+    if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, noun);
   std::vector<std::int32_t> lights(specular.light.begin(), specular.light.end());
   std::sort(lights.begin(), lights.end());
   lights.erase(std::unique(lights.begin(), lights.end()), lights.end());
-  std::string text;
-  const auto add = [&](int count, const std::string& noun) {
-    if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, noun);
-  };
-  add(mirrors, "mirror ball"), add(solid, "glass ball"), add(shells, "glass shell"), add(flat, "flat mirror");
-  add(slabs, "pane");
   const bool sun = lights.front() < 0;
   if (sun) lights.erase(lights.begin());
-  for (std::int32_t& light : lights) light = report.prepared->columns().lights.element[static_cast<std::size_t>(light)];
+  for (std::int32_t& light : lights) light = columns.lights.element[static_cast<std::size_t>(light)];
   const std::string to_lights =
       lights.empty() ? "" : counted(static_cast<int>(lights.size()), "lamp") + " (" + named(report, lights) + ")";
   return text + " (" + named(report, specular.outer) + "), each alone, to " + to_lights +
@@ -111,10 +108,9 @@ std::string guide_text(const Report& report) {
   if (no_caustics_text(report.loaded.scene.render)) return "none: a part of chains, which are off";
   if (report.prepared->columns().sky.pixels) return "none: under a picture of the sky light is not guided";
   if (guide.light_paths == 0) return "none: no lamp, or nothing that is almost a mirror or glass beside something matt";
-  const std::string variance = fmt::format(
-      "by {} light paths, the light that chance alone would have to find has a "
-      "variance of {:.2g} a sample",
-      guide.light_paths, guide.expected_variance);
+  const std::string variance =
+      fmt::format("by {} light paths, the light that chance alone would have to find has a variance of {:.2g} a sample",
+                  guide.light_paths, guide.expected_variance);
   if (guide.lobes() == 0) return "none: " + variance + fmt::format("; it pays from {} on", worthwhile_variance);
   return fmt::format("{} lobes, made in {:.0f} ms; ", guide.lobes(), guide.milliseconds) + variance;
 }
@@ -172,12 +168,13 @@ struct Answer {  // NOLINT(bugprone-exception-escape)
     table += fmt::format("{:<12}{}\n", name, words);
     json.update(members);
   }
+  /// What a method gains, where that is measured. key: of the JSON.
   void add(const char* key, const MethodGain& gain) {
     if (!gain.measured) return;
     add("",
-        fmt::format(
-            "a sample takes {:.2f} times as long, and at equal time the squared error is {:.2g} times that without",
-            gain.time, gain.error),
+        fmt::format("a sample takes {:.2f} times as long, and at equal time the squared error is {:.2g} times that "
+                    "without",
+                    gain.time, gain.error),
         {{key, {{"time", gain.time}, {"squared_error", gain.error}}}});
   }
   void add(const KernelGain& gain) {

@@ -1,11 +1,10 @@
-#include "app/cli/live_view.h"
+#include "app/cli/pictures.h"
 
 #include "core/accuracy/estimate.h"
 #include "core/base/seconds.h"
 #include "core/render/clean_film.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace tyndall {
 namespace {
@@ -19,15 +18,12 @@ constexpr double patience_over_elapsed = 0.005, shortest_patience = 0.02;
 
 }  // namespace
 
-LiveView::LiveView(const ViewerAddress& address, const std::string& name, const PreparedScene& prepared,
-                   std::string isa, int threads)
-    : prepared_(prepared),
-      isa_(std::move(isa)),
-      threads_(threads),
-      stream_(address, name, prepared.columns().width, prepared.columns().height),
-      cost_(seconds_per_pixel * first_over_cost / interval_over_cost * prepared.columns().width *
-            prepared.columns().height),
-      clean_cost_(clean_seconds_per_pixel * prepared.columns().width * prepared.columns().height / threads) {}
+LiveView::LiveView(const RenderJob& job)
+    : job_(job), stream_(*job.command.viewer, job.loaded.name, job.loaded.scene.width, job.loaded.scene.height) {
+  const double pixels = static_cast<double>(job.loaded.scene.width) * job.loaded.scene.height;
+  cost_ = seconds_per_pixel * first_over_cost / interval_over_cost * pixels;
+  clean_cost_ = clean_seconds_per_pixel * pixels / job.threads.count;
+}
 
 bool LiveView::due() const {
   return seconds_since(last_) >= std::max(shortest_interval, interval_over_cost * cost_) && stream_.ready();
@@ -36,12 +32,16 @@ bool LiveView::due() const {
 void LiveView::take(const Film& film, ThreadPool& thread_pool) {
   const auto begin = Clock::now();
   if (totals(film).min_taken >= min_clean_spp && seconds_since(last_clean_) >= interval_over_cost * clean_cost_) {
-    clean_ = clean_film(film, prepared_, threads_, isa_).rgb;
+    filter(film);
     clean_cost_ = seconds_since(begin), last_clean_ = Clock::now();
   }
   const auto after_clean = Clock::now();
   send(film, thread_pool);
   cost_ = seconds_since(after_clean), last_ = Clock::now();
+}
+
+void LiveView::filter(const Film& film) {
+  clean_ = clean_film(film, *job_.prepared, job_.threads.count, job_.kernels.isa).rgb;
 }
 
 void LiveView::send(const Film& film, ThreadPool& thread_pool) {
@@ -62,8 +62,8 @@ void LiveView::finish(const Film& film, const CleanPicture* clean) {
   if (clean)
     clean_ = clean->rgb;
   else if (totals(film).min_taken >= min_clean_spp)
-    clean_ = clean_film(film, prepared_, threads_, isa_).rgb;
-  ThreadPool thread_pool(threads_);
+    filter(film);
+  ThreadPool thread_pool(job_.threads.count);
   send(film, thread_pool);
   stream_.finish(patience);
 }

@@ -1,7 +1,5 @@
-#include "app/cli/render_setup.h"
-#include "app/cli/requests.h"
+#include "app/cli/pictures.h"
 #include "app/files/memory.h"
-#include "app/files/outputs.h"
 #include "app/text/standard_streams.h"
 #include "core/accuracy/estimate.h"
 #include "core/files/film_files.h"
@@ -41,11 +39,10 @@ struct Parts {
 void check_part(const Parts& parts, const StoredFilm& part) {
   const std::string& name = part.part.name;
   if (part.scene.render.adaptive)
-    throw UsageError(name + ": found an adaptive render, expected a range of samples that every pixel has");
+    refuse("{}: found an adaptive render, expected a range of samples that every pixel has", name);
   if (parts.frames.empty()) return;
   const auto other = differing_samples(part.scene, part.label, parts.scene, parts.expected);
-  if (other)
-    throw UsageError(name + ": found " + other->found + ", expected " + other->expected + " as in " + parts.name);
+  if (other) refuse("{}: found {}, expected {} as in {}", name, other->found, other->expected, parts.name);
 }
 
 Parts read_parts(const std::vector<std::filesystem::path>& files) {

@@ -2,7 +2,6 @@
 #include "app/check/check.h"
 #include "app/cli/option_rows.h"
 #include "app/text/standard_streams.h"
-#include "app/text/values.h"
 #include "core/base/text.h"
 #include "core/render/clean_film.h"
 
@@ -18,8 +17,6 @@ using Text = const std::string&;
 using Arguments = const std::vector<std::string>&;
 using Request = const CommandRequest&;
 
-std::string see_help(Request request) { return " (see tyndall " + request.command + " --help)"; }
-
 /// A program may have further source files; nothing else takes more words than one.
 void take_scene(CommandRequest& request, std::size_t at) {
   if (request.operands.size() <= at) return;
@@ -28,7 +25,7 @@ void take_scene(CommandRequest& request, std::size_t at) {
   request.scene.program.differs = differs_from_own;
   for (std::size_t k = at + 1; k < request.operands.size(); ++k) {
     if (!is_program(request.operands[at]) || !is_program(request.operands[k]))
-      throw UsageError("unexpected argument " + in_quotes(request.operands[k]) + see_help(request));
+      refuse("unexpected argument {}{}", in_quotes(request.operands[k]), see_help(request.command));
     request.scene.program.sources.files.emplace_back(request.operands[k]);
   }
 }
@@ -96,39 +93,32 @@ constexpr std::pair<bool (*)(Request), const char*> conflicts[] = {
 };
 
 /// Reads the name of a file that stands for many, for the message "--output: found X, expected Y".
-void check_numbered(const char* option, const std::string& name) {
+void check_numbered(const char* option, const std::filesystem::path& name) {
   try {
-    read_numbered_name(name);
+    read_numbered_name(name.string());
   } catch (const UsageError& error) {
-    throw UsageError(std::string(option) + ": " + error.what());
+    refuse("{}: {}", option, error.what());
   }
 }
 
 /// Takes the video out of the outputs, and checks the names of the others.
 void finish_animate(CommandRequest& request) {
-  std::vector<std::filesystem::path> pictures;
+  const auto is_video = [](const std::filesystem::path& file) {
+    return file == "-" || lower_case(file.extension().string()) == ".y4m";
+  };
   for (const std::filesystem::path& file : request.outputs) {
-    if (file != "-" && lower_case(file.extension().string()) != ".y4m") {
-      check_numbered("--output", file.string());
-      pictures.push_back(file);
-      continue;
-    }
-    if (!request.video.empty()) throw UsageError("--output: found two films, expected one .y4m or -");
-    request.video = file;
+    if (!is_video(file)) check_numbered("--output", file);
+    if (is_video(file) && !request.video.empty()) refuse("--output: found two films, expected one .y4m or -");
+    if (is_video(file)) request.video = file;
   }
-  request.outputs = std::move(pictures);
-  if (!request.stats.empty()) check_numbered("--stats", request.stats.string());
+  std::erase_if(request.outputs, is_video);
+  if (!request.stats.empty()) check_numbered("--stats", request.stats);
 }
 
 /// Puts the images where they belong.
 void finish_compare(CommandRequest& request) {
   const std::vector<std::string>& images = request.operands;
-  request.baseline.ppm = request.form.ppm;
-  if (has_baseline(request)) {
-    request.baseline.images.assign(images.begin(), images.end());
-    request.baseline.limits = request.limits;
-    return;
-  }
+  if (has_baseline(request)) return request.baseline.images.assign(images.begin(), images.end());
   take_scene(request, 1);
   request.image = images[0] == "-" ? "/dev/stdin" : images[0];
   request.reference = images[1];
@@ -140,31 +130,13 @@ void finish(CommandRequest& request) {
   if (of_scenes.find(name) != of_scenes.npos) take_scene(request, 0);
   for (const Need& need : required)
     if (need.commands.find(name) != need.commands.npos && !need.given(request))
-      throw UsageError(need.what + std::string(" is missing") + see_help(request));
+      refuse("{} is missing{}", need.what, see_help(request.command));
   if (name == "animate") finish_animate(request);
   if (name == "compare") finish_compare(request);
   if (name == "chart" && request.scene.what != "all") read_file_name(request.output.string(), ".svg");
-  if (request.axes.size() > 2)
-    throw UsageError("--vary: found it " + std::to_string(request.axes.size()) + " times, expected it once or twice");
+  if (request.axes.size() > 2) refuse("--vary: found it {} times, expected it once or twice", request.axes.size());
   for (const auto& [found, text] : conflicts)
-    if (found(request)) throw UsageError(text);
-}
-
-void add_group(CLI::App& app, const OptionGroup& group, CommandRequest& request) {
-  app.option_defaults()->group(group.heading);
-  std::istringstream names(group.options);
-  for (std::string name; names >> name;) {
-    if (name == "{display}") {
-      add_settings(app, request.scene.display);
-    } else if (name == "{render}") {
-      add_settings(app, request.scene.render, {"spp", request.command == "verify" ? "adaptive" : ""});
-    } else {
-      std::replace(name.begin(), name.end(), '_', ' ');
-      const OptionRow& row = option_row(name, request.command);
-      const auto take = [&](Text text) { row.taker.take(request, text); };
-      add_option(app, row.names, row.unit, row.help, take, row.taker.takes, row.taker.choices);
-    }
-  }
+    if (found(request)) refuse("{}", text);
 }
 
 Command read(const CommandRow& row, Arguments arguments) {
@@ -172,12 +144,7 @@ Command read(const CommandRow& row, Arguments arguments) {
   request.command = row.name;
   request.arguments = arguments;
   if (request.command != "view") request.scene.what.clear();
-  const auto app = new_command(row.usage, row.about, row.examples);
-  for (const OptionGroup& group : row.groups) add_group(*app, group, request);
-  if (auto help = parse(*app, arguments)) {
-    help->page.summary = row.summary;
-    return *help;
-  }
+  if (auto help = parse(row, arguments, request)) return PrintCommand{*help};
   finish(request);
   return request;
 }
@@ -187,7 +154,7 @@ std::string overview() {
       "Tyndall: an interactive, progressive path tracer for glass, brushed metal and fog.\n"
       "Usage: tyndall [SCENE] | tyndall COMMAND [options]\n\nCommands:\n";
   for (const CommandRow& row : command_rows())
-    text += "  " + std::string(row.name) + std::string(10 - std::string(row.name).size(), ' ') + row.summary + "\n";
+    text += "  " + row.name + std::string(10 - row.name.size(), ' ') + row.summary + "\n";
   return text +
          "\nOptions:\n"
          "  -h, --help    show this text; 'tyndall COMMAND --help' shows that of a command\n"
@@ -205,41 +172,35 @@ void refuse_misspelt_command(Text argument, bool alone) {
   if ((hint.empty() && alone) || argument[0] == '-' || argument.find_first_of("./") != std::string::npos) return;
   std::error_code error;
   if (hint.empty() || std::filesystem::exists(argument, error)) return;
-  throw UsageError("unknown command " + in_quotes(argument) + hint);
+  refuse("unknown command {}{}", in_quotes(argument), hint);
 }
 
 /// Throws if the first word must have been meant as an option of the program itself.
 void refuse_misspelt_option(Text argument) {
   if (argument.size() < 3 || argument[0] != '-') return;
   const std::string hint = suggestion(argument, {"--version", "--help"});
-  if (!hint.empty()) throw UsageError("unknown option " + in_quotes(argument) + hint + " (see tyndall --help)");
+  if (!hint.empty()) refuse("unknown option {}{} (see tyndall --help)", in_quotes(argument), hint);
 }
 
 Command read_help(Arguments arguments) {
-  if (arguments.empty()) return PrintCommand{overview(), {}};
-  std::string (*const writers[])(const std::vector<CommandPage>&) = {man_page, bash_completion, zsh_completion,
-                                                                     fish_completion};
-  const std::size_t form = read_name(arguments[0], {"man", "bash", "zsh", "fish"});
-  std::vector<CommandPage> pages;
-  for (const CommandRow& row : command_rows()) pages.push_back(std::get<PrintCommand>(read(row, {"--help"})).page);
-  return PrintCommand{writers[form](pages), {}};
+  if (arguments.empty()) return PrintCommand{overview()};
+  constexpr std::string (*writers[])(const std::vector<CommandRow>&) = {man_page, bash_completion, zsh_completion,
+                                                                        fish_completion};
+  return PrintCommand{writers[read_name(arguments[0], {"man", "bash", "zsh", "fish"})](command_rows())};
 }
 
 }  // namespace
 
-/// NAME=FLAGS, e.g. "no MIS=--integrator nee --isa avx2".
 CommandRequest read_method(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals == std::string::npos)
-    throw UsageError("found \"" + text + "\", expected NAME=FLAGS, e.g. 'no MIS=--integrator nee'");
+    refuse("found \"{}\", expected NAME=FLAGS, e.g. 'no MIS=--integrator nee'", text);
   CommandRequest method;
   method.curve = text.substr(0, equals);
   std::istringstream stream(text.substr(equals + 1));
   std::vector<std::string> arguments;
   for (std::string argument; stream >> argument;) arguments.push_back(argument);
-  const auto app = new_command("--method NAME=FLAGS", "One curve of a chart.");
-  add_group(*app, {"Method", "{render} --isa"}, method);
-  if (parse(*app, arguments)) throw UsageError("found a question for help, expected flags of a method");
+  if (parse(method_row(), arguments, method)) refuse("found a question for help, expected flags of a method");
   return method;
 }
 
@@ -247,13 +208,13 @@ Command read_command(const std::vector<std::string>& arguments) {
   const std::vector<CommandRow>& rows = command_rows();
   if (arguments.empty()) return read(rows.front(), {});
   const std::string& first = arguments.front();
-  if (first == "-h" || first == "--help") return PrintCommand{overview(), {}};
+  if (first == "-h" || first == "--help") return PrintCommand{overview()};
   if (first == "help") return read_help({arguments.begin() + 1, arguments.end()});
-  if (first == "-V" || first == "--version" || first == "version") return PrintCommand{version_text(), {}};
+  if (first == "-V" || first == "--version" || first == "version") return PrintCommand{version_text()};
   for (const CommandRow& row : rows)
     if (first == row.name) return read(row, {arguments.begin() + 1, arguments.end()});
   if (first == "book" && !std::filesystem::exists(first))
-    throw UsageError(
+    refuse(
         "book: the folder of headers is gone: programs are read with their own; in place of a build by hand: tyndall "
         "main.cc, tyndall render main.cc -o picture.exr, or ./mine | tyndall view -");
   refuse_misspelt_command(first, arguments.size() == 1);

@@ -3,9 +3,10 @@
 #include "app/files/open_scene.h"
 #include "app/files/outputs.h"
 #include "app/files/viewer_stream.h"
-#include "app/manual/page.h"
 #include "app/text/progress.h"
 #include "app/text/values.h"
+
+#include <fmt/core.h>
 
 #include <filesystem>
 #include <limits>
@@ -65,7 +66,6 @@ struct CommandRequest {
   BaselineRequest baseline;             ///< without a folder: none
   bool update = false;                  ///< the baseline becomes like the images
   std::filesystem::path report, junit;  ///< of the baseline; empty: none
-  Tolerance limits;
 
   // Of chart, verify, inspect and convert.
   std::filesystem::path output;  ///< chart: the SVG, for "all" a folder; convert: the scene, "-": standard output
@@ -80,7 +80,6 @@ struct CommandRequest {
 /// A text to be printed and nothing else: help or the version.
 struct PrintCommand {
   std::string text;
-  CommandPage page;  ///< of the help of a command: what it says
 };
 
 /// The command line as a whole: a command's request, or what is to be printed. arguments[0] is what follows the
@@ -91,6 +90,12 @@ Command read_command(const std::vector<std::string>& arguments);
 
 /// The exit code of a command that computed a picture and could not write all of it.
 inline constexpr int output_failed = 3;
+
+/// Throws a UsageError of that text.
+template <class... Part>
+[[noreturn]] void refuse(fmt::format_string<Part...> text, Part&&... parts) {
+  throw UsageError(fmt::format(text, std::forward<Part>(parts)...));
+}
 
 /// Runs the command that was read, or prints the text.
 int run(const Command& command);

@@ -1,12 +1,9 @@
 #include "app/cli/requests.h"
 #include "app/export/foreign_scene.h"
-#include "app/files/open_scene.h"
-#include "app/files/outputs.h"
 #include "app/text/standard_streams.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/image_io.h"
-#include "core/scene/load.h"
 
 #include <algorithm>
 

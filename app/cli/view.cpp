@@ -1,9 +1,6 @@
-#include "app/cli/render_setup.h"
-#include "app/cli/requests.h"
+#include "app/cli/pictures.h"
 #include "app/files/arriving_picture.h"
 #include "app/files/memory.h"
-#include "app/files/open_scene.h"
-#include "app/files/outputs.h"
 #include "app/text/markup.h"
 #include "app/window/window.h"
 #include "core/base/error.h"
@@ -14,8 +11,6 @@
 #ifdef TYNDALL_WINDOW
 #include "app/window/system/preferences.h"
 #endif
-
-#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -105,7 +100,7 @@ void refuse_scene_options(const CommandRequest& command) {
   const SceneRequest& request = command.scene;
   const bool limited = std::isfinite(command.time_limit) || command.target_error > 0;
   if (request.overrides.empty() && !request.size && request.render.given.empty() && !limited) return;
-  throw UsageError(
+  refuse(
       "standard input: found a picture, expected a scene: --set, --size, limits and the options of rendering change "
       "nothing in a picture");
 }
@@ -138,8 +133,7 @@ int view_picture(const CommandRequest& command, const std::string& begin) {
 
 int view_scene(const CommandRequest& command) {
   if (command.form.ppm == PpmCurve::gamma2)
-    throw UsageError(
-        "--gamma2: found a scene, expected a picture (P3 or P6) on standard input: only these are read so");
+    refuse("--gamma2: found a scene, expected a picture (P3 or P6) on standard input: only these are read so");
   const auto own = std::make_shared<OwnSamples>();
   const auto open = [request = command.scene, own](const std::function<bool()>& go_on) mutable {
     request.program.go_on = go_on;
@@ -173,13 +167,13 @@ int view_scene(const CommandRequest& command) {
 int run_view(const CommandRequest& command) {
   if (command.scene.what != "-") return view_scene(command);
   const Beginning begin = beginning_of(standard_input);
-  if (begin.bytes.empty())
-    throw UsageError(std::string(input_name) + ": found nothing, expected a scene, or a picture (P3 or P6)");
+  if (begin.bytes.empty()) refuse("{}: found nothing, expected a scene, or a picture (P3 or P6)", input_name);
   if (begin.is_picture) return view_picture(command, begin.bytes);
   if (!begin.is_scene)
-    throw UsageError(std::string(input_name) + ": found " + first_line_of(standard_input, begin.bytes) +
-                     ", expected P3 or P6 as the first bytes, or a scene's {; what a program says besides its picture "
-                     "belongs on standard error (std::cerr)");
+    refuse(
+        "{}: found {}, expected P3 or P6 as the first bytes, or a scene's {{; what a program says besides its picture "
+        "belongs on standard error (std::cerr)",
+        input_name, first_line_of(standard_input, begin.bytes));
   // The C library takes back as many bytes as it is given.
   std::for_each(begin.bytes.rbegin(), begin.bytes.rend(), [](char byte) { std::ungetc(byte, stdin); });
   return view_scene(command);
