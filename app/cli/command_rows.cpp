@@ -50,7 +50,7 @@ std::vector<CommandRow> rows_of(const std::vector<CommandText>& texts) {
     const std::string words = usage;
     CommandRow& row =
         rows.emplace_back(CommandRow{words.substr(0, words.find(' ')), summary, words, about, examples, {}, {}, run});
-    row.options.emplace_back("-h,--help", "", Taker{{}, Takes::flag}, "show this text").heading = usual_heading;
+    row.options.emplace_back("-h,--help", "", Taker{{}, Takes::flag}, "show this text", "", usual_heading);
     for (const OptionGroup& group : groups) {
       std::istringstream names(group.options);
       for (std::string name; names >> name;)

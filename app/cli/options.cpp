@@ -153,8 +153,7 @@ std::string overview() {
   std::string text =
       "Tyndall: an interactive, progressive path tracer for glass, brushed metal and fog.\n"
       "Usage: tyndall [SCENE] | tyndall COMMAND [options]\n\nCommands:\n";
-  for (const CommandRow& row : command_rows())
-    text += "  " + row.name + std::string(10 - row.name.size(), ' ') + row.summary + "\n";
+  for (const CommandRow& row : command_rows()) text += fmt::format("  {:<10}{}\n", row.name, row.summary);
   return text +
          "\nOptions:\n"
          "  -h, --help    show this text; 'tyndall COMMAND --help' shows that of a command\n"

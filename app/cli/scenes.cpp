@@ -36,8 +36,7 @@ int run_scenes(const CommandRequest&) {
   std::size_t width = 0;
   for (const BuiltIn& scene : scenes) width = std::max(width, scene.name.size());
   std::string text;
-  for (const BuiltIn& scene : scenes)
-    text += scene.name + std::string(width + 2 - scene.name.size(), ' ') + about(scene) + "\n";
+  for (const BuiltIn& scene : scenes) text += fmt::format("{:<{}}{}\n", scene.name, width + 2, about(scene));
   write_standard_output(text);
   return 0;
 }

@@ -228,12 +228,12 @@ void Series::warn(const RenderJob& job, const RenderOutcome& outcome, const std:
   const std::string uneven = uneven_text(job.loaded.scene, sum);
   if (!uneven.empty()) tell(uneven);
   if (sum.rejected == 0) return;
-  std::string text = std::to_string(sum.rejected) + " of " + std::to_string(sum.samples) +
-                     " samples were rejected: not finite, or brighter than any light of the scene explains";
+  std::string places;
   for (const RejectedSample& r : result.first_rejected)
-    text += (&r == result.first_rejected.data() ? "; the first are (pixel and index) " : " ") + std::to_string(r.x) +
-            "," + std::to_string(r.y) + "," + std::to_string(r.sample);
-  tell(text);
+    places +=
+        fmt::format("{}{},{},{}", places.empty() ? "; the first are (pixel and index) " : " ", r.x, r.y, r.sample);
+  tell(fmt::format("{} of {} samples were rejected: not finite, or brighter than any light of the scene explains{}",
+                   sum.rejected, sum.samples, places));
 }
 
 bool Series::make(RenderJob& job, const std::string& name, const PictureSteps& steps) {

@@ -46,7 +46,7 @@ std::string option_text(const OptionRow& option) {
   std::string text = ".TP\n";
   for (const std::string& name : names_of(option))
     text += (text.ends_with('\n') ? "\\fB" : ", \\fB") + escaped(name) + "\\fR";
-  if (option.unit.size() > 1) text += " \\fI" + escaped(option.unit) + "\\fR";
+  if (!option.unit.empty() && option.unit != " ") text += " \\fI" + escaped(option.unit) + "\\fR";
   return text + "\n" + escaped(option.help) + "\n";
 }
 

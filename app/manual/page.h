@@ -24,15 +24,15 @@ struct Taker {
 /// An option of commands, or without dashes in its names an argument.
 struct OptionRow {
   /// Where memory runs out within a list of rows, GCC 12 destroys members of an aggregate that were not made yet.
-  OptionRow(std::string n, std::string u, Taker t, std::string h, std::string_view c = "")
-      : names(std::move(n)), unit(std::move(u)), taker(std::move(t)), help(std::move(h)), commands(c) {}
+  OptionRow(std::string n, std::string u, Taker t, std::string h, std::string_view c = "", const char* below = "")
+      : names(std::move(n)), unit(std::move(u)), taker(std::move(t)), help(std::move(h)), commands(c), heading(below) {}
 
   std::string names;  ///< "-t,--threads", "SCENE"
   std::string unit;   ///< what the help calls the value; "": it takes none, " ": the name says it
   Taker taker;
   std::string help;           ///< lines, with \n between them
   std::string_view commands;  ///< those that it is an option of in this way; "": of all that name it
-  std::string heading{};      ///< that it stands below in a help; "": no help lists it
+  std::string heading;        ///< that it stands below in a help; "": no help lists it
 };
 
 /// One command. All texts are lines with \n between them.
