@@ -31,12 +31,13 @@ struct Animating {
 Animating open_film(const CommandRequest& command) {
   Animating film{command, open_scene(command.scene)};
   const std::optional<Animation>& animation = film.base.scene.animation;
-  if (!command.frames && !animation)
+  film.plan = command.film;
+  if (film.plan.frames == 0 && animation) film.plan.frames = animation->frames;
+  if (film.plan.frames == 0)
     refuse("--frames: found no number, and no \"animation\" in {}, expected the number of frames",
            printable(film.base.name));
-  if (!command.turntable && (!animation || animation->keyed.empty()))
+  if (!film.plan.turntable && (!animation || animation->keyed.empty()))
     complain(film.base.name + ": no value has keys, so that all frames show the same; --turntable moves the camera");
-  film.plan = {command.frames ? *command.frames : animation->frames, command.turntable, command.seed_per_frame};
   film.range = command.range.value_or(FrameRange{0, film.plan.frames});
   if (film.range.last > film.plan.frames)
     refuse("--frame-range: found frames up to {}, expected at most {}, the number of frames", film.range.last,

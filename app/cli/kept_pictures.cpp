@@ -35,8 +35,8 @@ std::string differing_film(const StoredFilm& stored, const RenderJob& job) {
   if (film.first_sample != options.first_sample)
     return fmt::format("samples from {}, expected {}", film.first_sample, options.first_sample);
   const std::uint32_t maximum = totals(film).max_taken;
-  if (job.command.samples && maximum > *options.spp)
-    return fmt::format("samples up to {}, expected {}", film.first_sample + maximum, job.command.samples->last);
+  if (job.command.sample_range && maximum > *options.spp)
+    return fmt::format("samples up to {}, expected {}", film.first_sample + maximum, job.command.sample_range->last);
   if (options.adaptive && film.planned.empty() && maximum > warm_up)
     return "an adaptive film that does not say how many samples each pixel was to get, expected one that does";
   return "";
@@ -114,7 +114,7 @@ void start_with(StoredFilm stored, const RenderJob& job, RenderStart& start) {
   else if (!command.resume)
     start.note = name + "goes on from the film's " + text_of_samples(taken);
   start.complete = taken == requested && !stored.label.unfinished && command.outputs.size() == 1 &&
-                   command.stats.empty() && !command.denoise && stored.scene.display == job.loaded.scene.display;
+                   command.stats.empty() && !command.clean && stored.scene.display == job.loaded.scene.display;
   start.film = std::move(stored.part.film);
 }
 
@@ -170,9 +170,9 @@ std::string differing_picture(const StoredFilm& stored, const Json& figures, con
   const bool counted = wanted < max_samples && command.target_error == 0 && !(command.time_limit < 1e300);
   if (counted && (job.options.adaptive ? found > wanted : found != wanted))
     return fmt::format("{} samples a pixel, expected {}", found, wanted);
-  if (figure(figures, "denoised", command.denoise) != command.denoise)
-    return command.denoise ? "an unfiltered picture, expected a filtered one"
-                           : "a filtered picture, expected one without --denoise";
+  if (figure(figures, "denoised", command.clean) != command.clean)
+    return command.clean ? "an unfiltered picture, expected a filtered one"
+                         : "a filtered picture, expected one without --denoise";
   if (shown && !(stored.scene.display == job.loaded.scene.display))
     return "a picture of another exposure or tone map, expected those of this command";
   return "";
@@ -274,7 +274,7 @@ std::string picture_mark(const RenderJob& job) {
   scene.render.spp.reset();
   return hash_text(
       fnv1a(fmt::format("{} {} {} {} {} {} {} {} ", TYNDALL_VERSION, job.kernels.isa, *job.options.spp, c.time_limit,
-                        c.target_error, region_text(*job.options.region), c.denoise, static_cast<int>(c.form.ppm)) +
+                        c.target_error, region_text(*job.options.region), c.clean, static_cast<int>(c.form.ppm)) +
             write_scene(scene) + contents_hash(scene)));
 }
 

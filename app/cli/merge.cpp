@@ -68,7 +68,7 @@ int make_one(const CommandRequest& command, const std::vector<std::filesystem::p
   check_outputs(outputs, files);
   check_can_write(outputs);
   const Parts parts = read_parts(files, are_added);
-  const bool is_filtered = command.denoise || !are_added;
+  const bool is_filtered = command.clean || !are_added;
   check_memory({.width = parts.frames.front().film.region.width(),
                 .height = parts.frames.front().film.region.height(),
                 .place = parts.frames.front().name,

@@ -102,8 +102,7 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
   const auto positive = number(at_least(0), "a number >= 0"), above_zero = number(above(0), "a number > 0"),
              seconds = number(above(0), "a number of seconds > 0");
   const Taker operands = add_to(&R::operands), outputs = add_to(&R::outputs), stats = to(&R::stats),
-              fresh = on(&R::fresh), denoise = on(&R::denoise),
-              size = to(in(&R::scene, &SceneRequest::size), read_size),
+              fresh = on(&R::fresh), denoise = on(&R::clean), size = to(in(&R::scene, &SceneRequest::size), read_size),
               threads = to(&R::threads, whole(1, max_threads)),
               gamma2 = on(in(&R::form, &ImageForm::ppm), PpmCurve::gamma2),
               target_error = to(&R::target_error, above_zero);
@@ -211,7 +210,7 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
        "view"},
       {"--target-error", "E", to(&R::target_error, above_zero),
        "estimated relative error, with --denoise that of the filtered picture; its square estimates relMSE"},
-      {"--samples", "A:B", to(&R::samples, read_samples),
+      {"--samples", "A:B", to(&R::sample_range, read_samples),
        "exactly the samples A <= i < B of each pixel, for shards that 'tyndall merge' adds; not with --spp, --time or "
        "--target-error"},
       {"--total-time", "SECONDS", to(&R::total_time, seconds), "wall time of rendering all pictures"},
@@ -219,11 +218,13 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
        "the value to vary, as --set names it, and in what steps:\n"
        "FROM:TO:STEPS, both ends included; a list such as [0,0.1,0.5];\n"
        "or names such as gold,glass; required, at most twice"},
-      {"--frames", "N", to(&R::frames, whole(1, max_frames)), "how many [from the scene's animation]"},
+      {"--frames", "N", to(in(&R::film, &FramePlan::frames), whole(1, max_frames)),
+       "how many [from the scene's animation]"},
       {"--frame-range", "A:B", to(&R::range, read_frames),
        "the frames A <= n < B alone, for parts of a film on many machines"},
-      {"--turntable", "", on(&R::turntable), "the camera goes once around look_at, about vup; needs no keys"},
-      {"--seed-per-frame", "on|off", to(&R::seed_per_frame, one_of("off", "on"), {"on", "off"}),
+      {"--turntable", "", on(in(&R::film, &FramePlan::turntable)),
+       "the camera goes once around look_at, about vup; needs no keys"},
+      {"--seed-per-frame", "on|off", to(in(&R::film, &FramePlan::seed_per_frame), one_of("off", "on"), {"on", "off"}),
        "on: the seed of frame n is the scene's and n, so that noise does not\n"
        "stand still on the screen; off: all frames have the scene's seed [on]"},
       {"--fps", "N", Taker{read_rate}, "frames a second of a .y4m, such as 24 or 30000/1001 [24]"},

@@ -13,7 +13,7 @@ namespace {
 
 /// Samples a pixel at which to stop.
 std::uint32_t last_sample_count(const CommandRequest& command, const Scene& scene) {
-  if (command.samples) return command.samples->last - command.samples->first;
+  if (command.sample_range) return command.sample_range->last - command.sample_range->first;
   if (command.spp) return *command.spp;
   if (std::isfinite(command.time_limit) || command.target_error > 0) return max_samples;
   return static_cast<std::uint32_t>(scene.render.spp.value_or(64));
@@ -21,7 +21,7 @@ std::uint32_t last_sample_count(const CommandRequest& command, const Scene& scen
 
 /// Own samples are no function of seed and index, so that nothing can be gone on with or put together.
 void check_own_samples(const CommandRequest& command, const std::string& name) {
-  const std::pair<bool, const char*> refused[] = {{command.samples.has_value(), "--samples"},
+  const std::pair<bool, const char*> refused[] = {{command.sample_range.has_value(), "--samples"},
                                                   {command.resume, "--resume"},
                                                   {command.replay.has_value(), "--replay"},
                                                   {command.frame.has_value(), "--frame"},
@@ -79,14 +79,14 @@ LoadedScene open_frame(const CommandRequest& command, OwnSamples& own) {
   if (*command.frame >= frames)
     refuse("--frame: found {}, expected at most {}, the last frame of the scene's animation", *command.frame,
            frames - 1);
-  return at_frame(std::move(loaded), {.frames = frames, .seed_per_frame = command.seed_per_frame}, *command.frame);
+  return at_frame(std::move(loaded), {.frames = frames, .seed_per_frame = command.film.seed_per_frame}, *command.frame);
 }
 
 void set_up(RenderJob& job) {
   const CommandRequest& command = job.command;
   const Scene& scene = job.loaded.scene;
   job.kernels = kernels_to_render(command.isa);
-  if (scene.render.adaptive && command.samples)
+  if (scene.render.adaptive && command.sample_range)
     refuse(
         "--samples and adaptive sampling exclude each other: it says which samples every pixel takes (it comes from "
         "--adaptive, or from /render/adaptive of the scene)");
@@ -94,14 +94,11 @@ void set_up(RenderJob& job) {
     refuse("--region: found X1,Y1 = {},{}, expected at most {},{}, the image's size", region->x1, region->y1,
            scene.width, scene.height);
   RenderOptions& options = job.options;
-  options.isa = command.isa;
+  options = command;
   options.region = command.region.value_or(Region{0, 0, scene.width, scene.height});
-  options.first_sample = command.samples ? command.samples->first : 0;
+  options.first_sample = command.sample_range ? command.sample_range->first : 0;
   options.spp = last_sample_count(command, scene);
-  options.time_limit = command.time_limit;
-  options.target_error = command.target_error;
   options.adaptive = scene.render.adaptive;
-  options.clean = command.denoise;
 }
 
 void tell_remarks(const RenderJob& job) {

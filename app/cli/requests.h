@@ -5,6 +5,7 @@
 #include "app/files/viewer_stream.h"
 #include "app/text/progress.h"
 #include "app/text/values.h"
+#include "core/render/render.h"
 
 #include <fmt/core.h>
 
@@ -18,8 +19,9 @@
 /// What the user asked for, which only read_command() makes, and the commands that do it.
 namespace tyndall {
 
-/// All that options and arguments can say. Each command reads the part that its options fill.
-struct CommandRequest {
+/// All that options and arguments can say. Each command reads the part that its options fill. Of the options of a
+/// render first_sample, adaptive and what is not said by the user are found with the scene: see set_up().
+struct CommandRequest : RenderOptions {
   std::string command;                 ///< "render"
   std::vector<std::string> arguments;  ///< as the user typed them
   std::vector<std::string> operands;   ///< those of them that are neither options nor a scene
@@ -28,18 +30,12 @@ struct CommandRequest {
   // Pictures and how they are rendered.
   std::vector<std::filesystem::path> outputs;  ///< of sweep and animate: names with %v or %d in them
   ImageForm form;
-  std::optional<std::uint32_t> spp;
-  std::optional<SampleRange> samples;
-  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds; in the window the picture pauses there
-  double target_error = 0;                                      ///< 0: none
-  std::optional<Region> region;
+  std::optional<SampleRange> sample_range;
   std::optional<int> frame;          ///< of the scene's animation; absent: the scene without keys
   std::optional<SampleKey> replay;   ///< print this sample's path instead of rendering
-  int threads = 0;                   ///< 0: see thread_count()
-  std::string isa;                   ///< "": the best
   std::filesystem::path stats;       ///< empty: none
   std::optional<double> checkpoint;  ///< seconds, 0: never; absent: see checkpoint.h
-  bool fresh = false, resume = false, denoise = false;
+  bool fresh = false, resume = false;
   ProgressStyle progress = ProgressStyle::automatic;
   std::optional<ViewerAddress> viewer;  ///< that is shown the picture
 
@@ -53,11 +49,10 @@ struct CommandRequest {
   double total_time = std::numeric_limits<double>::infinity();  ///< seconds for all pictures
 
   // Of animate.
-  std::filesystem::path video;                    ///< .y4m, "-": standard output; empty: none
-  std::optional<int> frames;                      ///< absent: as many as the scene says
-  std::optional<FrameRange> range;                ///< absent: all
-  bool turntable = false, seed_per_frame = true;  ///< see FramePlan
-  int rate = 24, rate_divisor = 1;                ///< frames of the video per rate_divisor seconds
+  std::filesystem::path video;      ///< .y4m, "-": standard output; empty: none
+  FramePlan film{.frames = 0};      ///< 0: as many as the scene says
+  std::optional<FrameRange> range;  ///< absent: all
+  int rate = 24, rate_divisor = 1;  ///< frames of the video per rate_divisor seconds
 
   // Of compare.
   std::filesystem::path image;          ///< without a baseline; likewise reference, also a scene

@@ -163,7 +163,7 @@ void prepare(RenderJob& job) {
                 .height = job.options.region->height(),
                 .place = job.loaded.name + ": /image",
                 .emission = has_lights(job.loaded.scene),
-                .clean = command.denoise,
+                .clean = command.clean,
                 .checkpoints = command.checkpoint > 0,
                 .files = command.outputs,
                 .form = command.form},

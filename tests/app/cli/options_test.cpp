@@ -106,11 +106,11 @@ TEST_CASE("render: every option arrives, and what is not given stays open") {
   CHECK(c.checkpoint == 90.0);
   CHECK(c.threads == 3);
   CHECK(c.progress == ProgressStyle::plain);
-  CHECK(request("render box -o a.png --samples 4:8").samples->first == 4);
+  CHECK(request("render box -o a.png --samples 4:8").sample_range->first == 4);
   CHECK(request("render box -o a.png --fresh").fresh);
   CHECK(request("render box -o a.png -q").progress == ProgressStyle::none);
   const CommandRequest open = request("render box -o a.png");
-  CHECK_FALSE((open.spp || open.samples || open.scene.size || open.checkpoint || open.resume));
+  CHECK_FALSE((open.spp || open.sample_range || open.scene.size || open.checkpoint || open.resume));
   CHECK(open.scene.render.given.empty());
   CHECK(open.threads == 0);
   CHECK(open.progress == ProgressStyle::automatic);
