@@ -1,5 +1,4 @@
 #include "app/cli/option_rows.h"
-#include "app/cli/setting_options.h"
 
 #include <algorithm>
 #include <sstream>

@@ -107,8 +107,8 @@ void start_with(StoredFilm stored, const RenderJob& job, RenderStart& start) {
   const std::uint32_t maximum = job.options.adaptive ? taken : totals(stored.part.film).max_taken;
   const std::string range = (maximum > taken ? std::to_string(taken) + " to " : "") + text_of_samples(maximum);
   if (maximum > requested)
-    start.note = name + "the film has " + range + " already, more than the " + std::to_string(requested) +
-                 " asked for; " + (taken < requested ? "all pixels get as many" : "it is written as it is");
+    start.note = fmt::format("{}the film has {} already, more than the {} asked for; {}", name, range, requested,
+                             taken < requested ? "all pixels get as many" : "it is written as it is");
   else if (taken == requested)
     start.note = stored.part.name + ": already complete: " + text_of_samples(taken);
   else if (!command.resume)
@@ -126,7 +126,7 @@ std::optional<StoredFilm> find_film(const std::filesystem::path& file, const Ren
   if (resume && !exists)
     refuse("--resume: found no file {}, expected a film to go on from; without --resume the render starts anew",
            in_quotes(file.string()));
-  const std::string advice = std::string("; --fresh") + (resume ? " in place of --resume" : "") + " starts over";
+  const std::string advice = resume ? "; --fresh in place of --resume starts over" : "; --fresh starts over";
   if (!exists || (!resume && !invites(file, job, advice))) return {};
   StoredFilm stored = read_kept([&file] { return read_stored_film(file); }, advice);
   const std::string found = differing_film(stored, job);

@@ -1,5 +1,4 @@
 #include "app/cli/option_rows.h"
-#include "app/cli/setting_options.h"
 #include "core/base/target.h"
 #include "core/base/thread_pool.h"
 
@@ -67,12 +66,6 @@ void read_rate(R& request, Text t) {
 }
 
 void read_view_spp(R& request, Text t) { set(request.scene.render, &RenderSettings::spp, whole(1, max_samples)(t)); }
-
-ProgressStyle read_progress(Text t) {
-  ProgressStyle style{};
-  read_option(t, {}, style);
-  return style;
-}
 
 fs::path read_scene_output(Text t) {
   const std::string ending = lower_case(fs::path(t).extension().string());
@@ -168,7 +161,9 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
       {"--stats", "FILE.json", stats, "write the filtered picture's estimated error, its hash and the time", "denoise"},
       {"--stats", "NAME", stats, "figures of each frame: 'f/%04d.json'", "animate"},
       {"--stats", "FILE.json", stats, "write figures of the run"},
-      {"--progress", progress.unit, to(&R::progress, read_progress, progress.choices),
+      {"--progress", progress.unit,
+       to(
+           &R::progress, [](Text t) { return read_option<ProgressStyle>(t); }, progress.choices),
        "on standard error" + progress.choices_text + " [auto]"},
       {"-q,--quiet", "", on(&R::progress, ProgressStyle::none), "no progress"},
       {"--json", "", on(&R::json), "print JSON"},

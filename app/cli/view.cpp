@@ -29,11 +29,8 @@ std::string shell_argument(const std::string& argument) {
   if (all_printable(argument) == argument) return in_shell(argument);
   std::string quoted;
   for (const char c : argument) {  // what a line cannot show, bash reads from numbers: $'two\x0alines'
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte >= 0x7f || c == '\'' || c == '\\')
-      quoted += fmt::format("\\x{:02x}", byte);
-    else
-      quoted += c;
+    const bool is_plain = c >= 0x20 && c < 0x7f && c != '\'' && c != '\\';
+    quoted += is_plain ? std::string(1, c) : fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
   }
   return "$'" + quoted + "'";
 }
