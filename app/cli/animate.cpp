@@ -139,11 +139,12 @@ bool make_frame(Animating& film, int frame, const PictureTask& task, Series& ser
 
 std::string summary(const Animating& film, const Series& series, std::size_t kept) {
   const std::size_t made = series.made();
-  std::string names = film.video ? printable(film.command.video.string()) : "";
+  std::vector<std::string> names;
+  if (film.video) names.push_back(printable(film.command.video.string()));
   for (const FrameFiles& files : film.files)
-    names += (names.empty() ? "" : ", ") + printable(name_for(files.pattern, film.range.first)) + " to " +
-             printable(name_for(files.pattern, film.range.last - 1));
-  return fmt::format("{}: {} frame{}{}, {}", names, made, made == 1 ? "" : "s",
+    names.push_back(printable(name_for(files.pattern, film.range.first)) + " to " +
+                    printable(name_for(files.pattern, film.range.last - 1)));
+  return fmt::format("{}: {} frame{}{}, {}", joined(names), made, made == 1 ? "" : "s",
                      kept > 0 ? fmt::format(" rendered, {} kept", kept) : "", duration(series.seconds()));
 }
 

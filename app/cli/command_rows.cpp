@@ -43,19 +43,19 @@ struct CommandText {
   int (*run)(const CommandRequest&);
 };
 
+std::string first_word(const std::string& text) { return text.substr(0, text.find(' ')); }
+
 std::vector<CommandRow> rows_of(const std::vector<CommandText>& texts) {
   std::vector<CommandRow> rows;
   for (const auto& [usage, summary, about, examples, groups, run] : texts) {
-    const std::string words = usage;
-    CommandRow& row =
-        rows.emplace_back(CommandRow{words.substr(0, words.find(' ')), summary, words, about, examples, {}, {}, run});
+    CommandRow& row = rows.emplace_back(CommandRow{first_word(usage), summary, usage, about, examples, {}, {}, run});
     row.options.emplace_back("-h,--help", "", Taker{{}, Takes::flag}, "show this text", "", usual_heading);
     for (const OptionGroup& group : groups) {
       std::istringstream names(group.options);
       for (std::string name; names >> name;)
         for (OptionRow& option : rows_of(name, row.name)) {
-          const bool is_broken = option.help.find('\n') != option.help.npos;
-          if (option.help.size() > longest_line && !is_broken) option.help = wrapped(option.help, help_width);
+          const bool has_lines = option.help.find('\n') != option.help.npos;
+          if (option.help.size() > longest_line && !has_lines) option.help = wrapped(option.help, help_width);
           option.heading = group.heading;
           (option.names[0] == '-' ? row.options : row.arguments).push_back(option);
         }

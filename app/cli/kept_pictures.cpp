@@ -100,22 +100,22 @@ void spare_unfinished(const std::vector<std::filesystem::path>& outputs, const s
   }
 }
 
-void start_with(StoredFilm stored, const RenderJob& job, RenderStart& start) {
+void start_with(StoredFilm stored, RenderJob& job) {
   const CommandRequest& command = job.command;
   const std::uint32_t taken = labelled_spp(stored.part.film), requested = *job.options.spp;
   const std::string name = (command.resume ? "--resume" : stored.part.name) + ": ";
   const std::uint32_t maximum = job.options.adaptive ? taken : totals(stored.part.film).max_taken;
   const std::string range = (maximum > taken ? std::to_string(taken) + " to " : "") + text_of_samples(maximum);
   if (maximum > requested)
-    start.note = fmt::format("{}the film has {} already, more than the {} asked for; {}", name, range, requested,
-                             taken < requested ? "all pixels get as many" : "it is written as it is");
+    job.note = fmt::format("{}the film has {} already, more than the {} asked for; {}", name, range, requested,
+                           taken < requested ? "all pixels get as many" : "it is written as it is");
   else if (taken == requested)
-    start.note = stored.part.name + ": already complete: " + text_of_samples(taken);
+    job.note = stored.part.name + ": already complete: " + text_of_samples(taken);
   else if (!command.resume)
-    start.note = name + "goes on from the film's " + text_of_samples(taken);
-  start.complete = taken == requested && !stored.label.unfinished && command.outputs.size() == 1 &&
-                   command.stats.empty() && !command.clean && stored.scene.display == job.loaded.scene.display;
-  start.film = std::move(stored.part.film);
+    job.note = name + "goes on from the film's " + text_of_samples(taken);
+  job.complete = taken == requested && !stored.label.unfinished && command.outputs.size() == 1 &&
+                 command.stats.empty() && !command.clean && stored.scene.display == job.loaded.scene.display;
+  job.begin = std::move(stored.part.film);
 }
 
 /// The film in `file`, if it is to be gone on with.
@@ -194,21 +194,18 @@ PictureState look(const std::filesystem::path& file, const RenderJob& job) {
 
 }  // namespace
 
-RenderStart find_start(const RenderJob& job) {
+void find_start(RenderJob& job) {
   const CommandRequest& command = job.command;
-  RenderStart start;
-  start.place = film_place(command.outputs, command.form);
-  const FilmPlace& place = start.place;
+  const FilmPlace& place = job.place = film_place(command.outputs, command.form);
   if (command.resume && place.output.empty()) refuse("--resume needs an output that ends in .exr, and --exr-film yes");
-  if (command.fresh) return start;
+  if (command.fresh) return;
   std::error_code error;
   const bool apart = !place.beside().empty() && std::filesystem::exists(place.beside(), error);
   const std::filesystem::path& file = apart ? place.unfinished : place.output;
   std::optional<StoredFilm> stored;
   if (!file.empty()) stored = find_film(file, job);
   spare_unfinished(command.outputs, place.output, stored ? &*stored : nullptr);
-  if (stored) start_with(std::move(*stored), job, start);
-  return start;
+  if (stored) start_with(std::move(*stored), job);
 }
 
 PictureTask task_of(const RenderJob& job, const std::function<PictureState(const std::filesystem::path& file)>& look) {

@@ -15,7 +15,7 @@ namespace tyndall {
 /// UsageError where --resume finds no film that fits, and for an unfinished one that does not fit: it says what
 /// differs; likewise for unfinished ones in further outputs. Any other file is replaced in the end. Here and below the
 /// job has been set up.
-RenderStart find_start(const RenderJob& job);
+void find_start(RenderJob& job);
 
 enum class PictureState { nothing, unfinished, whole };
 

@@ -99,7 +99,6 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
               threads = to(&R::threads, whole(1, max_threads)),
               gamma2 = on(in(&R::form, &ImageForm::ppm), PpmCurve::gamma2),
               target_error = to(&R::target_error, above_zero);
-  const ValueWords progress = words_of<ProgressStyle>();
   return {
       {"SCENE", " ", operands, of_files + std::string(" [showroom]"), "view"},
       {"SCENE", " ", operands, of_files},
@@ -161,10 +160,10 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
       {"--stats", "FILE.json", stats, "write the filtered picture's estimated error, its hash and the time", "denoise"},
       {"--stats", "NAME", stats, "figures of each frame: 'f/%04d.json'", "animate"},
       {"--stats", "FILE.json", stats, "write figures of the run"},
-      {"--progress", progress.unit,
-       to(
-           &R::progress, [](Text t) { return read_option<ProgressStyle>(t); }, progress.choices),
-       "on standard error" + progress.choices_text + " [auto]"},
+      described<ProgressStyle>(
+          {"--progress", "", to(&R::progress, [](Text t) { return read_option<ProgressStyle>(t, {}); }),
+           "on standard error"},
+          {}, "auto"),
       {"-q,--quiet", "", on(&R::progress, ProgressStyle::none), "no progress"},
       {"--json", "", on(&R::json), "print JSON"},
       {"--region", "X0,Y0,X1,Y1", to(&R::region, read_region),

@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-/// The options of all commands, and the commands, a row each; and how the words after a command are read by them.
+/// The options of all commands, and the commands, a row each; and how a command line is read by them.
 namespace tyndall {
 
 /// The row of an option, or of an argument such as "SCENE", of that command. There is one.
@@ -24,7 +24,7 @@ const CommandRow& method_row();
 /// " (see tyndall render --help)".
 std::string see_help(std::string_view command);
 
-/// Reads the words after a command. Returns the help if that is asked for. Throws UsageError, a line.
+/// Reads what follows a command. Returns the help if that is asked for. Throws UsageError, a line.
 std::optional<std::string> parse(const CommandRow& command, std::vector<std::string> arguments,
                                  CommandRequest& request);
 
@@ -36,7 +36,7 @@ inline constexpr std::size_t help_width = 66;
 
 /// A value from the text of an option. Throws UsageError.
 template <class T>
-T read_option(const std::string& text, Meaning meaning = {}) {
+T read_option(const std::string& text, Meaning meaning) {
   if constexpr (NamedEnum<T>) {
     const std::vector<std::string_view> names = names_of<T>();
     return static_cast<T>(read_name(text, {names.begin(), names.end()}));
@@ -52,28 +52,24 @@ T read_option(const std::string& text, Meaning meaning = {}) {
   }
 }
 
-/// What the help of an option says of its value: what it is called, what can be chosen, and the same with helps, such
-/// as ": random (independent numbers); sobol (...)".
-struct ValueWords {
-  std::string unit = "N";
-  std::vector<std::string> choices{};
-  std::string choices_text{};
-};
+/// The row with what its value is called, and what can be chosen, for a value of type T. usual: what it is where the
+/// option is not given.
 template <class T>
-ValueWords words_of(const Meaning& meaning = {}) {
-  if constexpr (std::is_same_v<T, bool>) return {"on|off", {"on", "off"}};
-  if constexpr (std::is_same_v<T, double>) return {*meaning.unit ? meaning.unit : "X"};
-  ValueWords words;
+OptionRow described(OptionRow row, const Meaning& meaning, const std::string& usual) {
+  row.unit = "N";
+  if constexpr (std::is_same_v<T, bool>) row.unit = "on|off", row.taker.choices = {"on", "off"};
+  if constexpr (std::is_same_v<T, double>) row.unit = *meaning.unit ? meaning.unit : "X";
   if constexpr (NamedEnum<T>) {
-    words.unit = "NAME";
+    row.unit = "NAME";
     for (int i = 0; i < count_of<T>(); ++i) {
       const Label choice = label(static_cast<T>(i));
-      words.choices.emplace_back(choice.name);
-      words.choices_text += std::string(i == 0 ? ": " : "; ") + choice.name;
-      if (*choice.help) words.choices_text += std::string(" (") + choice.help + ")";
+      row.taker.choices.emplace_back(choice.name);
+      row.help += std::string(i == 0 ? ": " : "; ") + choice.name;
+      if (*choice.help) row.help += std::string(" (") + choice.help + ")";
     }
   }
-  return words;
+  row.help = wrapped(row.help + " [" + usual + "]", help_width);
+  return row;
 }
 
 /// Rows for all fields of a part of SceneRequest but those that may be absent. A switch that is off by default needs no
@@ -84,17 +80,14 @@ std::vector<OptionRow> setting_rows(Changes<Settings> SceneRequest::*changes) {
   for_each_field(fields_of<Settings>(), [&]<class T>(const Field<Settings, T>& field) {
     if constexpr (std::is_arithmetic_v<T> || NamedEnum<T>) {
       const T usual = Settings().*field.value;
-      ValueWords words = words_of<T>(meaning_of(field));
-      const bool is_flag = std::is_same_v<T, bool> && usual == T();
-      if (is_flag) words = {"", {}, ""};
-      std::string name = std::string("--") + field.name;
-      std::replace(name.begin(), name.end(), '_', '-');
       const auto take = [=](CommandRequest& request, const std::string& text) {
         set(request.scene.*changes, field.value, read_option<T>(text, meaning_of(field)));
       };
-      rows.emplace_back(
-          name, words.unit, Taker{take, is_flag ? Takes::flag : Takes::once, words.choices},
-          wrapped(field.help + words.choices_text + " [from the scene, else " + setting_text(usual) + "]", help_width));
+      std::string name = std::string("--") + field.name;
+      std::replace(name.begin(), name.end(), '_', '-');
+      rows.push_back(described<T>({name, "", Taker{take}, field.help}, meaning_of(field),
+                                  "from the scene, else " + setting_text(usual)));
+      if (std::is_same_v<T, bool> && usual == T()) rows.back().unit = "", rows.back().taker = {take, Takes::flag};
     }
   });
   return rows;

@@ -31,14 +31,6 @@ Kernels kernels_to_render(const std::string& isa);
 /// The scene of a command, with --frame the one of that frame.
 LoadedScene open_frame(const CommandRequest& command, OwnSamples& own);
 
-/// Where a render begins: anew, or with the film that its .exr output holds already.
-struct RenderStart {
-  Film film;              ///< to go on from; empty: the render starts anew
-  bool complete = false;  ///< it has all samples that are asked for, and its file what would be written into it
-  std::string note;       ///< what to tell the user; "": nothing
-  FilmPlace place;        ///< where the film is kept
-};
-
 /// One headless render from command to files. `render` makes one; `sweep` and `animate` make one for each picture.
 struct RenderJob {
   CommandRequest command;
@@ -50,7 +42,10 @@ struct RenderJob {
   ThreadCount threads = thread_count(command.threads);
   RenderOptions options{};
   Kernels kernels{};
-  RenderStart begin{};
+  FilmPlace place{};      ///< where the film is kept
+  Film begin{};           ///< the film to go on from; empty: the render starts anew
+  bool complete = false;  ///< it has all samples that are asked for, and its file what would be written into it
+  std::string note{};     ///< what to tell of it; "": nothing
   std::shared_ptr<const PreparedScene> prepared{};
   std::uint64_t samples_before = 0;
   double seconds_build = 0;
@@ -108,7 +103,6 @@ void prepare(RenderJob& job);
 struct RenderOutcome {
   const RenderResult& result;
   FinishedPicture picture;
-  bool unfinished = false;  ///< more samples are to come
 };
 
 /// What a command does with a whole picture: before its files are written, and when they are, or could not be. Both may

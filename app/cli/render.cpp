@@ -114,7 +114,7 @@ void set_up(RenderJob& job) {
 }
 
 void tell_remarks(const RenderJob& job) {
-  const FilmPlace& film = job.begin.place;
+  const FilmPlace& film = job.place;
   for (const auto& file : job.command.outputs) {
     const FilePlace place = check_can_write(file);
     const bool keeps = file == film.output && job.command.checkpoint != 0;
@@ -141,8 +141,8 @@ int run_render(const CommandRequest& command) {
   RenderJob job{command};
   job.loaded = open_frame(command, job.own);
   prepare(job);
-  if (!job.begin.note.empty()) complain(job.begin.note);
-  if (job.begin.complete) return 0;
+  if (!job.note.empty()) complain(job.note);
+  if (job.complete) return 0;
   Series series(command.progress, 1);
   if (!series.make(job)) return output_failed;
   return series.made() == 1 ? 0 : 128 + series.signal();

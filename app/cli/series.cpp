@@ -36,15 +36,15 @@ Embedded embedded_in(const RenderJob& job, const Film& film, const std::filesyst
 /// Writes all that can be written; false if something could not. at_end: also what goes to standard output or pipes.
 bool write(const RenderJob& job, const RenderOutcome& outcome, bool at_end = true) {
   const Film& film = outcome.result.film;
+  const bool unfinished = outcome.result.interrupted || !at_end;
   const auto embedded = [&](const std::filesystem::path& file) {
-    return embedded_in(job, film, file, embedded_stats_text(figures(job, outcome)), outcome.unfinished);
+    return embedded_in(job, film, file, embedded_stats_text(figures(job, outcome)), unfinished);
   };
   const auto layers = [&] { return layers_of(*job.prepared, film, outcome.result.kernels); };
   const CleanPicture* clean = outcome.result.clean ? &*outcome.result.clean : nullptr;
   std::vector<std::filesystem::path> files = job.command.outputs;
   if (!at_end) std::erase_if(files, is_stream);
-  if (job.whole_only && outcome.unfinished)
-    std::erase_if(files, [&](const auto& file) { return file != job.begin.place.output; });
+  if (job.whole_only && unfinished) std::erase_if(files, [&](const auto& file) { return file != job.place.output; });
   auto problems = write_images(
       {film, outcome.picture.image, job.loaded.scene.display, embedded, layers, clean, job.command.form}, files);
   const std::filesystem::path& stats = job.command.stats;
@@ -55,7 +55,7 @@ bool write(const RenderJob& job, const RenderOutcome& outcome, bool at_end = tru
   }
   for (const std::string& problem : problems) complain(problem);
   std::error_code ignored;  // what the file beside the output holds is in the output now
-  const std::filesystem::path apart = job.begin.place.beside();
+  const std::filesystem::path apart = job.place.beside();
   if (at_end && problems.empty() && !apart.empty()) std::filesystem::remove(apart, ignored);
   return problems.empty();
 }
@@ -64,7 +64,7 @@ bool write(const RenderJob& job, const RenderOutcome& outcome, bool at_end = tru
 void write_so_far(const RenderJob& job, const RenderResult& result) {
   try {
     if (totals(result.film).max_taken == 0) return;
-    const RenderOutcome outcome{result, finished_picture(*job.prepared, result), true};
+    const RenderOutcome outcome{result, finished_picture(*job.prepared, result)};
     const std::string uneven = uneven_text(job.loaded.scene, outcome.picture.totals);
     if (!uneven.empty()) complain(uneven);
     write(job, outcome, false);
@@ -87,7 +87,7 @@ RenderBreaks breaks_of(const RenderJob& job, const SignalWatch& signals, Progres
     write_so_far(job, result);
   };
   const bool wanted = job.command.checkpoint != 0, kept = wanted && !checkpoints.file().empty();
-  const bool told = !wanted || !job.begin.place.output.empty() || job.whole_only;
+  const bool told = !wanted || !job.place.output.empty() || job.whole_only;
   breaks.film_due = [&checkpoints, &report, view, kept, said = told]() mutable {
     if (const auto problem = checkpoints.problem()) report.say(*problem);
     if (const auto problem = view ? view->problem() : std::nullopt) report.say(viewer_text(*problem));
@@ -116,14 +116,6 @@ void show_last(LiveView& view, const RenderResult& result) {
   }
 }
 
-/// What the picture lacks, if it lacks anything.
-std::string losses(const FilmTotals& sum) {
-  std::string text;
-  if (sum.rejected > 0) text += ", " + std::to_string(sum.rejected) + " samples rejected";
-  if (sum.truncated == 0) return text;
-  return text + fmt::format(", {:.2g} % of the throughput cut at the longest path", 100 * sum.cut_throughput);
-}
-
 std::string summary(const RenderOutcome& outcome, const std::vector<std::filesystem::path>& outputs) {
   const RenderResult& r = outcome.result;
   const RenderProgress end{outcome.picture.spp, r.seconds,
@@ -131,11 +123,15 @@ std::string summary(const RenderOutcome& outcome, const std::vector<std::filesys
                            outcome.picture.estimate.relative_error};
   const std::string clean =
       r.clean ? fmt::format(", filtered to {:.2g} in {:.2g} s", r.clean->relative_error, r.seconds_clean) : "";
-  std::string files;
+  std::vector<std::string> files;
   for (const auto& file : outputs)
-    if (file != "-") files += (files.empty() ? "" : ", ") + printable(file.string());
-  return (r.interrupted ? "interrupted: " : "done: ") + files + (files.empty() ? "" : ": ") + progress_text(end, {}) +
-         clean + losses(outcome.picture.totals);
+    if (file != "-") files.push_back(printable(file.string()));
+  const FilmTotals& sum = outcome.picture.totals;
+  std::string lacks = sum.rejected > 0 ? fmt::format(", {} samples rejected", sum.rejected) : "";
+  if (sum.truncated > 0)
+    lacks += fmt::format(", {:.2g} % of the throughput cut at the longest path", 100 * sum.cut_throughput);
+  return (r.interrupted ? "interrupted: " : "done: ") + joined(files) + (files.empty() ? "" : ": ") +
+         progress_text(end, {}) + clean + lacks;
 }
 
 }  // namespace
@@ -168,10 +164,10 @@ void prepare(RenderJob& job) {
                 .files = command.outputs,
                 .form = command.form},
                free_memory());
-  if (!job.loaded.is_picture) job.begin = find_start(job);  // of a picture there is no film to go on with
+  if (!job.loaded.is_picture) find_start(job);  // of a picture there is no film to go on with
   if (job.film.empty()) return;
-  job.begin.film = read_film_alone(job.film);  // to which nothing is added
-  job.options.spp = labelled_spp(job.begin.film);
+  job.begin = read_film_alone(job.film);  // to which nothing is added
+  job.options.spp = labelled_spp(job.begin);
   job.options.time_limit = std::numeric_limits<double>::infinity();
   job.options.target_error = 0;
 }
@@ -179,18 +175,18 @@ void prepare(RenderJob& job) {
 /// Renders, with checkpoints.
 RenderResult Series::render(RenderJob& job, const std::string& name, LiveView* view) {
   const std::uint32_t spp = *job.options.spp;
-  const ProgressGoal goal{totals(job.begin.film).min_taken, spp < max_samples ? spp : 0, job.command.time_limit,
+  const ProgressGoal goal{totals(job.begin).min_taken, spp < max_samples ? spp : 0, job.command.time_limit,
                           job.command.target_error};
   const auto show = [&](const RenderProgress& now) {
     if (name.empty()) return report_.show(now.seconds, progress_fraction(now, goal), progress_text(now, goal));
     const double done = (static_cast<double>(made_) + progress_fraction(now, goal)) / static_cast<double>(count_);
     const double seconds = seconds_ + now.seconds;
-    std::string text = fmt::format("{} ({}/{}), {}", name, made_ + 1, count_, now.spp) +
-                       (goal.spp > 0 ? "/" + std::to_string(goal.spp) : "") + " spp";
+    std::string text = fmt::format("{} ({}/{}), {}{} spp", name, made_ + 1, count_, now.spp,
+                                   goal.spp > 0 ? fmt::format("/{}", goal.spp) : "");
     if (done > 0) text += ", " + duration(seconds * (1 - done) / done) + " left";
     report_.show(seconds, done, text);
   };
-  const std::filesystem::path& kept = job.begin.place.unfinished;
+  const std::filesystem::path& kept = job.place.unfinished;
   Checkpoints checkpoints(kept, job.command.checkpoint,
                           [&job, &kept](const Film& film) { return embedded_in(job, film, kept, "", true); });
   job.options.breaks = breaks_of(job, signals_, report_, checkpoints, view);
@@ -199,7 +195,7 @@ RenderResult Series::render(RenderJob& job, const std::string& name, LiveView* v
     return signals_.received() == 0;
   };
   try {
-    RenderResult result = tyndall::render(*job.prepared, job.options, go_on, std::move(job.begin.film));
+    RenderResult result = tyndall::render(*job.prepared, job.options, go_on, std::move(job.begin));
     checkpoints.finish();
     if (const auto problem = checkpoints.problem()) report_.say(*problem);  // of one that failed just before the end
     return result;
@@ -241,13 +237,13 @@ bool Series::make(RenderJob& job, const std::string& name, const PictureSteps& s
   const auto start = std::chrono::steady_clock::now();
   job.prepared = tyndall::prepare(job.loaded.scene);
   job.seconds_build = seconds_since(start);
-  job.samples_before = totals(job.begin.film).samples;
+  job.samples_before = totals(job.begin).samples;
   std::optional<LiveView> view;
   if (job.command.viewer) view.emplace(job);
   const RenderResult result = render(job, name, view ? &*view : nullptr);
   seconds_ += result.seconds;
   if (!result.interrupted) ++made_;
-  const RenderOutcome outcome{result, finished_picture(*job.prepared, result), result.interrupted};
+  const RenderOutcome outcome{result, finished_picture(*job.prepared, result)};
   if (name.empty()) report_.finish(summary(outcome, job.command.outputs));
   if (outcome.picture.totals.max_taken == 0) {
     if (name.empty()) complain("interrupted before the first samples: nothing written");

@@ -61,14 +61,14 @@ std::vector<SweepStep> steps_of(const CommandRequest& command) {
 /// The scene of a step. Throws SceneError, which names it.
 LoadedScene scene_of(const Sweeping& sweep, const SweepStep& step) {
   std::vector<Override> overrides;
-  std::string settings;
+  std::vector<std::string> settings;
   for (std::size_t k = 0; k < step.values.size(); ++k) {
     overrides.push_back({sweep.command.axes[k].pointer, step.values[k]});
-    settings += (k > 0 ? ", " : "") + overrides[k].pointer + "=" + step.values[k];
+    settings.push_back(overrides[k].pointer + "=" + step.values[k]);
   }
-  const auto number = std::to_string(&step - sweep.steps.data() + 1);
+  const auto number = &step - sweep.steps.data() + 1;
   return open_variant(sweep.base, sweep.command.scene, overrides,
-                      sweep.base.name + ": step " + number + " (" + settings + ")");
+                      fmt::format("{}: step {} ({})", sweep.base.name, number, joined(settings)));
 }
 
 /// A job whose picture can be compared with what is there already.
@@ -84,7 +84,7 @@ RenderJob job_of(const Sweeping& sweep, const SweepStep& step, double time_limit
   return job;
 }
 
-void check_axes(const CommandRequest& command) {
+void check_options(const CommandRequest& command) {
   for (const SweepAxis& axis : command.axes) {
     const auto steps = pointer_steps(axis.pointer);
     if (steps && steps->front() == "image")
@@ -92,6 +92,9 @@ void check_axes(const CommandRequest& command) {
   }
   if (command.axes.size() > 1 && command.axes[0].pointer == command.axes[1].pointer)
     refuse("--vary: found {} twice, expected two values", in_quotes(command.axes[0].pointer));
+  const std::string ending = image_ending(command.sheet, {});
+  if (!command.sheet.empty() && ending != ".png" && ending != ".ppm")
+    refuse("--output: found {}, expected a name that ends in .png or .ppm", in_quotes(command.sheet.string()));
 }
 
 /// Finds everything that can be wrong before the first sample.
@@ -186,12 +189,11 @@ ScreenPicture sheet_of(const Sweeping& sweep) {
       picture.detail = percent(step.difference.mean / mean, step.difference.mean_error / std::abs(mean));
     pictures.push_back(std::move(picture));
   }
-  std::string pointers = axes[0].pointer;
-  if (axes.size() > 1) pointers += " and " + axes[1].pointer;
-  return contact_sheet(pictures, sweep.columns, printable(sweep.base.name) + ": " + printable(pointers),
-                       fmt::format("beneath each value: the mean's change, and its standard error; {} samples a pixel, "
-                                   "one seed for all",
-                                   sweep.middle_step().spp));
+  const std::string pointers = axes[0].pointer + (axes.size() > 1 ? " and " + axes[1].pointer : "");
+  const std::string legend =
+      fmt::format("beneath each value: the mean's change, and its standard error; {} samples a pixel, one seed for all",
+                  sweep.middle_step().spp);
+  return contact_sheet(pictures, sweep.columns, printable(sweep.base.name) + ": " + printable(pointers), legend);
 }
 
 void write_sheet(const Sweeping& sweep) {
@@ -206,27 +208,10 @@ void write_sheet(const Sweeping& sweep) {
   });
 }
 
-/// Writes the sheet and the table; false if something could not be written, which is told.
-bool write_all(const Sweeping& sweep) {
-  bool whole = true;
-  const CommandRequest& command = sweep.command;
-  if (!command.sheet.empty()) whole = written_or_told([&] { write_sheet(sweep); });
-  if (!command.csv.empty())
-    whole = written_or_told([&] { write_text_or_rescue(command.csv, csv_text(sweep)); }) && whole;
-  return whole;
-}
-
-void check_sheet_name(const std::filesystem::path& sheet) {
-  const std::string ending = image_ending(sheet, {});
-  if (!sheet.empty() && ending != ".png" && ending != ".ppm")
-    refuse("--output: found {}, expected a name that ends in .png or .ppm", in_quotes(sheet.string()));
-}
-
 }  // namespace
 
 int run_sweep(const CommandRequest& command) {
-  check_axes(command);
-  check_sheet_name(command.sheet);
+  check_options(command);
   Sweeping sweep{command, open_scene(command.scene)};
   sweep.steps = steps_of(command);
   const int count = static_cast<int>(sweep.steps.size()), first = static_cast<int>(command.axes[0].values.size());
@@ -244,13 +229,16 @@ int run_sweep(const CommandRequest& command) {
   for (const std::size_t k : order) {
     whole = make_picture(sweep, sweep.steps[k], series) && whole;
     if (series.signal() != 0) {
-      complain("interrupted: no sheet and no table are written" +
-               std::string(command.outputs.empty() ? "" : "; the same command goes on"));
+      const char* further = command.outputs.empty() ? "" : "; the same command goes on";
+      complain(fmt::format("interrupted: no sheet and no table are written{}", further));
       return 128 + series.signal();
     }
   }
-  series.finish("done: " + std::to_string(count) + " pictures, " + duration(series.seconds()));
-  return write_all(sweep) && whole ? 0 : output_failed;
+  series.finish(fmt::format("done: {} pictures, {}", count, duration(series.seconds())));
+  if (!command.sheet.empty()) whole = written_or_told([&] { write_sheet(sweep); }) && whole;
+  if (!command.csv.empty())
+    whole = written_or_told([&] { write_text_or_rescue(command.csv, csv_text(sweep)); }) && whole;
+  return whole ? 0 : output_failed;
 }
 
 }  // namespace tyndall
