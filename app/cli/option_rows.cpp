@@ -1,6 +1,7 @@
 #include "app/cli/option_rows.h"
 #include "core/base/target.h"
 #include "core/base/thread_pool.h"
+#include "core/scene/json_tree.h"
 
 #include <functional>
 
@@ -73,9 +74,36 @@ fs::path read_scene_output(Text t) {
   return t == "-" || foreign ? fs::path(t) : read_file_name(t, ".json");
 }
 
-fs::path read_each(Text t) {
-  read_valued_name(t);
+/// The text as it is, if that function takes it.
+template <class Read>
+auto checked_by(Read read) {
+  return [read](Text t) -> fs::path {
+    read(t);
+    return t;
+  };
+}
+
+/// A video, or the names of frames.
+void read_frame_output(R& request, Text t) {
+  const bool is_video = t == "-" || lower_case(fs::path(t).extension().string()) == ".y4m";
+  if (!is_video) read_numbered_name(t);
+  if (!is_video) request.outputs.emplace_back(t);
+  if (is_video && !request.video.empty()) refuse("found two films, expected one .y4m or -");
+  if (is_video) request.video = t;
+}
+
+fs::path read_sheet(Text t) {
+  const std::string ending = image_ending(t, {});
+  if (ending != ".png" && ending != ".ppm") refuse("found {}, expected a name that ends in .png or .ppm", in_quotes(t));
   return t;
+}
+
+SweepAxis read_axis(Text t) {
+  SweepAxis axis = read_sweep_axis(t);
+  const auto steps = pointer_steps(axis.pointer);
+  if (steps && steps->front() == "image")
+    refuse("found {}, expected a value that leaves all pictures one size", in_quotes(axis.pointer));
+  return axis;
 }
 
 /// An option of 0.2.0.
@@ -128,11 +156,11 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
        ".png .pfm .hdr .ppm: the filtered picture; .exr: the film, beside it denoised.R/G/B and denoised.error; - for "
        "standard output; repeatable; required",
        "denoise"},
-      {"-o,--output", "FILE", outputs,
+      {"-o,--output", "FILE", Taker{read_frame_output, Takes::each},
        "'f/%04d.png', a file for each frame, any of render's formats; .y4m, or - for standard output: 8 bits, 4:4:4, "
        "BT.601; repeatable; required",
        "animate"},
-      {"-o,--output", "SHEET.png", to(&R::sheet), "sheet of all pictures, .png or .ppm", "sweep"},
+      {"-o,--output", "SHEET.png", to(&R::sheet, read_sheet), "sheet of all pictures, .png or .ppm", "sweep"},
       {"-o,--output", "FILE.svg", to(&R::output), "the chart; required", "chart"},
       {"-o,--output", "FILE", to(&R::output, read_scene_output),
        ".json, .pbrt, .xml or .py, or - for JSON on standard output; required", "convert"},
@@ -154,11 +182,12 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
       {"--csv", "FILE.csv", to(&R::csv),
        "table: values; mean; errors; change and difference to the picture in the middle, each with its own error; "
        "samples; seconds; hash"},
-      {"--each", "NAME", add_to(&R::outputs, read_each),
+      {"--each", "NAME", add_to(&R::outputs, checked_by(read_valued_name)),
        "a file for each picture, any of render's formats; %v stands for the\n"
        "value: 'dir/%v.exr'. A sweep with .exr that was killed goes on"},
       {"--stats", "FILE.json", stats, "write the filtered picture's estimated error, its hash and the time", "denoise"},
-      {"--stats", "NAME", stats, "figures of each frame: 'f/%04d.json'", "animate"},
+      {"--stats", "NAME", to(&R::stats, checked_by(read_numbered_name)), "figures of each frame: 'f/%04d.json'",
+       "animate"},
       {"--stats", "FILE.json", stats, "write figures of the run"},
       described<ProgressStyle>(
           {"--progress", "", to(&R::progress, [](Text t) { return read_option<ProgressStyle>(t, {}); }),
@@ -208,7 +237,7 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
        "exactly the samples A <= i < B of each pixel, for shards that 'tyndall merge' adds; not with --spp, --time or "
        "--target-error"},
       {"--total-time", "SECONDS", to(&R::total_time, seconds), "wall time of rendering all pictures"},
-      {"--vary", "POINTER=VALUES", add_to(&R::axes, read_sweep_axis),
+      {"--vary", "POINTER=VALUES", add_to(&R::axes, read_axis),
        "the value to vary, as --set names it, and in what steps:\n"
        "FROM:TO:STEPS, both ends included; a list such as [0,0.1,0.5];\n"
        "or names such as gold,glass; required, at most twice"},

@@ -49,7 +49,7 @@ constexpr Need required[] = {
     {"sweep", [](Request r) { return !r.axes.empty(); }, "a value to vary (--vary POINTER=FROM:TO:STEPS)"},
     {"sweep", [](Request r) { return !r.sheet.empty() || !r.csv.empty() || has_outputs(r); },
      "an output (-o SHEET.png)"},
-    {"animate", has_outputs, "an output (-o 'f/%04d.png')"},
+    {"animate", [](Request r) { return has_outputs(r) || !r.video.empty(); }, "an output (-o 'f/%04d.png')"},
     {"compare", has_operands, "IMAGE"},
     {"compare", [](Request r) { return has_baseline(r) || r.operands.size() > 1; }, "REFERENCE"},
     {"chart", has_output, "an output (-o FILE.svg)"},
@@ -92,29 +92,6 @@ constexpr std::pair<bool (*)(Request), const char*> conflicts[] = {
      "--samples and --target-error exclude each other: --samples says which samples to take"},
 };
 
-/// Reads the name of a file that stands for many, for the message "--output: found X, expected Y".
-void check_numbered(const char* option, const std::filesystem::path& name) {
-  try {
-    read_numbered_name(name.string());
-  } catch (const UsageError& error) {
-    refuse("{}: {}", option, error.what());
-  }
-}
-
-/// Takes the video out of the outputs, and checks the names of the others.
-void finish_animate(CommandRequest& request) {
-  const auto is_video = [](const std::filesystem::path& file) {
-    return file == "-" || lower_case(file.extension().string()) == ".y4m";
-  };
-  for (const std::filesystem::path& file : request.outputs) {
-    if (!is_video(file)) check_numbered("--output", file);
-    if (is_video(file) && !request.video.empty()) refuse("--output: found two films, expected one .y4m or -");
-    if (is_video(file)) request.video = file;
-  }
-  std::erase_if(request.outputs, is_video);
-  if (!request.stats.empty()) check_numbered("--stats", request.stats);
-}
-
 /// Puts the images where they belong.
 void finish_compare(CommandRequest& request) {
   const std::vector<std::string>& images = request.operands;
@@ -131,10 +108,12 @@ void finish(CommandRequest& request) {
   for (const Need& need : required)
     if (need.commands.find(name) != need.commands.npos && !need.given(request))
       refuse("{} is missing{}", need.what, see_help(request.command));
-  if (name == "animate") finish_animate(request);
   if (name == "compare") finish_compare(request);
   if (name == "chart" && request.scene.what != "all") read_file_name(request.output.string(), ".svg");
-  if (request.axes.size() > 2) refuse("--vary: found it {} times, expected it once or twice", request.axes.size());
+  const std::vector<SweepAxis>& axes = request.axes;
+  if (axes.size() > 2) refuse("--vary: found it {} times, expected it once or twice", axes.size());
+  if (axes.size() == 2 && axes[0].pointer == axes[1].pointer)
+    refuse("--vary: found {} twice, expected two values", in_quotes(axes[0].pointer));
   for (const auto& [found, text] : conflicts)
     if (found(request)) refuse("{}", text);
 }

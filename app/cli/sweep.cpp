@@ -84,19 +84,6 @@ RenderJob job_of(const Sweeping& sweep, const SweepStep& step, double time_limit
   return job;
 }
 
-void check_options(const CommandRequest& command) {
-  for (const SweepAxis& axis : command.axes) {
-    const auto steps = pointer_steps(axis.pointer);
-    if (steps && steps->front() == "image")
-      refuse("--vary: found {}, expected a value that leaves all pictures one size", in_quotes(axis.pointer));
-  }
-  if (command.axes.size() > 1 && command.axes[0].pointer == command.axes[1].pointer)
-    refuse("--vary: found {} twice, expected two values", in_quotes(command.axes[0].pointer));
-  const std::string ending = image_ending(command.sheet, {});
-  if (!command.sheet.empty() && ending != ".png" && ending != ".ppm")
-    refuse("--output: found {}, expected a name that ends in .png or .ppm", in_quotes(command.sheet.string()));
-}
-
 /// Finds everything that can be wrong before the first sample.
 void check_steps(Sweeping& sweep) {
   std::vector<Output> outputs{{"--output", sweep.command.sheet}, {"--csv", sweep.command.csv}};
@@ -211,7 +198,6 @@ void write_sheet(const Sweeping& sweep) {
 }  // namespace
 
 int run_sweep(const CommandRequest& command) {
-  check_options(command);
   Sweeping sweep{command, open_scene(command.scene)};
   sweep.steps = steps_of(command);
   const int count = static_cast<int>(sweep.steps.size()), first = static_cast<int>(command.axes[0].values.size());
