@@ -63,13 +63,13 @@ void check_memory(const Scene& scene) {
 #endif
 }
 
-/// Opens the window; where there is none, says what to do instead. options: made only when it is needed.
-template <class Options>
-int open_window(const std::string& instead, [[maybe_unused]] const Options& options) {
+/// Opens the window; where there is none, says what to do instead.
+int open_window(const std::string& instead, const WindowOptions& options) {
   if (!has_display()) throw IoError("no display for a window; " + instead);
 #ifdef TYNDALL_WINDOW
+  tell_alpha(options.scene);
   try {
-    return run_window(options());
+    return run_window(options);
   } catch (const IoError& error) {
     throw IoError(error.what() + ("; " + instead));
   }
@@ -102,30 +102,22 @@ void refuse_scene_options(const CommandRequest& command) {
       "nothing in a picture");
 }
 
-/// A scene of the picture's size that has nothing else, to be shown in its place.
-LoadedScene scene_of(const ArrivingPicture& picture, const CommandRequest& command) {
-  LoadedScene loaded;
-  loaded.name = input_name;
-  loaded.folder = ".";
-  loaded.is_picture = true;
-  loaded.scene.width = picture.width(), loaded.scene.height = picture.height();
-  loaded.scene.render.spp = 1;
-  apply(command.scene.display, loaded.scene.display);
-  return loaded;
-}
-
 /// Shows what a program writes to standard input, as it comes. begin: the bytes with which it begins.
 int view_picture(const CommandRequest& command, const std::string& begin) {
   refuse_scene_options(command);
   check_files(command, {});
   const auto picture = std::make_shared<ArrivingPicture>(standard_input, begin, input_name, command.form.ppm);
-  const LoadedScene loaded = scene_of(*picture, command);
+  LoadedScene loaded;  // of the picture's size, to be shown in its place
+  loaded.name = input_name;
+  loaded.folder = ".";
+  loaded.is_picture = true;
+  loaded.scene.width = picture->width(), loaded.scene.height = picture->height();
+  loaded.scene.render.spp = 1;
+  apply(command.scene.display, loaded.scene.display);
   check_memory(loaded.scene);
-  return open_window("the program's picture can be kept in a file: > image.ppm in place of | tyndall view -", [&] {
-    WindowOptions options = options_of(command, loaded);
-    options.picture = picture;
-    return options;
-  });
+  WindowOptions options = options_of(command, loaded);
+  options.picture = picture;
+  return open_window("the program's picture can be kept in a file: > image.ppm in place of | tyndall view -", options);
 }
 
 int view_scene(const CommandRequest& command) {
@@ -147,16 +139,13 @@ int view_scene(const CommandRequest& command) {
   find_kernels(command.isa);
   check_memory(loaded.scene);
   check_files(command, loaded.files);
-  return open_window("the same picture without a window: " + headless_command(command), [&] {
-    tell_alpha(loaded);
-    WindowOptions options = options_of(command, loaded);
-    const auto& arguments = command.arguments;
-    options.reload = open, options.read_edits = read_edits;
-    options.scene_named = std::find(arguments.begin(), arguments.end(), command.scene.what) != arguments.end();
-    options.limits = {command.time_limit, command.target_error};
-    if (is_program(command.scene.what)) options.function = own->function();
-    return options;
-  });
+  WindowOptions options = options_of(command, loaded);
+  const auto& arguments = command.arguments;
+  options.reload = open, options.read_edits = read_edits;
+  options.scene_named = std::find(arguments.begin(), arguments.end(), command.scene.what) != arguments.end();
+  options.limits = {command.time_limit, command.target_error};
+  if (is_program(command.scene.what)) options.function = own->function();
+  return open_window("the same picture without a window: " + headless_command(command), options);
 }
 
 }  // namespace
