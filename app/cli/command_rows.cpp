@@ -43,12 +43,12 @@ struct CommandText {
   int (*run)(const CommandRequest&);
 };
 
-std::string first_word(const std::string& text) { return text.substr(0, text.find(' ')); }
-
 std::vector<CommandRow> rows_of(const std::vector<CommandText>& texts) {
   std::vector<CommandRow> rows;
   for (const auto& [usage, summary, about, examples, groups, run] : texts) {
-    CommandRow& row = rows.emplace_back(CommandRow{first_word(usage), summary, usage, about, examples, {}, {}, run});
+    CommandRow& row = rows.emplace_back();
+    row.name = std::string(usage).substr(0, std::string_view(usage).find(' '));
+    row.summary = summary, row.usage = usage, row.about = about, row.examples = examples, row.run = run;
     row.options.emplace_back("-h,--help", "", Taker{{}, Takes::flag}, "show this text", "", usual_heading);
     for (const OptionGroup& group : groups) {
       std::istringstream names(group.options);
