@@ -6,13 +6,6 @@
 namespace tyndall {
 namespace {
 
-/// Options that stand below one heading of a help.
-struct OptionGroup {
-  const char* heading;  ///< "": no help lists them
-  /// Long names as option_row() knows them, with spaces between; {display} and {render}: those of fields().
-  const char* options;
-};
-
 constexpr const char* usual_heading = "Options";
 
 /// The groups of a command that renders a scene: its own ones stand between those of the scene and of the method.
@@ -37,38 +30,29 @@ std::vector<OptionRow> rows_of(std::string name, const std::string& command) {
 /// A line of a help that is longer is broken, at spaces, into lines of help_width.
 constexpr std::size_t longest_line = 70;
 
-struct CommandText {
-  const char *usage, *summary, *about, *examples;  ///< see CommandRow
-  std::vector<OptionGroup> groups;
-  int (*run)(const CommandRequest&);
-};
-
-std::vector<CommandRow> rows_of(const std::vector<CommandText>& texts) {
-  std::vector<CommandRow> rows;
-  for (const auto& [usage, summary, about, examples, groups, run] : texts) {
-    CommandRow& row = rows.emplace_back();
-    row.name = std::string(usage).substr(0, std::string_view(usage).find(' '));
-    row.summary = summary, row.usage = usage, row.about = about, row.examples = examples, row.run = run;
-    row.options.emplace_back("-h,--help", "", Taker{{}, Takes::flag}, "show this text", "", usual_heading);
-    for (const OptionGroup& group : groups) {
-      std::istringstream names(group.options);
-      for (std::string name; names >> name;)
-        for (OptionRow& option : rows_of(name, row.name)) {
-          const bool has_lines = option.help.find('\n') != option.help.npos;
-          if (option.help.size() > longest_line && !has_lines) option.help = wrapped(option.help, help_width);
-          option.heading = group.heading;
-          (option.names[0] == '-' ? row.options : row.arguments).push_back(option);
-        }
-    }
-  }
-  return rows;
-}
-
 }  // namespace
 
+CommandRow command_row(const CommandText& text) {
+  CommandRow row;
+  row.name = text.name();
+  row.summary = text.summary, row.usage = text.usage, row.about = text.about, row.examples = text.examples;
+  row.options.emplace_back("-h,--help", "", Taker{{}, Takes::flag}, "show this text", "", usual_heading);
+  for (const OptionGroup& group : text.groups) {
+    std::istringstream names(group.options);
+    for (std::string name; names >> name;)
+      for (OptionRow& option : rows_of(name, row.name)) {
+        const bool has_lines = option.help.find('\n') != option.help.npos;
+        if (option.help.size() > longest_line && !has_lines) option.help = wrapped(option.help, help_width);
+        option.heading = group.heading;
+        (option.names[0] == '-' ? row.options : row.arguments).push_back(option);
+      }
+  }
+  return row;
+}
+
 // A table, which may be as long as it has rows.
-const std::vector<CommandRow>& command_rows() {  // NOLINT(readability-function-size)
-  static const std::vector<CommandRow> rows = rows_of({
+const std::vector<CommandText>& command_texts() {  // NOLINT(readability-function-size)
+  static const std::vector<CommandText> texts{
       {"view [SCENE] [options]", "open a scene in the window (also without this word; default: the showroom)",
        "Opens a scene in the window. 'tyndall' alone opens the showroom, 'tyndall SCENE' a scene.\n\n"
        "Where standard input (-) begins with P3 or P6, it is a picture: its rows are shown as a program\n"
@@ -235,14 +219,8 @@ const std::vector<CommandRow>& command_rows() {  // NOLINT(readability-function-
        "  tyndall convert cornell-smoke -o smoke.py    # blender -b -P smoke.py -- smoke.exr",
        {{usual_heading, "SCENE --set --include --trust --output"}},
        run_convert},
-  });
-  return rows;
-}
-
-const CommandRow& method_row() {
-  static const std::vector<CommandRow> rows =
-      rows_of({{"--method NAME=FLAGS", "", "One curve of a chart.", "", {{"Method", "{render} --isa"}}, nullptr}});
-  return rows.front();
+  };
+  return texts;
 }
 
 }  // namespace tyndall

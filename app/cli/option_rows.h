@@ -17,9 +17,25 @@ namespace tyndall {
 /// The row of an option, or of an argument such as "SCENE", of that command. There is one.
 const OptionRow& option_row(std::string_view name, std::string_view command);
 
-const std::vector<CommandRow>& command_rows();
-/// A method of a chart: a command of which nothing but the options counts.
-const CommandRow& method_row();
+/// Options that stand below one heading of a help.
+struct OptionGroup {
+  const char* heading;  ///< "": no help lists them
+  /// Long names as option_row() knows them, with spaces between; {display} and {render}: those of fields().
+  const char* options;
+};
+
+/// A command, whose options are named alone. See CommandRow.
+struct CommandText {
+  const char *usage, *summary, *about, *examples;
+  std::vector<OptionGroup> groups;
+  int (*run)(const CommandRequest&);
+
+  std::string name() const { return std::string(usage).substr(0, std::string_view(usage).find(' ')); }
+};
+const std::vector<CommandText>& command_texts();
+
+/// The command with its options.
+CommandRow command_row(const CommandText& text);
 
 /// " (see tyndall render --help)".
 std::string see_help(std::string_view command);

@@ -118,12 +118,13 @@ void finish(CommandRequest& request) {
     if (found(request)) refuse("{}", text);
 }
 
-Command read(const CommandRow& row, Arguments arguments) {
+Command read(const CommandText& text, Arguments arguments) {
   CommandRequest request;
-  request.command = row.name;
+  request.command = text.name();
+  request.run = text.run;
   request.arguments = arguments;
   if (request.command != "view") request.scene.what.clear();
-  if (auto help = parse(row, arguments, request)) return PrintCommand{*help};
+  if (auto help = parse(command_row(text), arguments, request)) return PrintCommand{*help};
   finish(request);
   return request;
 }
@@ -132,7 +133,8 @@ std::string overview() {
   std::string text =
       "Tyndall: an interactive, progressive path tracer for glass, brushed metal and fog.\n"
       "Usage: tyndall [SCENE] | tyndall COMMAND [options]\n\nCommands:\n";
-  for (const CommandRow& row : command_rows()) text += fmt::format("  {:<10}{}\n", row.name, row.summary);
+  for (const CommandText& command : command_texts())
+    text += fmt::format("  {:<10}{}\n", command.name(), command.summary);
   return text +
          "\nOptions:\n"
          "  -h, --help    show this text; 'tyndall COMMAND --help' shows that of a command\n"
@@ -145,7 +147,7 @@ std::string overview() {
 /// Throws if a word that was not taken for a command must have been meant as one.
 void refuse_misspelt_command(Text argument, bool alone) {
   std::vector<std::string> names;
-  for (const CommandRow& row : command_rows()) names.emplace_back(row.name);
+  for (const CommandText& command : command_texts()) names.push_back(command.name());
   const std::string hint = suggestion(argument, names);
   if ((hint.empty() && alone) || argument[0] == '-' || argument.find_first_of("./") != std::string::npos) return;
   std::error_code error;
@@ -164,7 +166,10 @@ Command read_help(Arguments arguments) {
   if (arguments.empty()) return PrintCommand{overview()};
   constexpr std::string (*writers[])(const std::vector<CommandRow>&) = {man_page, bash_completion, zsh_completion,
                                                                         fish_completion};
-  return PrintCommand{writers[read_name(arguments[0], {"man", "bash", "zsh", "fish"})](command_rows())};
+  const std::size_t form = read_name(arguments[0], {"man", "bash", "zsh", "fish"});
+  std::vector<CommandRow> rows;
+  for (const CommandText& command : command_texts()) rows.push_back(command_row(command));
+  return PrintCommand{writers[form](rows)};
 }
 
 }  // namespace
@@ -178,26 +183,27 @@ CommandRequest read_method(const std::string& text) {
   std::istringstream stream(text.substr(equals + 1));
   std::vector<std::string> arguments;
   for (std::string argument; stream >> argument;) arguments.push_back(argument);
-  if (parse(method_row(), arguments, method)) refuse("found a question for help, expected flags of a method");
+  const CommandText command{"--method NAME=FLAGS", "", "One curve of a chart.", "", {{"Method", "{render} --isa"}}, {}};
+  if (parse(command_row(command), arguments, method)) refuse("found a question for help, expected flags of a method");
   return method;
 }
 
 Command read_command(const std::vector<std::string>& arguments) {
-  const std::vector<CommandRow>& rows = command_rows();
-  if (arguments.empty()) return read(rows.front(), {});
+  const std::vector<CommandText>& commands = command_texts();
+  if (arguments.empty()) return read(commands.front(), {});
   const std::string& first = arguments.front();
   if (first == "-h" || first == "--help") return PrintCommand{overview()};
   if (first == "help") return read_help({arguments.begin() + 1, arguments.end()});
   if (first == "-V" || first == "--version" || first == "version") return PrintCommand{version_text()};
-  for (const CommandRow& row : rows)
-    if (first == row.name) return read(row, {arguments.begin() + 1, arguments.end()});
+  for (const CommandText& command : commands)
+    if (first == command.name()) return read(command, {arguments.begin() + 1, arguments.end()});
   if (first == "book" && !std::filesystem::exists(first))
     refuse(
         "book: the folder of headers is gone: programs are read with their own; in place of a build by hand: tyndall "
         "main.cc, tyndall render main.cc -o picture.exr, or ./mine | tyndall view -");
   refuse_misspelt_command(first, arguments.size() == 1);
   if (arguments.size() == 1) refuse_misspelt_option(first);
-  return read(rows.front(), arguments);
+  return read(commands.front(), arguments);
 }
 
 int run(const Command& command) {
@@ -206,9 +212,7 @@ int run(const Command& command) {
     return 0;
   }
   const auto& request = std::get<CommandRequest>(command);
-  for (const CommandRow& row : command_rows())
-    if (request.command == row.name) return row.run(request);
-  return 0;
+  return request.run(request);
 }
 
 }  // namespace tyndall

@@ -22,9 +22,10 @@ namespace tyndall {
 /// All that options and arguments can say. Each command reads the part that its options fill. Of the options of a
 /// render first_sample, adaptive and what is not said by the user are found with the scene: see set_up().
 struct CommandRequest : RenderOptions {
-  std::string command;                 ///< "render"
-  std::vector<std::string> arguments;  ///< as the user typed them
-  std::vector<std::string> operands;   ///< those of them that are neither options nor a scene
+  std::string command;                          ///< "render"
+  int (*run)(const CommandRequest&) = nullptr;  ///< what does it
+  std::vector<std::string> arguments;           ///< as the user typed them
+  std::vector<std::string> operands;            ///< those of them that are neither options nor a scene
   SceneRequest scene;
 
   // Pictures and how they are rendered.

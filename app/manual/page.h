@@ -41,7 +41,6 @@ struct CommandRow {
   std::string usage;            ///< what follows "tyndall"
   std::string about, examples;  ///< before and after the options in the help
   std::vector<OptionRow> arguments, options;
-  int (*run)(const CommandRequest&) = nullptr;
 };
 
 /// The page "tyndall.1" in the language of man(7).

@@ -19,9 +19,8 @@ const std::vector<CommandRow> rows{{"paint",
                                     "Paints.\n\nSlowly.",
                                     "tyndall paint a.json",
                                     {{"SCENE", " ", {}, "a scene"}},
-                                    {output, method, quiet, bits},
-                                    nullptr},
-                                   {"list", "list: all of them", "list", "Lists.", "", {}, {}, nullptr}};
+                                    {output, method, quiet, bits}},
+                                   {"list", "list: all of them", "list", "Lists.", "", {}, {}}};
 
 }  // namespace
 
