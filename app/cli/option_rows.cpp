@@ -13,7 +13,7 @@ using Names = std::vector<std::string>;
 using R = CommandRequest;
 namespace fs = std::filesystem;
 
-/// A member of a part of the request.
+/// A member of the request, of that member, and so on: in(&R::scene, &SceneRequest::size).
 template <class... Member>
 auto in(Member... members) {
   return [=](R& request) -> decltype(auto) { return (request.*....*members); };
@@ -85,11 +85,13 @@ auto checked_by(Read read) {
 
 /// A video, or the names of frames.
 void read_frame_output(R& request, Text t) {
-  const bool is_video = t == "-" || lower_case(fs::path(t).extension().string()) == ".y4m";
-  if (!is_video) read_numbered_name(t);
-  if (!is_video) request.outputs.emplace_back(t);
-  if (is_video && !request.video.empty()) refuse("found two films, expected one .y4m or -");
-  if (is_video) request.video = t;
+  if (t != "-" && lower_case(fs::path(t).extension().string()) != ".y4m") {
+    read_numbered_name(t);
+    request.outputs.emplace_back(t);
+    return;
+  }
+  if (!request.video.empty()) refuse("found two films, expected one .y4m or -");
+  request.video = t;
 }
 
 fs::path read_sheet(Text t) {

@@ -19,8 +19,8 @@
 /// What the user asked for, which only read_command() makes, and the commands that do it.
 namespace tyndall {
 
-/// All that options and arguments can say. Each command reads the part that its options fill. Of the options of a
-/// render first_sample, adaptive and what is not said by the user are found with the scene: see set_up().
+/// All that options and arguments can say. Each command reads the part that its options fill. What the options of a
+/// render say beside that, such as its first sample, follows from the scene: see set_up().
 struct CommandRequest : RenderOptions {
   std::string command;                          ///< "render"
   int (*run)(const CommandRequest&) = nullptr;  ///< what does it
