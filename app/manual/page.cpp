@@ -83,9 +83,9 @@ std::string bash_values(const CommandRow& command) {
 }
 
 std::string bash_options(const CommandRow& command) {
-  const auto names_in = [](const OptionRow& option) { return " " + joined(names_of(option), " "); };
-  const std::string names = of_each(command.options, names_in);
-  return "      " + command.name + ") words='" + names.substr(1) + "' ;;\n";
+  std::vector<std::string> names;
+  for (const OptionRow& option : command.options) names.push_back(joined(names_of(option), " "));
+  return "      " + command.name + ") words='" + joined(names, " ") + "' ;;\n";
 }
 
 std::string zsh_option(const OptionRow& option) {
@@ -125,9 +125,10 @@ std::string man_page(const std::vector<CommandRow>& commands) {
 }
 
 std::string bash_completion(const std::vector<CommandRow>& commands) {
-  const std::string names = of_each(commands, [](const CommandRow& command) { return " " + command.name; });
+  std::vector<std::string> names;
+  for (const CommandRow& command : commands) names.push_back(command.name);
   return from_template("completion.bash", {{"values", of_each(commands, bash_values)},
-                                           {"commands", names.substr(1)},
+                                           {"commands", joined(names, " ")},
                                            {"options", of_each(commands, bash_options)}});
 }
 
