@@ -130,7 +130,7 @@ class Series {
   std::size_t left() const { return count_ - made_; }
 
  private:
-  RenderResult render(RenderJob& job, const std::string& name, class LiveView* view);
+  RenderResult render(RenderJob& job, const std::string& name, LiveView* view);
   void warn(const RenderJob& job, const RenderOutcome& outcome, const std::string& name);
 
   SignalWatch signals_;

@@ -1,5 +1,4 @@
 #include "app/cli/pictures.h"
-
 #include "app/cli/kept_pictures.h"
 #include "app/files/checkpoint.h"
 #include "app/files/memory.h"

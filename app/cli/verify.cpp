@@ -66,13 +66,13 @@ int count(const VerifyRun& run, Verdict verdict) {
 }
 
 std::string line_of(const VerifyRow& row, std::size_t name_width) {
-  const std::string start = "  " + row.what.name + std::string(name_width + 2 - row.what.name.size(), ' ');
+  const std::string start = fmt::format("  {:<{}}", row.name, name_width + 2);
   if (row.verdict == Verdict::skipped)
-    return start + fmt::format("{:<12.7g} {:<45} skipped\n", row.what.expected,
-                               row.what.requires_specular_paths ? "needs chains" : "needs light sampling");
+    return start + fmt::format("{:<12.7g} {:<45} skipped\n", row.expected,
+                               row.requires_specular_paths ? "needs chains" : "needs light sampling");
   const Measured& m = row.measured;
-  std::string text = start + fmt::format("{:<12.7g} {:<12.7g} {:<9.2g} {:7.2f} {:9}   {}", row.what.expected,
-                                         m.value.mean, m.value.error, row.z, m.totals.truncated, name_of(row.verdict));
+  std::string text = start + fmt::format("{:<12.7g} {:<12.7g} {:<9.2g} {:7.2f} {:9}   {}", row.expected, m.value.mean,
+                                         m.value.error, row.z, m.totals.truncated, name_of(row.verdict));
   if (m.totals.rejected > 0) text += fmt::format(", {} samples rejected", m.totals.rejected);
   return text + "\n";
 }
@@ -96,14 +96,14 @@ std::string sum_up(const VerifyRun& run) {
 
 Json json_of(const VerifyRow& row) {
   Json overrides = Json::object();
-  for (const Override& o : row.what.overrides) overrides[o.pointer] = Json::parse(o.value);
+  for (const Override& o : row.overrides) overrides[o.pointer] = Json::parse(o.value);
   const bool known = row.verdict != Verdict::skipped;
   const auto number = [known](double v) { return known && std::isfinite(v) ? Json(v) : nullptr; };
-  return {{"name", row.what.name},
-          {"scene", row.what.scene},
+  return {{"name", row.name},
+          {"scene", row.scene},
           {"set", overrides},
-          {"expected", row.what.expected},
-          {"source", row.what.source},
+          {"expected", row.expected},
+          {"source", row.source},
           {"integrator", name_of(row.method.integrator)},
           {"sampler", name_of(row.method.sampler)},
           {"fresnel", name_of(row.method.fresnel)},
@@ -213,8 +213,8 @@ std::vector<VerifyCase> chosen_cases(const std::vector<VerifyCase>& cases, const
 
 VerifyRow judge(VerifyRow row, const Measured& measured, double precision) {
   row.measured = measured;
-  row.z = z_score(measured.value, row.what.expected);
-  const bool sharp = measured.value.error <= precision * std::abs(row.what.expected);
+  row.z = z_score(measured.value, row.expected);
+  const bool sharp = measured.value.error <= precision * std::abs(row.expected);
   const bool right = std::abs(row.z) <= max_z && measured.totals.rejected == 0;
   row.verdict = !right ? Verdict::fail : sharp ? Verdict::ok : Verdict::vague;
   return row;
@@ -224,7 +224,7 @@ ZStatistic z_statistic(const std::vector<VerifyRow>& rows) {
   ZStatistic scores;
   double sum = 0;
   for (const VerifyRow& row : rows) {
-    const double rounding = rounding_fraction * std::abs(row.what.expected);
+    const double rounding = rounding_fraction * std::abs(row.expected);
     if (row.verdict == Verdict::skipped || row.measured.value.error <= 10 * rounding) continue;
     sum += row.z * row.z;
     ++scores.count;
@@ -241,11 +241,11 @@ bool passed(const VerifyRun& run) {
 
 std::string verify_table(const VerifyRun& run) {
   std::size_t width = 4;
-  for (const VerifyRow& row : run.rows) width = std::max(width, row.what.name.size());
+  for (const VerifyRow& row : run.rows) width = std::max(width, row.name.size());
   std::string text, source;
   for (const VerifyRow& row : run.rows) {
-    if (row.what.source != source) {
-      source = row.what.source;
+    if (row.source != source) {
+      source = row.source;
       text += (text.empty() ? "" : "\n") + source + "\n  case" + std::string(width - 2, ' ') +
               "expected     measured     error           z truncated   verdict\n";
     }

@@ -58,8 +58,7 @@ constexpr Label label(Verdict verdict) {
   return {};
 }
 
-struct VerifyRow {
-  VerifyCase what;
+struct VerifyRow : VerifyCase {
   RenderSettings method;
   Measured measured{};
   double z = 0;
