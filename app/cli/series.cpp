@@ -1,5 +1,5 @@
-#include "app/cli/pictures.h"
 #include "app/cli/kept_pictures.h"
+#include "app/cli/pictures.h"
 #include "app/files/checkpoint.h"
 #include "app/files/memory.h"
 #include "app/text/standard_streams.h"

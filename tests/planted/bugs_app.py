@@ -208,7 +208,7 @@ APP = [
      "app/check/statistics"),
 
     ("parts of adaptive renders are merged", "app/cli/merge.cpp", "if («part.scene.render.adaptive → false»)", "app/shards.sh"),
-    ("one value is varied twice", "app/cli/sweep.cpp", "&& «command.axes[0].pointer == command.axes[1].pointer → false»)", "commands/refusals app/sweep.sh"),
+    ("one value is varied twice", "app/cli/options.cpp", "&& «axes[0].pointer == axes[1].pointer → false»)", "commands/refusals app/sweep.sh"),
     ("a picture of too few samples counts as whole", "app/cli/kept_pictures.cpp", "found > wanted : «found != wanted → found > wanted»))", "app/animate.sh app/sweep.sh"),
     ("a file that cannot be written is no failure", "app/cli/merge.cpp", "return problems.empty() ? 0 : «output_failed → 0»;", "app/shards.sh"),
     ("--fresh goes on all the same", "app/cli/kept_pictures.cpp", "const bool whole = «!job.command.fresh → true» &&", "app/animate.sh app/sweep.sh"),
