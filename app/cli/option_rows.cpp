@@ -48,16 +48,8 @@ auto one_of(const char* no, const char* yes) {
   return [no, yes](Text t) { return read_name(t, {no, yes}) == 1; };
 }
 /// The name of one of these.
-template <class Place>
-Taker name_to(Place place, const Names& names) {
-  return to(
-      place, [names](Text t) { return names[read_name(t, names)]; }, names);
-}
-
-Names names_of_targets() {
-  Names names;
-  for (const Target target : all_targets) names.emplace_back(name_of(target));
-  return names;
+auto one_of(const Names& names) {
+  return [names](Text t) { return names[read_name(t, names)]; };
 }
 
 void read_rate(R& request, Text t) {
@@ -65,8 +57,6 @@ void read_rate(R& request, Text t) {
   request.rate = whole(1, 1000000)(t.substr(0, slash));
   request.rate_divisor = slash == t.npos ? 1 : whole(1, 1000000)(t.substr(slash + 1));
 }
-
-void read_view_spp(R& request, Text t) { set(request.scene.render, &RenderSettings::spp, whole(1, max_samples)(t)); }
 
 fs::path read_scene_output(Text t) {
   const std::string ending = lower_case(fs::path(t).extension().string());
@@ -129,6 +119,9 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
               threads = to(&R::threads, whole(1, max_threads)),
               gamma2 = on(in(&R::form, &ImageForm::ppm), PpmCurve::gamma2),
               target_error = to(&R::target_error, above_zero);
+  const Names formats{"png", "exr", "pfm", "hdr", "ppm"};
+  Names targets;
+  for (const Target target : all_targets) targets.emplace_back(name_of(target));
   return {
       {"SCENE", " ", operands, of_files + std::string(" [showroom]"), "view"},
       {"SCENE", " ", operands, of_files},
@@ -147,7 +140,7 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
       {"-t,--threads", "N", threads,
        "worker threads; the image is the same for any number [processors that this process may use: affinity, and "
        "quota rounded up]"},
-      {"--isa", "NAME", name_to(&R::isa, names_of_targets()),
+      {"--isa", "NAME", to(&R::isa, one_of(targets), targets),
        "scalar; sse4, avx2, avx512 (x86-64); neon (ARM) [the best that this CPU runs]"},
       {"-o,--output", "FILE", outputs,
        ".png: 8-bit sRGB; .exr: float, linear, with layers and the film itself; .pfm, .hdr: float, linear; .ppm: 8-bit "
@@ -166,7 +159,7 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
       {"-o,--output", "FILE.svg", to(&R::output), "the chart; required", "chart"},
       {"-o,--output", "FILE", to(&R::output, read_scene_output),
        ".json, .pbrt, .xml or .py, or - for JSON on standard output; required", "convert"},
-      {"--format", "NAME", name_to(in(&R::form, &ImageForm::format), {"png", "exr", "pfm", "hdr", "ppm"}),
+      {"--format", "NAME", to(in(&R::form, &ImageForm::format), one_of(formats), formats),
        "png, exr, pfm, hdr or ppm: the format of what goes to standard output"},
       {"--gamma2", "", gamma2,
        "a picture from standard input is read as the books' programs\nwrite it, by the square of its numbers, not by "
@@ -224,7 +217,9 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
        "stream the picture to a viewer that speaks tev's protocol: R, G, B,\n"
        "error and the clean view; one that fails or is slow is told in a\n"
        "line and costs less than 1 % of the time [port 14158]"},
-      {"--spp", "N", Taker{read_view_spp}, "samples per pixel [from the scene, else none]", "view"},
+      {"--spp", "N",
+       Taker{[](R& request, Text t) { set(request.scene.render, &RenderSettings::spp, whole(1, max_samples)(t)); }},
+       "samples per pixel [from the scene, else none]", "view"},
       {"--spp", "N", to(&R::spp, whole(1, max_samples)),
        "samples per pixel [without another limit: from the scene, else 64]"},
       {"--time", "SECONDS", to(&R::seconds, seconds),
