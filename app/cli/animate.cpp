@@ -1,10 +1,7 @@
 #include "app/cli/kept_pictures.h"
-#include "app/cli/requests.h"
-#include "app/cli/series.h"
-#include "app/files/open_scene.h"
+#include "app/cli/pictures.h"
 #include "app/files/y4m.h"
 #include "app/text/standard_streams.h"
-#include "app/text/values.h"
 #include "core/base/error.h"
 #include "core/base/fnv1a.h"
 #include "core/base/text.h"
@@ -21,13 +18,6 @@ struct FrameFiles {
   std::optional<FrameList> list{};  ///< of settings, which the format does not carry; absent: it does
 };
 
-/// What is to be done for one frame.
-struct FrameTask {
-  int frame = 0;
-  std::vector<std::filesystem::path> outputs;  ///< to be written
-  std::filesystem::path film;                  ///< whole already; empty: to be rendered
-};
-
 /// A film while its frames are rendered.
 struct Animating {
   const CommandRequest& command;
@@ -38,34 +28,27 @@ struct Animating {
   std::optional<Y4mFile> video{};
 };
 
-FramePlan plan_of(const CommandRequest& command, const LoadedScene& base) {
-  const std::optional<Animation>& animation = base.scene.animation;
-  if (!command.frames && !animation)
-    throw UsageError("--frames: found no number, and no \"animation\" in " + printable(base.name) +
-                     ", expected the number of frames");
-  if (!command.turntable && (!animation || animation->keyed.empty()))
-    complain(base.name + ": no value has keys, so that all frames show the same; --turntable moves the camera");
-  return {command.frames ? *command.frames : animation->frames, command.turntable, command.seed_per_frame};
-}
-
-FrameRange range_of(const CommandRequest& command, const FramePlan& plan) {
-  if (!command.range) return {0, plan.frames};
-  if (command.range->last > plan.frames)
-    throw UsageError("--frame-range: found frames up to " + std::to_string(command.range->last) +
-                     ", expected at most " + std::to_string(plan.frames) + ", the number of frames");
-  return *command.range;
-}
-
-std::vector<FrameFiles> files_of(const CommandRequest& command) {
-  std::vector<FrameFiles> all;
+Animating open_film(const CommandRequest& command) {
+  Animating film{command, open_scene(command.scene)};
+  const std::optional<Animation>& animation = film.base.scene.animation;
+  film.plan = command.film;
+  if (film.plan.frames == 0 && animation) film.plan.frames = animation->frames;
+  if (film.plan.frames == 0)
+    refuse("--frames: found no number, and no \"animation\" in {}, expected the number of frames",
+           printable(film.base.name));
+  if (!film.plan.turntable && (!animation || animation->keyed.empty()))
+    complain(film.base.name + ": no value has keys, so that all frames show the same; --turntable moves the camera");
+  film.range = command.range.value_or(FrameRange{0, film.plan.frames});
+  if (film.range.last > film.plan.frames)
+    refuse("--frame-range: found frames up to {}, expected at most {}, the number of frames", film.range.last,
+           film.plan.frames);
   for (const std::filesystem::path& name : command.outputs) {
-    FrameFiles files{read_numbered_name(name.string())};
+    FrameFiles& files = film.files.emplace_back(FrameFiles{read_numbered_name(name.string())});
     const std::string ending = image_ending(name, {});
     if (ending == ".ppm" || ending == ".pfm" || ending == ".hdr")
       files.list.emplace(files.pattern.before + "frames" + files.pattern.after + ".list");
-    all.push_back(std::move(files));
   }
-  return all;
+  return film;
 }
 
 /// The command that renders a frame into these files.
@@ -86,31 +69,26 @@ RenderJob job_of(const Animating& film, int frame, std::vector<std::filesystem::
 }
 
 /// Looks at what there is of a frame. Throws where it is of something else, or the frame's scene is not valid.
-FrameTask task_of(const Animating& film, int frame) {
+PictureTask task_of(const Animating& film, int frame) {
   std::vector<std::filesystem::path> names;
   for (const FrameFiles& files : film.files) names.emplace_back(name_for(files.pattern, frame));
   check_outputs(outputs_of(names), film.base.files);
   const RenderJob job = job_of(film, frame, names);
-  FrameTask task{frame, {}, {}};
-  const std::string mark = picture_mark(job);
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    PictureState kept = PictureState::nothing;
-    const auto& list = film.files[k].list;
-    if (!film.command.fresh) kept = list ? look_at_list(names[k], *list, frame, mark) : look_at_picture(names[k], job);
-    if (kept != PictureState::whole) task.outputs.push_back(names[k]);
-    if (kept == PictureState::whole && task.film.empty() && is_exr(names[k]) && read_film_label(names[k]))
-      task.film = names[k];
-  }
-  return task;
+  const auto look = [&](const std::filesystem::path& file) {
+    const auto of = std::find(names.begin(), names.end(), file) - names.begin();
+    const auto& list = film.files[static_cast<std::size_t>(of)].list;
+    return list ? look_at_list(file, *list, frame, picture_mark(job)) : look_at_picture(file, job);
+  };
+  return task_of(job, look);
 }
 
 /// What the video is of.
 std::string video_mark(const Animating& film) {
   RenderJob job = job_of(film, film.range.first, {});
   job.loaded.scene.animation = film.base.scene.animation;  // each frame follows from the first and from the keys
-  return hash_text(fnv1a(picture_mark(job) + " " + std::to_string(film.range.first) + " of " +
-                         std::to_string(film.plan.frames) + (film.plan.turntable ? " turntable" : "") +
-                         (film.plan.seed_per_frame ? "" : " one seed")));
+  return hash_text(
+      fnv1a(fmt::format("{} {} of {}{}{}", picture_mark(job), film.range.first, film.plan.frames,
+                        film.plan.turntable ? " turntable" : "", film.plan.seed_per_frame ? "" : " one seed")));
 }
 
 void open_video(Animating& film) {
@@ -123,8 +101,8 @@ void open_video(Animating& film) {
                      command.fresh);
   const int frames = film.range.last - film.range.first;
   if (film.video->frames() > frames)
-    throw UsageError(command.video.string() + ": found " + std::to_string(film.video->frames()) +
-                     " frames, expected at most " + std::to_string(frames) + "; --fresh replaces it");
+    refuse("{}: found {} frames, expected at most {}; --fresh replaces it", command.video.string(),
+           film.video->frames(), frames);
 }
 
 /// Says in the lists what a frame's files are: before they are written, and when they are whole.
@@ -137,53 +115,55 @@ void list_frame(Animating& film, const RenderJob& job, int frame, bool whole) {
   }
 }
 
+/// Whether the video lacks a frame.
+bool is_filmed_next(const Animating& film, int frame) {
+  return film.video && frame >= film.range.first + film.video->frames();
+}
+
 /// Renders a frame and writes it; false if something could not be written.
-bool make_frame(Animating& film, const FrameTask& task, Series& series) {
-  RenderJob job = job_of(film, task.frame, task.outputs);
+bool make_frame(Animating& film, int frame, const PictureTask& task, Series& series) {
+  RenderJob job = job_of(film, frame, task.outputs);
+  job.film = task.film;
   prepare(job);
-  if (!task.film.empty()) take_film(job, read_film_alone(task.film));
   const auto made = [&](const RenderOutcome& outcome, bool written) {
     if (!written) return;
-    list_frame(film, job, task.frame, true);
+    list_frame(film, job, frame, true);
     const auto& clean = outcome.result.clean;
-    if (film.video && task.frame >= film.range.first + film.video->frames())
+    if (is_filmed_next(film, frame))
       film.video->add(clean ? LinearImage{clean->width, clean->height, clean->rgb} : outcome.picture.image,
                       job.loaded.scene.display);
   };
-  const auto list = [&] { list_frame(film, job, task.frame, false); };
-  return series.make(job, "frame " + std::to_string(task.frame), {{}, list, made});
+  const auto list = [&] { list_frame(film, job, frame, false); };
+  return series.make(job, "frame " + std::to_string(frame), {list, made});
 }
 
 std::string summary(const Animating& film, const Series& series, std::size_t kept) {
   const std::size_t made = series.made();
-  std::string names = film.video ? printable(film.command.video.string()) : "";
+  std::vector<std::string> names;
+  if (film.video) names.push_back(printable(film.command.video.string()));
   for (const FrameFiles& files : film.files)
-    names += (names.empty() ? "" : ", ") + printable(name_for(files.pattern, film.range.first)) + " to " +
-             printable(name_for(files.pattern, film.range.last - 1));
-  return names + ": " + std::to_string(made) + (made == 1 ? " frame" : " frames") +
-         (kept > 0 ? " rendered, " + std::to_string(kept) + " kept" : "") + ", " + duration(series.seconds());
+    names.push_back(printable(name_for(files.pattern, film.range.first)) + " to " +
+                    printable(name_for(files.pattern, film.range.last - 1)));
+  return fmt::format("{}: {} frame{}{}, {}", joined(names), made, made == 1 ? "" : "s",
+                     kept > 0 ? fmt::format(" rendered, {} kept", kept) : "", duration(series.seconds()));
 }
 
 }  // namespace
 
 int run_animate(const CommandRequest& command) {
   check_names(command_of(command, 0, {}));
-  Animating film{command, open_scene(command.scene)};
-  film.plan = plan_of(command, film.base);
-  film.range = range_of(command, film.plan);
-  film.files = files_of(command);
-  std::vector<FrameTask> tasks;
-  for (int frame = film.range.first; frame < film.range.last; ++frame) tasks.push_back(task_of(film, frame));
-  check_names(command_of(command, film.range.first, tasks[0].outputs));
+  Animating film = open_film(command);
+  std::map<int, PictureTask> tasks;  // of frames
+  for (int frame = film.range.first; frame < film.range.last; ++frame) tasks[frame] = task_of(film, frame);
+  check_names(command_of(command, film.range.first, tasks.begin()->second.outputs));
   open_video(film);
-  std::erase_if(tasks, [&](const FrameTask& task) {
-    return task.outputs.empty() && !(film.video && task.frame >= film.range.first + film.video->frames());
-  });
+  std::erase_if(tasks,
+                [&](const auto& task) { return task.second.outputs.empty() && !is_filmed_next(film, task.first); });
   const auto all = static_cast<std::size_t>(film.range.last - film.range.first), kept = all - tasks.size();
-  if (kept > 0) complain(std::to_string(kept) + " of " + std::to_string(all) + " frames are there already");
+  if (kept > 0) complain(fmt::format("{} of {} frames are there already", kept, all));
   Series series(command.progress, tasks.size());
-  for (const FrameTask& task : tasks) {
-    if (!make_frame(film, task, series)) return output_failed;
+  for (const auto& [frame, task] : tasks) {
+    if (!make_frame(film, frame, task, series)) return output_failed;
     if (series.signal() != 0) {
       series.finish("interrupted: " + summary(film, series, kept));
       return 128 + series.signal();

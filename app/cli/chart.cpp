@@ -1,18 +1,11 @@
 #include "app/curves/chart.h"
-#include "app/cli/render_setup.h"
-#include "app/cli/requests.h"
+#include "app/cli/pictures.h"
 #include "app/comparison/comparison.h"
-#include "app/files/open_scene.h"
-#include "app/files/outputs.h"
-#include "app/text/progress.h"
 #include "app/text/standard_streams.h"
 #include "core/accuracy/estimate.h"
 #include "core/base/seconds.h"
-#include "core/system/processors.h"
-#include "core/system/signals.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace tyndall {
@@ -33,119 +26,90 @@ void make_small(Scene& scene) {
   scene.height = std::max(1, static_cast<int>(scene.height * scale));
 }
 
-class ChartJob {
- public:
-  ChartJob(const CommandRequest& command, const SignalWatch& signals)
-      : command_(command), signals_(signals), report_(command.progress) {}
-
-  /// svg: the file that the chart is to be written to.
-  Chart make(const SceneRequest& request, const std::filesystem::path& svg) {
-    LoadedScene loaded = open_scene(request);
-    std::vector<std::filesystem::path> inputs = loaded.files;
-    if (!command_.reference.empty()) inputs.push_back(picture_name(command_.reference).file);
-    check_outputs({{"--output", svg}, {"--output", csv_beside(svg)}}, inputs);
-    tell_alpha(loaded);
-    Scene& scene = loaded.scene;
-    if (!request.size) make_small(scene);
-    std::vector<ChartMethod> methods;
-    for (const CommandRequest& m : command_.methods) {
-      find_kernels(m.isa);
-      methods.push_back({m.curve, scene.render, m.isa});
-      apply(m.scene.render, methods.back().settings);
-    }
-    if (methods.empty()) methods = default_methods(scene);
-    const double budget = command_.budget;
-    Chart chart;
-    const ChartReference reference = command_.reference.empty()
-                                         ? render_reference(scene, fraction_of_reference * budget, run("reference"))
-                                         : read(scene);
-    chart.reference_noise = reference.noise;
-    const double left = command_.reference.empty() ? (1 - fraction_of_reference) * budget : budget;
-    for (std::size_t i = 0; i < methods.size() && !stopped(); ++i)
-      chart.curves.push_back(measure_curve(scene, methods[i], reference, left / static_cast<double>(methods.size()),
-                                           run(methods[i].name)));
-    chart.title = scene.name.empty() ? loaded.name : scene.name;
-    const int threads = thread_count(command_.threads).count;
-    chart.subtitle = std::to_string(scene.width) + "x" + std::to_string(scene.height) + ", " + std::to_string(threads) +
-                     (threads == 1 ? " thread" : " threads") + "; reference: " + reference.about;
-    return chart;
+ChartReference read_reference(const std::filesystem::path& file, const Scene& scene) {
+  PictureFile picture = read_whole_picture(file);
+  for (const std::string& remark : picture.remarks) complain(remark);
+  ChartReference reference{std::move(picture.image), 0, file.filename().string()};
+  if (reference.image.width != scene.width || reference.image.height != scene.height)
+    refuse("--reference: found {}x{} pixels, expected {}x{} as the charted picture has (see --size)",
+           reference.image.width, reference.image.height, scene.width, scene.height);
+  check_finite(file, reference.image);
+  if (const auto film = is_exr(file) ? read_film(file) : std::nullopt) {
+    const double error = estimate_error(*film).relative_error;
+    if (std::isfinite(error)) reference.noise = error * error;
   }
-  bool stopped() const { return signals_.received() != 0; }
-  void finish(const std::string& summary) { report_.finish(summary); }
-
- private:
-  ChartReference read(const Scene& scene) const {
-    const std::filesystem::path& file = command_.reference;
-    PictureFile picture = read_whole_picture(file);
-    for (const std::string& remark : picture.remarks) complain(remark);
-    ChartReference reference{std::move(picture.image), 0, file.filename().string()};
-    if (reference.image.width != scene.width || reference.image.height != scene.height)
-      throw UsageError("--reference: found " + std::to_string(reference.image.width) + "x" +
-                       std::to_string(reference.image.height) + " pixels, expected " + std::to_string(scene.width) +
-                       "x" + std::to_string(scene.height) + " as the charted picture has (see --size)");
-    check_finite(file, reference.image);
-    if (is_exr(file))
-      if (const auto film = read_film(file)) {
-        const double error = estimate_error(*film).relative_error;
-        if (std::isfinite(error)) reference.noise = error * error;
-      }
-    return reference;
-  }
-  ChartRun run(const std::string& what) {
-    return {command_.threads, [this, what](double) {
-              const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-              report_.show(seconds, std::min(seconds / command_.budget, 1.0), what);
-              return !stopped();
-            }};
-  }
-
-  const CommandRequest& command_;
-  const SignalWatch& signals_;
-  ProgressReport report_;
-  Clock::time_point start_ = Clock::now();
-};
-
-/// Writes the files of a chart, and its table to standard output. Whether all of that worked; what did not is told.
-bool write(const Chart& chart, const std::filesystem::path& svg, const std::string& table) {
-  const bool saved = written_or_told([&] { write_chart(chart, svg); });
-  return written_or_told([&] { write_standard_output(table); }) && saved;
+  return reference;
 }
 
-int chart_all(const CommandRequest& command, const SignalWatch& signals) {
-  const auto file_of = [&command](const char* name) { return command.output / (std::string(name) + ".svg"); };
-  for (const char* name : gallery) check_can_write(file_of(name)), check_can_write(csv_beside(file_of(name)));
-  bool whole = true;
-  for (const char* name : gallery) {
-    const std::filesystem::path file = file_of(name);
-    ChartJob job(command, signals);
-    SceneRequest request = command.scene;
-    request.what = name;
-    const Chart chart = job.make(request, file);
-    if (chart.curves.empty()) break;
-    job.finish(std::string("charted ") + name);
-    whole = write(chart, file, std::string(name) + "\n" + chart_table(chart) + "\n") && whole;
-    if (job.stopped()) break;
+std::vector<ChartMethod> methods_of(const CommandRequest& command, const Scene& scene) {
+  std::vector<ChartMethod> methods;
+  for (const CommandRequest& m : command.methods) {
+    find_kernels(m.isa);
+    methods.push_back({m.curve, scene.render, m.isa});
+    apply(m.scene.render, methods.back().settings);
   }
-  if (!whole) return output_failed;
-  return signals.received() ? 128 + signals.received() : 0;
+  return methods.empty() ? default_methods(scene) : methods;
+}
+
+/// svg: the file that the chart is to be written to.
+Chart make_chart(const CommandRequest& command, const std::string& name, const std::filesystem::path& svg,
+                 const SignalWatch& signals, ProgressReport& report) {
+  const auto run = [&, start = Clock::now()](const std::string& what) {
+    return ChartRun{command.threads, [&, start, what](double) {
+                      const double seconds = seconds_since(start);
+                      report.show(seconds, std::min(seconds / command.budget, 1.0), what);
+                      return signals.received() == 0;
+                    }};
+  };
+  SceneRequest request = command.scene;
+  request.what = name;
+  LoadedScene loaded = open_scene(request);
+  std::vector<std::filesystem::path> inputs = loaded.files;
+  const std::filesystem::path& reference_file = command.reference;
+  if (!reference_file.empty()) inputs.push_back(picture_name(reference_file).file);
+  check_outputs({{"--output", svg}, {"--output", csv_beside(svg)}}, inputs);
+  tell_alpha(loaded);
+  Scene& scene = loaded.scene;
+  if (!request.size) make_small(scene);
+  const std::vector<ChartMethod> methods = methods_of(command, scene);
+  const double of_reference = reference_file.empty() ? fraction_of_reference * command.budget : 0;
+  const ChartReference reference = reference_file.empty() ? render_reference(scene, of_reference, run("reference"))
+                                                          : read_reference(reference_file, scene);
+  Chart chart{scene.name.empty() ? loaded.name : scene.name, "", {}, reference.noise};
+  const double each = (command.budget - of_reference) / static_cast<double>(methods.size());
+  for (std::size_t i = 0; i < methods.size() && signals.received() == 0; ++i)
+    chart.curves.push_back(measure_curve(scene, methods[i], reference, each, run(methods[i].name)));
+  const int threads = thread_count(command.threads).count;
+  chart.subtitle = fmt::format("{}x{}, {} thread{}; reference: {}", scene.width, scene.height, threads,
+                               threads == 1 ? "" : "s", reference.about);
+  return chart;
 }
 
 }  // namespace
 
 int run_chart(const CommandRequest& command) {
   const SignalWatch signals;
-  if (command.scene.what == "all") return chart_all(command, signals);
-  check_can_write(command.output);
-  check_can_write(csv_beside(command.output));
-  ChartJob job(command, signals);
-  const Chart chart = job.make(command.scene, command.output);
-  const int code = signals.received() ? 128 + signals.received() : 0;
-  if (chart.curves.empty() || chart.curves.front().points.empty()) {
-    complain("interrupted before the first point: nothing written");
-    return code;
+  const bool all = command.scene.what == "all";
+  std::vector<std::string> names{command.scene.what};
+  if (all) names.assign(std::begin(gallery), std::end(gallery));
+  const auto file_of = [&](const std::string& name) { return all ? command.output / (name + ".svg") : command.output; };
+  for (const std::string& name : names) check_can_write(file_of(name)), check_can_write(csv_beside(file_of(name)));
+  bool whole = true;
+  for (const std::string& name : names) {
+    ProgressReport report(command.progress);
+    const Chart chart = make_chart(command, name, file_of(name), signals, report);
+    if (chart.curves.empty() || chart.curves.front().points.empty()) {
+      if (!all) complain("interrupted before the first point: nothing written");
+      break;
+    }
+    report.finish("charted " + name);
+    whole = written_or_told([&] { write_chart(chart, file_of(name)); }) && whole;
+    const std::string table = chart_table(chart);
+    whole = written_or_told([&] { write_standard_output(all ? name + "\n" + table + "\n" : table); }) && whole;
+    if (signals.received() != 0) break;
   }
-  job.finish("charted " + command.scene.what);
-  return write(chart, command.output, chart_table(chart)) ? code : output_failed;
+  if (!whole) return output_failed;
+  return signals.received() != 0 ? 128 + signals.received() : 0;
 }
 
 }  // namespace tyndall

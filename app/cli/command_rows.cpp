@@ -1,9 +1,12 @@
 #include "app/cli/option_rows.h"
 
+#include <algorithm>
+#include <sstream>
+
 namespace tyndall {
 namespace {
 
-constexpr const char* usual_heading = "Options";  // the usual heading
+constexpr const char* usual_heading = "Options";
 
 /// The groups of a command that renders a scene: its own ones stand between those of the scene and of the method.
 std::vector<OptionGroup> rendering(std::vector<OptionGroup> own, const char* machine = "--threads --isa") {
@@ -12,12 +15,45 @@ std::vector<OptionGroup> rendering(std::vector<OptionGroup> own, const char* mac
   return own;
 }
 
+/// The rows that a word of a group stands for.
+std::vector<OptionRow> rows_of(std::string name, const std::string& command) {
+  if (name == "{display}") return setting_rows(&SceneRequest::display);
+  if (name == "{render}") {
+    std::vector<OptionRow> rows = setting_rows(&SceneRequest::render);
+    if (command == "verify") std::erase_if(rows, [](const OptionRow& row) { return row.names == "--adaptive"; });
+    return rows;
+  }
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return {option_row(name, command)};
+}
+
+/// A line of a help that is longer is broken, at spaces, into lines of help_width.
+constexpr std::size_t longest_line = 70;
+
 }  // namespace
 
+CommandRow command_row(const CommandText& text) {
+  CommandRow row;
+  row.name = text.name();
+  row.summary = text.summary, row.usage = text.usage, row.about = text.about, row.examples = text.examples;
+  row.options.emplace_back("-h,--help", "", Taker{{}, Takes::flag}, "show this text", "", usual_heading);
+  for (const OptionGroup& group : text.groups) {
+    std::istringstream names(group.options);
+    for (std::string name; names >> name;)
+      for (OptionRow& option : rows_of(name, row.name)) {
+        const bool has_lines = option.help.find('\n') != option.help.npos;
+        if (option.help.size() > longest_line && !has_lines) option.help = wrapped(option.help, help_width);
+        option.heading = group.heading;
+        (option.names[0] == '-' ? row.options : row.arguments).push_back(option);
+      }
+  }
+  return row;
+}
+
 // A table, which may be as long as it has rows.
-const std::vector<CommandRow>& command_rows() {  // NOLINT(readability-function-size)
-  static const std::vector<CommandRow> rows{
-      {"view", "open a scene in the window (also without this word; default: the showroom)", "view [SCENE] [options]",
+const std::vector<CommandText>& command_texts() {  // NOLINT(readability-function-size)
+  static const std::vector<CommandText> texts{
+      {"view [SCENE] [options]", "open a scene in the window (also without this word; default: the showroom)",
        "Opens a scene in the window. 'tyndall' alone opens the showroom, 'tyndall SCENE' a scene.\n\n"
        "Where standard input (-) begins with P3 or P6, it is a picture: its rows are shown as a program\n"
        "writes them, to be enlarged, exposed, compared with --reference and saved.",
@@ -29,7 +65,7 @@ const std::vector<CommandRow>& command_rows() {  // NOLINT(readability-function-
        rendering({{"Limits (the first one reached pauses the picture; Space goes on)", "--spp --time --target-error"}},
                  "--threads --isa --reference --gamma2 --ui-log"),
        run_view},
-      {"render", "render without a window and write images", "render SCENE -o FILE [options]",
+      {"render SCENE -o FILE [options]", "render without a window and write images",
        "Renders a scene without a window and writes the image.",
        "Examples:\n"
        "  tyndall render cornell-box -o box.png\n"
@@ -42,8 +78,8 @@ const std::vector<CommandRow>& command_rows() {  // NOLINT(readability-function-
              "--resume --watch-at --progress --quiet"},
             {"Limits (the first one reached ends the render)", "--spp --time --target-error --samples"}}),
        run_render},
-      {"sweep", "render one or two values of a scene in steps, and say which differences are real",
-       "sweep SCENE --vary POINTER=FROM:TO:STEPS -o SHEET.png [options]",
+      {"sweep SCENE --vary POINTER=FROM:TO:STEPS -o SHEET.png [options]",
+       "render one or two values of a scene in steps, and say which differences are real",
        "Renders a scene with one or two of its values in steps: a sheet of all pictures with the values\n"
        "beneath them, and a table of how far each differs from the one in the middle.\n\n"
        "All pictures have one seed, so that most of their noise is the same, and differences are several times\n"
@@ -59,8 +95,7 @@ const std::vector<CommandRow>& command_rows() {  // NOLINT(readability-function-
              "--output --csv --each --gamma2 --exr-film --region --denoise --checkpoint --fresh --progress --quiet"},
             {"Limits (the first one reached ends the picture)", "--spp --time --target-error --total-time"}}),
        run_sweep},
-      {"animate", "render the frames of a film, from keys or on a turntable",
-       "animate SCENE --frames N -o 'f/%04d.png' [options]",
+      {"animate SCENE --frames N -o 'f/%04d.png' [options]", "render the frames of a film, from keys or on a turntable",
        "Renders the frames of a film: the values that have keys in the scene's \"animation\" follow them, and\n"
        "--turntable moves the camera once around. Frames count from 0.\n\n"
        "The same command goes on where it was stopped: frames that are there stay if their scene, settings and\n"
@@ -77,9 +112,8 @@ const std::vector<CommandRow>& command_rows() {  // NOLINT(readability-function-
                    "--output --gamma2 --exr-film --region --denoise --stats --checkpoint --fresh --progress --quiet"},
                   {"Limits (the first one reached ends the frame)", "--spp --time --target-error"}}),
        run_animate},
-      {"compare",
+      {"compare IMAGE REFERENCE | IMAGE SCENE | IMAGE... --baseline DIR [options]",
        "measure how far an image is from a reference",
-       "compare IMAGE REFERENCE | IMAGE SCENE | IMAGE... --baseline DIR [options]",
        "Says how far an image is from a reference: MSE, RMSE, relMSE, PSNR, FLIP and the means.\n\n"
        "MSE and RMSE are of linear values. relMSE is the mean over pixels and channels of\n"
        "(x - ref)^2 / (ref^2 + 0.01), so it depends on the unit of radiance: the same scene with all\n"
@@ -112,9 +146,8 @@ const std::vector<CommandRow>& command_rows() {  // NOLINT(readability-function-
         {"Baseline (a folder of pictures that renders should go on looking like)",
          "--baseline --update --report --junit"}},
        run_compare},
-      {"chart",
+      {"chart SCENE -o FILE.svg [options]",
        "chart speed against accuracy: error over time of several methods",
-       "chart SCENE -o FILE.svg [options]",
        "Charts speed against accuracy: relMSE over seconds of rendering, a curve for each method, against\n"
        "a reference. Without --method: the books' method and each improvement switched on in turn. Writes\n"
        "the chart, a CSV file beside it (method,spp,seconds,relmse), and prints a table. SCENE 'all' makes\n"
@@ -125,9 +158,8 @@ const std::vector<CommandRow>& command_rows() {  // NOLINT(readability-function-
        {{usual_heading,
          "SCENE --set --include --trust --output --method --reference --budget --size --threads --progress --quiet"}},
        run_chart},
-      {"verify",
+      {"verify [NAME...] [options]",
        "check the renderer against known answers",
-       "verify [NAME...] [options]",
        "Renders pictures whose mean radiance is known, and prints a table: the expected mean, where it is\n"
        "from, the measured one, its standard error, the deviation in standard errors (z), the verdict.\n\n"
        "A case fails above |z| = 4 or if samples were rejected. The mean square of all z must be near 1:\n"
@@ -140,9 +172,8 @@ const std::vector<CommandRow>& command_rows() {  // NOLINT(readability-function-
         {"Method", "{render}"},
         {"Machine", "--threads --isa"}},
        run_verify},
-      {"merge",
+      {"merge PART... -o FILE [options]",
        "add films whose sample ranges follow each other",
-       "merge PART... -o FILE [options]",
        "Adds films whose sample ranges follow each other (see 'tyndall render --samples'). The result is,\n"
        "bit for bit, the film of one render of all the samples.",
        "Example:\n"
@@ -151,9 +182,8 @@ const std::vector<CommandRow>& command_rows() {  // NOLINT(readability-function-
        "  tyndall merge a.exr b.exr -o fog.exr -o fog.png",
        {{usual_heading, "PART --output --format --gamma2 --exr-film --denoise"}},
        run_merge},
-      {"denoise",
+      {"denoise FILM.exr -o FILE [options]",
        "filter the picture of a finished film",
-       "denoise FILM.exr -o FILE [options]",
        "Filters the picture of a finished film, and says how wrong the result still is. The film itself\n"
        "stays as it is.\n\n"
        "The samples are two independent halves, and each is filtered by itself. By comparing the halves the\n"
@@ -161,9 +191,8 @@ const std::vector<CommandRow>& command_rows() {  // NOLINT(readability-function-
        "Example:\n  tyndall denoise fog.exr -o fog-clean.png",
        {{usual_heading, "FILM.exr --output --format --gamma2 --exr-film --stats"}, {"Machine", "--threads --isa"}},
        run_denoise},
-      {"inspect",
+      {"inspect SCENE [options]",
        "say what a scene contains and which models it needs",
-       "inspect SCENE [options]",
        "Says what a scene contains and which models its kernel needs.",
        "Examples:\n"
        "  tyndall inspect showroom\n"
@@ -173,14 +202,12 @@ const std::vector<CommandRow>& command_rows() {  // NOLINT(readability-function-
        run_inspect},
       {"scenes",
        "list the built-in scenes",
-       "scenes",
        "Lists the built-in scenes. Every command takes their names in place of a file.",
        "",
        {},
        run_scenes},
-      {"convert",
+      {"convert SCENE -o FILE [options]",
        "write a scene in normal form, also from an image",
-       "convert SCENE -o FILE [options]",
        "Writes a scene in normal form (.json): every value that is not its default, keys in the format's\n"
        "order, without comments. Also gets the scene out of an image that Tyndall made.\n\n"
        "For checking elsewhere it writes the scene for pbrt-v4 (.pbrt), Mitsuba 3 (.xml) and Blender's\n"
@@ -193,7 +220,7 @@ const std::vector<CommandRow>& command_rows() {  // NOLINT(readability-function-
        {{usual_heading, "SCENE --set --include --trust --output"}},
        run_convert},
   };
-  return rows;
+  return texts;
 }
 
 }  // namespace tyndall

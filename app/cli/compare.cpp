@@ -1,14 +1,11 @@
 #include "app/check/check.h"
 #include "app/cli/requests.h"
-#include "app/files/outputs.h"
 #include "app/report/heat_map.h"
-#include "app/text/progress.h"
 #include "app/text/standard_streams.h"
 #include "core/accuracy/error.h"
 #include "core/base/text.h"
 #include "core/system/process.h"
 
-#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -30,13 +27,13 @@ std::optional<Check> check_against_scene(const CommandRequest& command) {
     const bool of_scene = command.seconds || !command.scene.overrides.empty() || !sources.include_folders.empty() ||
                           !sources.files.empty();
     check_names_picture(command.reference.string());
-    if (of_scene) throw UsageError("--time, --set, -I and further files need a scene in place of REFERENCE");
+    if (of_scene) refuse("--time, --set, -I and further files need a scene in place of REFERENCE");
     return {};
   }
-  if (command.limits.z)
-    throw UsageError(
-        "--max-z needs two pictures that know their noise; a scene in place of REFERENCE is compared within "
-        "the noise without it");
+  if (command.baseline.limits.z)
+    refuse(
+        "--max-z needs two pictures that know their noise; a scene in place of REFERENCE is compared within the noise "
+        "without it");
   CheckRequest request{command.image, command.baseline.ppm, command.scene, {}, {}};
   request.options.seconds = command.seconds.value_or(request.options.seconds);
   ProgressReport report(is_terminal(standard_error) ? ProgressStyle::automatic : ProgressStyle::none);
@@ -47,30 +44,25 @@ std::optional<Check> check_against_scene(const CommandRequest& command) {
   return check_picture(request);
 }
 
-nlohmann::ordered_json noise_json(const NoiseScores& s) {
-  return {{"z", s.z},
-          {"mean_z", s.mean_z},
-          {"difference", s.difference},
-          {"error", s.error},
-          {"block_z", s.block_z},
-          {"outlier_z", s.outlier_z},
-          {"blocks", s.blocks},
-          {"lit_blocks", s.lit_blocks},
-          {"cannot_tell", s.unclear_blocks},
-          {"outliers", s.outliers},
-          {"explained_outliers", s.explained_outliers}};
+using Json = nlohmann::ordered_json;
+
+/// The numbers that the JSON and the table both have, with what the table says of them.
+struct Score {
+  const char *key, *name, *note;
+  double value;
+};
+std::vector<Score> scores_of(const Comparison& c) {
+  return {{"mse", "MSE", "", c.error.mse},
+          {"rmse", "RMSE", "", c.error.rmse},
+          {"relmse", "relMSE", "depends on the unit of radiance", c.error.rel_mse},
+          {"psnr", "PSNR", "dB, sRGB", c.error.psnr},  // infinite for equal images: null
+          {"flip", "FLIP", "mean, 67 pixels a degree, sRGB", c.flip}};
 }
 
 std::string json_text(const Comparison& c, const BlockScores& blocks, const Findings* verdict) {
-  const auto channels = [](Vec3d v) { return nlohmann::ordered_json{v.x, v.y, v.z}; };
-  nlohmann::ordered_json json;
-  json["width"] = c.width;
-  json["height"] = c.height;
-  json["mse"] = c.error.mse;
-  json["rmse"] = c.error.rmse;
-  json["relmse"] = c.error.rel_mse;
-  json["psnr"] = c.error.psnr;  // infinite for equal images: null
-  json["flip"] = c.flip;
+  const auto channels = [](Vec3d v) { return Json{v.x, v.y, v.z}; };
+  Json json{{"width", c.width}, {"height", c.height}};
+  for (const Score& score : scores_of(c)) json[score.key] = score.value;
   json["mean_image"] = channels(c.error.mean_image);
   json["mean_reference"] = channels(c.error.mean_reference);
   json["pixels"] = {{"compared", c.flip_map.size()}, {"image", c.image_pixels}, {"reference", c.reference_pixels}};
@@ -80,36 +72,42 @@ std::string json_text(const Comparison& c, const BlockScores& blocks, const Find
                       {"worst_z", blocks.worst},
                       {"limit", blocks.maximum},
                       {"only_noise", blocks.noise()}};
-  if (c.noise) json["noise"] = noise_json(*c.noise);
+  if (const auto& s = c.noise)
+    json["noise"] = {{"z", s->z},
+                     {"mean_z", s->mean_z},
+                     {"difference", s->difference},
+                     {"error", s->error},
+                     {"block_z", s->block_z},
+                     {"outlier_z", s->outlier_z},
+                     {"blocks", s->blocks},
+                     {"lit_blocks", s->lit_blocks},
+                     {"cannot_tell", s->unclear_blocks},
+                     {"outliers", s->outliers},
+                     {"explained_outliers", s->explained_outliers}};
   json["not_finite"] = c.not_finite;
   if (verdict) json["verdict"] = verdict_json(*verdict);
   return json.dump(2) + "\n";
 }
 
-std::string blocks_text(const BlockScores& b) {
-  return fmt::format("blocks   mean z^2 {:.3g} in {} blocks of 16x16 (up to {:.3g} is noise), worst |z| {:.3g}: {}\n",
-                     b.mean_square, b.blocks, b.maximum, b.worst, b.noise() ? "only noise" : "more than noise");
-}
-
-std::string row(const char* name, double value, const char* note) {
-  const std::string line = fmt::format("{:<8} {:<13.6g} {}", name, value, note);
-  return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-}
-
-std::string table(const Comparison& c, const BlockScores& blocks) {
-  const Vec3d a = c.error.mean_image, b = c.error.mean_reference;
-  const std::string means = fmt::format(
-      "mean     image         reference\n"
-      "  red    {:<13.6g} {:.6g}\n"
-      "  green  {:<13.6g} {:.6g}\n"
-      "  blue   {:<13.6g} {:.6g}\n",
-      a.x, b.x, a.y, b.y, a.z, b.z);
+std::string table(const Comparison& c, const BlockScores& b) {
   const std::string overlap = overlap_text(c);
-  return (overlap.empty() ? "" : "pixels   " + overlap + "\n") + row("MSE", c.error.mse, "") +
-         row("RMSE", c.error.rmse, "") + row("relMSE", c.error.rel_mse, "depends on the unit of radiance") +
-         row("PSNR", c.error.psnr, "dB, sRGB") + row("FLIP", c.flip, "mean, 67 pixels a degree, sRGB") +
-         (blocks.blocks > 0 ? blocks_text(blocks) : "") + (c.noise ? "noise    " + noise_text(*c.noise) + "\n" : "") +
-         means;
+  std::string text = overlap.empty() ? "" : "pixels   " + overlap + "\n";
+  for (const Score& score : scores_of(c)) {
+    text += fmt::format("{:<8} {:<13.6g} {}", score.name, score.value, score.note);
+    text = text.substr(0, text.find_last_not_of(' ') + 1) + "\n";
+  }
+  if (b.blocks > 0)
+    text +=
+        fmt::format("blocks   mean z^2 {:.3g} in {} blocks of 16x16 (up to {:.3g} is noise), worst |z| {:.3g}: {}\n",
+                    b.mean_square, b.blocks, b.maximum, b.worst, b.noise() ? "only noise" : "more than noise");
+  if (c.noise) text += "noise    " + noise_text(*c.noise) + "\n";
+  text += "mean     image         reference\n";
+  const Vec3d x = c.error.mean_image, y = c.error.mean_reference;
+  const std::tuple<const char*, double, double> channels[] = {
+      {"red", x.x, y.x}, {"green", x.y, y.y}, {"blue", x.z, y.z}};
+  for (const auto& [name, image, reference] : channels)
+    text += fmt::format("  {:<6} {:<13.6g} {:.6g}\n", name, image, reference);
+  return text;
 }
 
 /// A line for each picture, and the reports. Returns the exit code.
@@ -161,9 +159,9 @@ int run_compare(const CommandRequest& command) {
                 {picture_name(command.image).file, picture_name(command.reference).file});
   if (!command.heatmap.empty()) check_can_write(command.heatmap);
   const std::optional<Check> check = check_against_scene(command);
-  const Comparison comparison =
-      check ? check->comparison
-            : compare_images(command.image, command.reference, command.baseline.ppm, command.limits.z.has_value());
+  const Comparison comparison = check ? check->comparison
+                                      : compare_images(command.image, command.reference, command.baseline.ppm,
+                                                       command.baseline.limits.z.has_value());
   check_gamma2(command.baseline.ppm, comparison.has_ppm);
   for (const std::string& remark : comparison.remarks) complain(remark);
   const BlockScores blocks = check ? BlockScores{} : compare_films(command);
@@ -174,7 +172,7 @@ int run_compare(const CommandRequest& command) {
   const std::string text = command.json ? json_text(comparison, blocks, check ? &check->verdict : nullptr)
                                         : table(comparison, blocks) + (check ? verdict_text(check->verdict) : "");
   whole = written_or_told([&text] { write_standard_output(text); }) && whole;
-  const std::vector<std::string> failures = too_large(comparison, command.limits);
+  const std::vector<std::string> failures = too_large(comparison, command.baseline.limits);
   for (const std::string& failure : failures) complain("check failed: " + failure);
   if (!whole) return output_failed;
   return failures.empty() ? 0 : 1;

@@ -6,11 +6,10 @@
 #include "core/base/text.h"
 #include "core/files/film_files.h"
 #include "core/render/plan.h"
-#include "core/scene/json_tree.h"
 #include "core/scene/place.h"
 #include "core/system/open_file.h"
 
-#include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include <fstream>
 #include <new>
@@ -36,8 +35,8 @@ std::string differing_film(const StoredFilm& stored, const RenderJob& job) {
   if (film.first_sample != options.first_sample)
     return fmt::format("samples from {}, expected {}", film.first_sample, options.first_sample);
   const std::uint32_t maximum = totals(film).max_taken;
-  if (job.command.samples && maximum > *options.spp)
-    return fmt::format("samples up to {}, expected {}", film.first_sample + maximum, job.command.samples->last);
+  if (job.command.sample_range && maximum > *options.spp)
+    return fmt::format("samples up to {}, expected {}", film.first_sample + maximum, job.command.sample_range->last);
   if (options.adaptive && film.planned.empty() && maximum > warm_up)
     return "an adaptive film that does not say how many samples each pixel was to get, expected one that does";
   return "";
@@ -60,7 +59,7 @@ auto read_kept(Read read, const std::string& advice) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    throw UsageError(error.what() + advice);
+    refuse("{}{}", error.what(), advice);
   }
 }
 
@@ -94,27 +93,29 @@ void spare_unfinished(const std::vector<std::filesystem::path>& outputs, const s
     } catch (const ImageFileError&) {
       continue;  // no film
     }
-    throw UsageError(file.string() + ": found an unfinished film, expected it to be the first .exr output, which is " +
-                     "gone on with; --fresh replaces it");
+    refuse(
+        "{}: found an unfinished film, expected it to be the first .exr output, which is gone on with; --fresh "
+        "replaces it",
+        file.string());
   }
 }
 
-void start_with(StoredFilm stored, const RenderJob& job, RenderStart& start) {
+void start_with(StoredFilm stored, RenderJob& job) {
   const CommandRequest& command = job.command;
   const std::uint32_t taken = labelled_spp(stored.part.film), requested = *job.options.spp;
   const std::string name = (command.resume ? "--resume" : stored.part.name) + ": ";
   const std::uint32_t maximum = job.options.adaptive ? taken : totals(stored.part.film).max_taken;
   const std::string range = (maximum > taken ? std::to_string(taken) + " to " : "") + text_of_samples(maximum);
   if (maximum > requested)
-    start.note = name + "the film has " + range + " already, more than the " + std::to_string(requested) +
-                 " asked for; " + (taken < requested ? "all pixels get as many" : "it is written as it is");
+    job.note = fmt::format("{}the film has {} already, more than the {} asked for; {}", name, range, requested,
+                           taken < requested ? "all pixels get as many" : "it is written as it is");
   else if (taken == requested)
-    start.note = stored.part.name + ": already complete: " + text_of_samples(taken);
+    job.note = stored.part.name + ": already complete: " + text_of_samples(taken);
   else if (!command.resume)
-    start.note = name + "goes on from the film's " + text_of_samples(taken);
-  start.as_requested = taken == requested && !stored.label.unfinished && command.outputs.size() == 1 &&
-                       command.stats.empty() && !command.denoise && stored.scene.display == job.loaded.scene.display;
-  start.film = std::move(stored.part.film);
+    job.note = name + "goes on from the film's " + text_of_samples(taken);
+  job.complete = taken == requested && !stored.label.unfinished && command.outputs.size() == 1 &&
+                 command.stats.empty() && !command.clean && stored.scene.display == job.loaded.scene.display;
+  job.begin = std::move(stored.part.film);
 }
 
 /// The film in `file`, if it is to be gone on with.
@@ -123,94 +124,98 @@ std::optional<StoredFilm> find_film(const std::filesystem::path& file, const Ren
   std::error_code error;
   const bool exists = std::filesystem::exists(file, error);
   if (resume && !exists)
-    throw UsageError("--resume: found no file " + in_quotes(file.string()) +
-                     ", expected a film to go on from; without --resume the render starts anew");
-  const std::string advice = std::string("; --fresh") + (resume ? " in place of --resume" : "") + " starts over";
+    refuse("--resume: found no file {}, expected a film to go on from; without --resume the render starts anew",
+           in_quotes(file.string()));
+  const std::string advice = resume ? "; --fresh in place of --resume starts over" : "; --fresh starts over";
   if (!exists || (!resume && !invites(file, job, advice))) return {};
   StoredFilm stored = read_kept([&file] { return read_stored_film(file); }, advice);
   const std::string found = differing_film(stored, job);
   if (!found.empty() && !resume && !stored.label.unfinished) return {};
-  if (!found.empty()) throw UsageError(file.string() + ": found " + found + advice);
+  if (!found.empty()) refuse("{}: found {}{}", file.string(), found, advice);
   tell_contents(stored);
   return stored;
 }
 
 constexpr const char* remedy = "; --fresh replaces it";
 
-int whole_number(const JsonValue* value) {
-  const auto* number = value ? std::get_if<double>(&value->value) : nullptr;
-  return number ? static_cast<int>(*number) : 0;
+using Json = nlohmann::ordered_json;
+
+/// A figure that a picture carries; `otherwise` where it does not, or has something else in its place.
+template <class T>
+T figure(const Json& figures, const char* name, T otherwise) {
+  try {
+    return figures.value(name, otherwise);
+  } catch (const Json::exception&) {
+    return otherwise;
+  }
 }
 
 /// The frame of a film that a picture without a film would have been made from, by the figures that it carries.
-StoredFilm described_film(const std::filesystem::path& file, const JsonValue& stats) {
+StoredFilm described_film(const std::filesystem::path& file, const Json& figures) {
   const LoadedScene loaded = load_scene(("./" / file).string());
   StoredFilm film{{file.string(), {}}, loaded.scene, {}, contents_remark(loaded)};
-  if (const JsonValue* region = find(&stats, "region"))
-    if (const auto* numbers = std::get_if<JsonArray>(&region->value); numbers && numbers->size() == 4)
-      film.part.film.region = {whole_number(&(*numbers)[0]), whole_number(&(*numbers)[1]), whole_number(&(*numbers)[2]),
-                               whole_number(&(*numbers)[3])};
-  film.part.film.first_sample = static_cast<std::uint32_t>(whole_number(find(&stats, "first_sample")));
-  film.label = {text_of(find(&stats, "version")), text_of(find(&stats, "isa")), false, loaded.contents.value_or("")};
+  const auto region = figure(figures, "region", std::vector<int>());
+  if (region.size() == 4) film.part.film.region = {region[0], region[1], region[2], region[3]};
+  film.part.film.first_sample = figure(figures, "first_sample", 0u);
+  film.label = {figure(figures, "version", std::string()), figure(figures, "isa", std::string()), false,
+                loaded.contents.value_or("")};
   return film;
 }
 
 /// How a finished picture differs from the one that the job makes, as "found X, expected Y" without "found".
-std::string differing_picture(const StoredFilm& stored, const JsonValue& stats, const RenderJob& job, bool shown) {
+std::string differing_picture(const StoredFilm& stored, const Json& figures, const RenderJob& job, bool shown) {
   const CommandRequest& command = job.command;
   const std::uint32_t found = static_cast<std::uint32_t>(stored.scene.render.spp.value_or(0)),
                       wanted = *job.options.spp;
   const bool counted = wanted < max_samples && command.target_error == 0 && !(command.time_limit < 1e300);
   if (counted && (job.options.adaptive ? found > wanted : found != wanted))
     return fmt::format("{} samples a pixel, expected {}", found, wanted);
-  const JsonValue* denoised = find(&stats, "denoised");
-  const auto* clean = denoised ? std::get_if<bool>(&denoised->value) : nullptr;
-  if (clean && *clean != command.denoise)
-    return *clean ? "a filtered picture, expected one without --denoise"
-                  : "an unfiltered picture, expected a filtered one";
+  if (figure(figures, "denoised", command.clean) != command.clean)
+    return command.clean ? "an unfiltered picture, expected a filtered one"
+                         : "a filtered picture, expected one without --denoise";
   if (shown && !(stored.scene.display == job.loaded.scene.display))
     return "a picture of another exposure or tone map, expected those of this command";
   return "";
 }
 
-JsonDocument figures_in(const std::filesystem::path& file) {
-  try {
-    return parse_json(read_embedded_stats(file).value_or("{}"));
-  } catch (const ParseError&) {
-    throw UsageError(file.string() + ": found a picture whose figures cannot be read, expected one of this command");
-  }
-}
-
 PictureState look(const std::filesystem::path& file, const RenderJob& job) {
   const auto label = is_exr(file) ? read_film_label(file) : std::nullopt;
-  const JsonDocument stats = figures_in(file);
-  const StoredFilm stored = label ? read_stored_frame(file) : described_film(file, stats.root);
+  const Json figures = Json::parse(read_embedded_stats(file).value_or("{}"), nullptr, false);
+  if (figures.is_discarded())
+    refuse("{}: found a picture whose figures cannot be read, expected one of this command", file.string());
+  const StoredFilm stored = label ? read_stored_frame(file) : described_film(file, figures);
   const bool unfinished = label && label->unfinished;
   std::string found = differing_film(stored, job);
-  if (found.empty() && !unfinished) found = differing_picture(stored, stats.root, job, !is_exr(file));
-  if (!found.empty()) throw UsageError(file.string() + ": found " + found);
+  if (found.empty() && !unfinished) found = differing_picture(stored, figures, job, !is_exr(file));
+  if (!found.empty()) refuse("{}: found {}", file.string(), found);
   tell_contents(stored);
   return unfinished ? PictureState::unfinished : PictureState::whole;
 }
 
 }  // namespace
 
-RenderStart find_start(const RenderJob& job) {
+void find_start(RenderJob& job) {
   const CommandRequest& command = job.command;
-  RenderStart start;
-  start.place = film_place(command.outputs, command.form);
-  const FilmPlace& place = start.place;
-  if (command.resume && place.output.empty())
-    throw UsageError("--resume needs an output that ends in .exr, and --exr-film yes");
-  if (command.fresh) return start;
+  const FilmPlace& place = job.place = film_place(command.outputs, command.form);
+  if (command.resume && place.output.empty()) refuse("--resume needs an output that ends in .exr, and --exr-film yes");
+  if (command.fresh) return;
   std::error_code error;
   const bool apart = !place.beside().empty() && std::filesystem::exists(place.beside(), error);
   const std::filesystem::path& file = apart ? place.unfinished : place.output;
   std::optional<StoredFilm> stored;
   if (!file.empty()) stored = find_film(file, job);
   spare_unfinished(command.outputs, place.output, stored ? &*stored : nullptr);
-  if (stored) start_with(std::move(*stored), job, start);
-  return start;
+  if (stored) start_with(std::move(*stored), job);
+}
+
+PictureTask task_of(const RenderJob& job, const std::function<PictureState(const std::filesystem::path& file)>& look) {
+  PictureTask task;
+  for (const std::filesystem::path& file : job.command.outputs) {
+    const bool whole = !job.command.fresh && look(file) == PictureState::whole;
+    if (!whole) task.outputs.push_back(file);
+    if (whole && task.film.empty() && is_exr(file) && read_film_label(file)) task.film = file;
+  }
+  return task;
 }
 
 PictureState look_at_picture(const std::filesystem::path& file, const RenderJob& job) {
@@ -251,11 +256,11 @@ PictureState look_at_list(const std::filesystem::path& file, const FrameList& li
   if (!std::filesystem::exists(file, error)) return PictureState::nothing;
   const FrameList::Entry* entry = list.find(frame);
   if (!entry)
-    throw UsageError(file.string() + ": found a file of which " + list.file().string() +
-                     " does not say what it is, expected none or a frame of this command" + remedy);
+    refuse("{}: found a file of which {} does not say what it is, expected none or a frame of this command{}",
+           file.string(), list.file().string(), remedy);
   if (entry->mark != mark)
-    throw UsageError(file.string() + ": found a frame of another scene, other settings or another version (" +
-                     list.file().string() + "), expected one of this command" + remedy);
+    refuse("{}: found a frame of another scene, other settings or another version ({}), expected one of this command{}",
+           file.string(), list.file().string(), remedy);
   return entry->whole ? PictureState::whole : PictureState::nothing;
 }
 
@@ -266,7 +271,7 @@ std::string picture_mark(const RenderJob& job) {
   scene.render.spp.reset();
   return hash_text(
       fnv1a(fmt::format("{} {} {} {} {} {} {} {} ", TYNDALL_VERSION, job.kernels.isa, *job.options.spp, c.time_limit,
-                        c.target_error, region_text(*job.options.region), c.denoise, static_cast<int>(c.form.ppm)) +
+                        c.target_error, region_text(*job.options.region), c.clean, static_cast<int>(c.form.ppm)) +
             write_scene(scene) + contents_hash(scene)));
 }
 

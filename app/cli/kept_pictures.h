@@ -1,9 +1,11 @@
 #pragma once
-#include "app/cli/render_setup.h"
+#include "app/cli/pictures.h"
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 /// What an earlier run has left of the pictures that a command is to make, so that a killed one goes on.
 namespace tyndall {
@@ -13,9 +15,17 @@ namespace tyndall {
 /// UsageError where --resume finds no film that fits, and for an unfinished one that does not fit: it says what
 /// differs; likewise for unfinished ones in further outputs. Any other file is replaced in the end. Here and below the
 /// job has been set up.
-RenderStart find_start(const RenderJob& job);
+void find_start(RenderJob& job);
 
 enum class PictureState { nothing, unfinished, whole };
+
+/// What is left to do for a picture of which an earlier run may have written some files.
+struct PictureTask {
+  std::vector<std::filesystem::path> outputs;  ///< files that are not whole
+  std::filesystem::path film;                  ///< the first whole file that holds its film; empty: none does
+};
+/// look: what there is of each output, which is not asked with --fresh.
+PictureTask task_of(const RenderJob& job, const std::function<PictureState(const std::filesystem::path& file)>& look);
 
 /// What there is of a job's picture in a PNG or EXR. Throws UsageError if the file is of something else: it holds no
 /// picture of the same scene, settings and version.

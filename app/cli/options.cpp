@@ -2,7 +2,6 @@
 #include "app/check/check.h"
 #include "app/cli/option_rows.h"
 #include "app/text/standard_streams.h"
-#include "app/text/values.h"
 #include "core/base/text.h"
 #include "core/render/clean_film.h"
 
@@ -18,8 +17,6 @@ using Text = const std::string&;
 using Arguments = const std::vector<std::string>&;
 using Request = const CommandRequest&;
 
-std::string see_help(Request request) { return " (see tyndall " + request.command + " --help)"; }
-
 /// A program may have further source files; nothing else takes more words than one.
 void take_scene(CommandRequest& request, std::size_t at) {
   if (request.operands.size() <= at) return;
@@ -28,7 +25,7 @@ void take_scene(CommandRequest& request, std::size_t at) {
   request.scene.program.differs = differs_from_own;
   for (std::size_t k = at + 1; k < request.operands.size(); ++k) {
     if (!is_program(request.operands[at]) || !is_program(request.operands[k]))
-      throw UsageError("unexpected argument " + in_quotes(request.operands[k]) + see_help(request));
+      refuse("unexpected argument {}{}", in_quotes(request.operands[k]), see_help(request.command));
     request.scene.program.sources.files.emplace_back(request.operands[k]);
   }
 }
@@ -52,7 +49,7 @@ constexpr Need required[] = {
     {"sweep", [](Request r) { return !r.axes.empty(); }, "a value to vary (--vary POINTER=FROM:TO:STEPS)"},
     {"sweep", [](Request r) { return !r.sheet.empty() || !r.csv.empty() || has_outputs(r); },
      "an output (-o SHEET.png)"},
-    {"animate", has_outputs, "an output (-o 'f/%04d.png')"},
+    {"animate", [](Request r) { return has_outputs(r) || !r.video.empty(); }, "an output (-o 'f/%04d.png')"},
     {"compare", has_operands, "IMAGE"},
     {"compare", [](Request r) { return has_baseline(r) || r.operands.size() > 1; }, "REFERENCE"},
     {"chart", has_output, "an output (-o FILE.svg)"},
@@ -79,56 +76,26 @@ constexpr std::pair<bool (*)(Request), const char*> conflicts[] = {
      "--replay and --gamma2 exclude each other: a replay writes no image"},
     {[](Request r) { return r.replay && r.viewer; },
      "--replay and --watch-at exclude each other: a replay shows no image"},
-    {[](Request r) { return r.denoise && r.spp && *r.spp < min_clean_spp; },
+    {[](Request r) { return r.clean && r.spp && *r.spp < min_clean_spp; },
      "--denoise: found --spp 1, expected at least 2 samples a pixel"},
     {[](Request r) { return r.fresh && r.resume; },
      "--fresh and --resume exclude each other: one starts over, one goes on"},
     {[](Request r) { return r.checkpoint > 0 && kept_film(r.outputs, r.form).empty(); },
      "--checkpoint needs an output that ends in .exr, and --exr-film yes"},
-    {[](Request r) { return r.samples && r.denoise; },
+    {[](Request r) { return r.sample_range && r.clean; },
      "--samples and --denoise exclude each other: a part is filtered when it is merged"},
-    {[](Request r) { return r.samples && r.spp; },
+    {[](Request r) { return r.sample_range && r.spp; },
      "--samples and --spp exclude each other: --samples says which samples to take"},
-    {[](Request r) { return r.samples && r.time_limit < 1e300; },
+    {[](Request r) { return r.sample_range && r.time_limit < 1e300; },
      "--samples and --time exclude each other: --samples says which samples to take"},
-    {[](Request r) { return r.samples && r.target_error > 0; },
+    {[](Request r) { return r.sample_range && r.target_error > 0; },
      "--samples and --target-error exclude each other: --samples says which samples to take"},
 };
-
-/// Reads the name of a file that stands for many, for the message "--output: found X, expected Y".
-void check_numbered(const char* option, const std::string& name) {
-  try {
-    read_numbered_name(name);
-  } catch (const UsageError& error) {
-    throw UsageError(std::string(option) + ": " + error.what());
-  }
-}
-
-/// Takes the video out of the outputs, and checks the names of the others.
-void finish_animate(CommandRequest& request) {
-  std::vector<std::filesystem::path> pictures;
-  for (const std::filesystem::path& file : request.outputs) {
-    if (file != "-" && lower_case(file.extension().string()) != ".y4m") {
-      check_numbered("--output", file.string());
-      pictures.push_back(file);
-      continue;
-    }
-    if (!request.video.empty()) throw UsageError("--output: found two films, expected one .y4m or -");
-    request.video = file;
-  }
-  request.outputs = std::move(pictures);
-  if (!request.stats.empty()) check_numbered("--stats", request.stats.string());
-}
 
 /// Puts the images where they belong.
 void finish_compare(CommandRequest& request) {
   const std::vector<std::string>& images = request.operands;
-  request.baseline.ppm = request.form.ppm;
-  if (has_baseline(request)) {
-    request.baseline.images.assign(images.begin(), images.end());
-    request.baseline.limits = request.limits;
-    return;
-  }
+  if (has_baseline(request)) return request.baseline.images.assign(images.begin(), images.end());
   take_scene(request, 1);
   request.image = images[0] == "-" ? "/dev/stdin" : images[0];
   request.reference = images[1];
@@ -140,44 +107,24 @@ void finish(CommandRequest& request) {
   if (of_scenes.find(name) != of_scenes.npos) take_scene(request, 0);
   for (const Need& need : required)
     if (need.commands.find(name) != need.commands.npos && !need.given(request))
-      throw UsageError(need.what + std::string(" is missing") + see_help(request));
-  if (name == "animate") finish_animate(request);
+      refuse("{} is missing{}", need.what, see_help(request.command));
   if (name == "compare") finish_compare(request);
   if (name == "chart" && request.scene.what != "all") read_file_name(request.output.string(), ".svg");
-  if (request.axes.size() > 2)
-    throw UsageError("--vary: found it " + std::to_string(request.axes.size()) + " times, expected it once or twice");
+  const std::vector<SweepAxis>& axes = request.axes;
+  if (axes.size() > 2) refuse("--vary: found it {} times, expected it once or twice", axes.size());
+  if (axes.size() == 2 && axes[0].pointer == axes[1].pointer)
+    refuse("--vary: found {} twice, expected two values", in_quotes(axes[0].pointer));
   for (const auto& [found, text] : conflicts)
-    if (found(request)) throw UsageError(text);
+    if (found(request)) refuse("{}", text);
 }
 
-void add_group(CLI::App& app, const OptionGroup& group, CommandRequest& request) {
-  app.option_defaults()->group(group.heading);
-  std::istringstream names(group.options);
-  for (std::string name; names >> name;) {
-    if (name == "{display}") {
-      add_settings(app, request.scene.display);
-    } else if (name == "{render}") {
-      add_settings(app, request.scene.render, {"spp", request.command == "verify" ? "adaptive" : ""});
-    } else {
-      std::replace(name.begin(), name.end(), '_', ' ');
-      const OptionRow& row = option_row(name, request.command);
-      const auto take = [&](Text text) { row.taker.take(request, text); };
-      add_option(app, row.names, row.unit, row.help, take, row.taker.takes, row.taker.choices);
-    }
-  }
-}
-
-Command read(const CommandRow& row, Arguments arguments) {
+Command read(const CommandText& text, Arguments arguments) {
   CommandRequest request;
-  request.command = row.name;
+  request.command = text.name();
+  request.run = text.run;
   request.arguments = arguments;
   if (request.command != "view") request.scene.what.clear();
-  const auto app = new_command(row.usage, row.about, row.examples);
-  for (const OptionGroup& group : row.groups) add_group(*app, group, request);
-  if (auto help = parse(*app, arguments)) {
-    help->page.summary = row.summary;
-    return *help;
-  }
+  if (auto help = parse(command_row(text), arguments, request)) return PrintCommand{*help};
   finish(request);
   return request;
 }
@@ -186,8 +133,8 @@ std::string overview() {
   std::string text =
       "Tyndall: an interactive, progressive path tracer for glass, brushed metal and fog.\n"
       "Usage: tyndall [SCENE] | tyndall COMMAND [options]\n\nCommands:\n";
-  for (const CommandRow& row : command_rows())
-    text += "  " + std::string(row.name) + std::string(10 - std::string(row.name).size(), ' ') + row.summary + "\n";
+  for (const CommandText& command : command_texts())
+    text += fmt::format("  {:<10}{}\n", command.name(), command.summary);
   return text +
          "\nOptions:\n"
          "  -h, --help    show this text; 'tyndall COMMAND --help' shows that of a command\n"
@@ -200,65 +147,63 @@ std::string overview() {
 /// Throws if a word that was not taken for a command must have been meant as one.
 void refuse_misspelt_command(Text argument, bool alone) {
   std::vector<std::string> names;
-  for (const CommandRow& row : command_rows()) names.emplace_back(row.name);
+  for (const CommandText& command : command_texts()) names.push_back(command.name());
   const std::string hint = did_you_mean(argument, {names.begin(), names.end()});
   if ((hint.empty() && alone) || argument[0] == '-' || argument.find_first_of("./") != std::string::npos) return;
   std::error_code error;
   if (hint.empty() || std::filesystem::exists(argument, error)) return;
-  throw UsageError("unknown command " + in_quotes(argument) + hint);
+  refuse("unknown command {}{}", in_quotes(argument), hint);
 }
 
 /// Throws if the first word must have been meant as an option of the program itself.
 void refuse_misspelt_option(Text argument) {
   if (argument.size() < 3 || argument[0] != '-') return;
   const std::string hint = did_you_mean(argument, {"--version", "--help"});
-  if (!hint.empty()) throw UsageError("unknown option " + in_quotes(argument) + hint + " (see tyndall --help)");
+  if (!hint.empty()) refuse("unknown option {}{} (see tyndall --help)", in_quotes(argument), hint);
 }
 
 Command read_help(Arguments arguments) {
-  if (arguments.empty()) return PrintCommand{overview(), {}};
-  std::string (*const writers[])(const std::vector<CommandPage>&) = {man_page, bash_completion, zsh_completion,
-                                                                     fish_completion};
+  if (arguments.empty()) return PrintCommand{overview()};
+  constexpr std::string (*writers[])(const std::vector<CommandRow>&) = {man_page, bash_completion, zsh_completion,
+                                                                        fish_completion};
   const std::size_t form = read_name(arguments[0], {"man", "bash", "zsh", "fish"});
-  std::vector<CommandPage> pages;
-  for (const CommandRow& row : command_rows()) pages.push_back(std::get<PrintCommand>(read(row, {"--help"})).page);
-  return PrintCommand{writers[form](pages), {}};
+  std::vector<CommandRow> rows;
+  for (const CommandText& command : command_texts()) rows.push_back(command_row(command));
+  return PrintCommand{writers[form](rows)};
 }
 
 }  // namespace
 
-/// NAME=FLAGS, e.g. "no MIS=--integrator nee --isa avx2".
 CommandRequest read_method(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals == std::string::npos)
-    throw UsageError("found \"" + text + "\", expected NAME=FLAGS, e.g. 'no MIS=--integrator nee'");
+    refuse("found \"{}\", expected NAME=FLAGS, e.g. 'no MIS=--integrator nee'", text);
   CommandRequest method;
   method.curve = text.substr(0, equals);
   std::istringstream stream(text.substr(equals + 1));
   std::vector<std::string> arguments;
   for (std::string argument; stream >> argument;) arguments.push_back(argument);
-  const auto app = new_command("--method NAME=FLAGS", "One curve of a chart.");
-  add_group(*app, {"Method", "{render} --isa"}, method);
-  if (parse(*app, arguments)) throw UsageError("found a question for help, expected flags of a method");
+  const CommandText command{"--method NAME=FLAGS", "", "One curve of a chart.", "", {{"Method", "{render} --isa"}}, {}};
+  if (parse(command_row(command), arguments, method)) refuse("found a question for help, expected flags of a method");
   return method;
 }
 
 Command read_command(const std::vector<std::string>& arguments) {
-  const std::vector<CommandRow>& rows = command_rows();
-  if (arguments.empty()) return read(rows.front(), {});
+  const std::vector<CommandText>& commands = command_texts();
+  if (arguments.empty()) return read(commands.front(), {});
   const std::string& first = arguments.front();
-  if (first == "-h" || first == "--help") return PrintCommand{overview(), {}};
+  if (first == "-h" || first == "--help") return PrintCommand{overview()};
   if (first == "help") return read_help({arguments.begin() + 1, arguments.end()});
-  if (first == "-V" || first == "--version" || first == "version") return PrintCommand{version_text(), {}};
-  for (const CommandRow& row : rows)
-    if (first == row.name) return read(row, {arguments.begin() + 1, arguments.end()});
+  if (first == "-V" || first == "--version" || first == "version") return PrintCommand{version_text()};
+  for (const CommandText& command : commands)
+    if (first == command.name()) return read(command, {arguments.begin() + 1, arguments.end()});
   if (first == "book" && !std::filesystem::exists(first))
-    throw UsageError(
+    refuse(
         "book: the folder of headers is gone: programs are read with their own; in place of a build by hand: tyndall "
         "main.cc, tyndall render main.cc -o picture.exr, or ./mine | tyndall view -");
   refuse_misspelt_command(first, arguments.size() == 1);
   if (arguments.size() == 1) refuse_misspelt_option(first);
-  return read(rows.front(), arguments);
+  return read(commands.front(), arguments);
 }
 
 int run(const Command& command) {
@@ -267,9 +212,7 @@ int run(const Command& command) {
     return 0;
   }
   const auto& request = std::get<CommandRequest>(command);
-  for (const CommandRow& row : command_rows())
-    if (request.command == row.name) return row.run(request);
-  return 0;
+  return request.run(request);
 }
 
 }  // namespace tyndall

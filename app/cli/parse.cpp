@@ -1,129 +1,92 @@
-#include "app/cli/setting_options.h"
-
+#include "app/cli/option_rows.h"
 #include "core/base/text.h"
+
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 
+/// What Tyndall's commands add to CLI11: values that are read by functions which say what they expected, so that every
+/// refusal reads alike ("--size: found "8", expected WIDTHxHEIGHT ..."), suggestions, and a usage line of our own.
 namespace tyndall {
 namespace {
 
-class HelpFormatter : public CLI::Formatter {
- public:
-  explicit HelpFormatter(std::string usage) : usage_(std::move(usage)) {
-    column_width(30);
-    label("Positionals", "Arguments");
-  }
-  std::string make_usage(const CLI::App*, std::string) const override { return "\nUsage: tyndall " + usage_ + "\n"; }
-  const std::string& usage() const { return usage_; }
-  /// CLI11 puts two empty lines between groups.
-  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
-    std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
-    for (auto at = text.find("\n\n\n"); at != std::string::npos; at = text.find("\n\n\n")) text.erase(at, 1);
-    return text;
-  }
-
- private:
-  std::string usage_;
-};
-
-std::string see_help(const CLI::App& app) { return " (see " + app.get_name() + " --help)"; }
-
-/// A reader that puts the option's name before what it complains about.
-Reader named(const std::string& names, Reader read) {
-  return [name = names.substr(names.find("--")), read = std::move(read)](const std::string& text) {
+void add_option(CLI::App& app, const OptionRow& row, CommandRequest& request) {
+  const auto take = [&](const std::string& text) {
     try {
-      read(text);
+      row.taker.take(request, text);
     } catch (const UsageError& error) {
-      throw UsageError(name + ": " + error.what());
+      if (row.taker.takes == Takes::flag || row.names[0] != '-') throw;
+      refuse("{}: {}", row.names.substr(row.names.find("--")), error.what());
     }
   };
+  app.option_defaults()->group(row.heading);
+  if (row.taker.takes == Takes::flag) {
+    app.add_flag_callback(
+        row.names, [take] { take("on"); }, row.help);
+    return;
+  }
+  const bool many = row.taker.takes == Takes::each;
+  const auto each = [take](const std::vector<std::string>& texts) { std::for_each(texts.begin(), texts.end(), take); };
+  CLI::Option* option = many ? app.add_option_function<std::vector<std::string>>(row.names, each, row.help)
+                             : app.add_option_function<std::string>(row.names, take, row.help);
+  option->option_text(row.unit);
+  if (many) option->take_all();
+  if (row.names[0] == '-') option->allow_extra_args(false);
 }
 
-std::vector<std::string> split(const std::string& text, char separator) {
-  return text.empty() ? std::vector<std::string>() : CLI::detail::split(text, separator);
-}
-
-OptionPage page_of(const CLI::Option& option) {
-  OptionPage page{
-      {}, option.get_group(), option.get_option_text(), split(option.get_type_name(), '|'), option.get_description()};
-  for (const std::string& name : option.get_snames()) page.names.push_back("-" + name);
-  for (const std::string& name : option.get_lnames()) page.names.push_back("--" + name);
-  if (page.names.empty()) page.names = {option.get_name()};
-  if (page.choices.empty() && page.unit.find('|') != std::string::npos) page.choices = split(page.unit, '|');
-  if (page.unit == " " || option.get_expected_min() == 0) page.unit.clear();
-  return page;
-}
-
-CommandPage page_of(const CLI::App& app) {
-  const std::string name = app.get_name().substr(app.get_name().find(' ') + 1);
-  const auto formatter = std::static_pointer_cast<HelpFormatter>(app.get_formatter());
-  CommandPage page{name, {}, formatter->usage(), app.get_description(), app.get_footer(), {}, {}};
-  for (const CLI::Option* option : app.get_options())
-    (option->get_positional() ? page.arguments : page.options).push_back(page_of(*option));
-  return page;
+std::string help_text(const CLI::App& app, const CommandRow& command) {
+  CLI::Formatter formatter;
+  formatter.column_width(30);
+  formatter.label("Positionals", "Arguments");
+  std::string text = command.about + "\n\nUsage: tyndall " + command.usage + "\n" + formatter.make_positionals(&app) +
+                     formatter.make_groups(&app, CLI::AppFormatMode::Normal) + "\n" + formatter.make_footer(&app);
+  // CLI11 puts two empty lines between groups.
+  for (auto at = text.find("\n\n\n"); at != std::string::npos; at = text.find("\n\n\n")) text.erase(at, 1);
+  return text;
 }
 
 /// Throws for the first word that is neither option nor argument.
-void refuse_extras(const CLI::App& app) {
+void refuse_extras(const CLI::App& app, const std::string& see) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   for (const std::string& argument : app.remaining()) {
     if (argument == "--") continue;  // words after this are no options
-    if (argument.size() < 2 || argument[0] != '-')
-      throw UsageError("unexpected argument " + in_quotes(argument) + see_help(app));
+    if (argument.size() < 2 || argument[0] != '-') refuse("unexpected argument {}{}", in_quotes(argument), see);
     const std::string name = argument.substr(0, argument.find('='));
-    throw UsageError("unknown option " + in_quotes(name) + did_you_mean(name, {names.begin(), names.end()}) +
-                     see_help(app));
+    refuse("unknown option {}{}{}", in_quotes(name), did_you_mean(name, {names.begin(), names.end()}), see);
   }
 }
 
 }  // namespace
 
-std::unique_ptr<CLI::App> new_command(const std::string& usage, const std::string& about, const std::string& examples) {
-  auto app = std::make_unique<CLI::App>(about, "tyndall " + usage.substr(0, usage.find(' ')));
-  app->formatter(std::make_shared<HelpFormatter>(usage));
-  app->set_help_flag("-h,--help", "show this text");
-  app->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  app->allow_extras();  // parse() refuses them with a suggestion
-  app->footer(examples);
-  return app;
-}
+std::string see_help(std::string_view command) { return " (see tyndall " + std::string(command) + " --help)"; }
 
-void add_option(CLI::App& app, const std::string& names, const std::string& unit, const std::string& help, Reader read,
-                Takes takes, const std::vector<std::string>& choices) {
-  if (takes == Takes::flag) {
-    app.add_flag_callback(
-        names, [read = std::move(read)] { read(""); }, help);
-    return;
-  }
-  const bool argument = names[0] != '-';
-  if (!argument) read = named(names, std::move(read));
-  const auto each = [read](const std::vector<std::string>& texts) {
-    for (const std::string& text : texts) read(text);
-  };
-  CLI::Option* option = takes == Takes::each ? app.add_option_function<std::vector<std::string>>(names, each, help)
-                                             : app.add_option_function<std::string>(names, read, help);
-  option->option_text(unit)->type_name(CLI::detail::join(choices, "|"));  // the help shows the unit alone
-  if (takes == Takes::each) option->take_all();
-  if (!argument) option->allow_extra_args(false);
-}
-
-std::optional<PrintCommand> parse(CLI::App& app, std::vector<std::string> arguments) {
+std::optional<std::string> parse(const CommandRow& command, std::vector<std::string> arguments,
+                                 CommandRequest& request) {
+  CLI::App app;
+  app.set_help_flag("-h,--help", command.options.front().help);
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  app.allow_extras();  // they are refused below, with a suggestion
+  app.footer(command.examples);
+  for (const OptionRow& row : command.arguments) add_option(app, row, request);
+  for (const OptionRow& row : command.options)
+    if (row.taker.take) add_option(app, row, request);
+  const std::string see = see_help(command.name);
   std::reverse(arguments.begin(), arguments.end());  // what CLI11 expects
   try {
     app.parse(arguments);
   } catch (const CLI::CallForHelp&) {
-    return PrintCommand{app.help(), page_of(app)};
+    return help_text(app, command);
   } catch (const CLI::ArgumentMismatch& error) {
     const std::string text = error.what();
-    throw UsageError(text.substr(0, text.find(':')) + ": a value is missing" + see_help(app));
+    refuse("{}: a value is missing{}", text.substr(0, text.find(':')), see);
   } catch (const CLI::ParseError& error) {
     std::string text = error.what();
     std::replace(text.begin(), text.end(), '\n', ' ');
-    throw UsageError(text + see_help(app));
+    refuse("{}{}", text, see);
   }
-  refuse_extras(app);
+  refuse_extras(app, see);
   return std::nullopt;
 }
 

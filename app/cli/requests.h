@@ -3,9 +3,11 @@
 #include "app/files/open_scene.h"
 #include "app/files/outputs.h"
 #include "app/files/viewer_stream.h"
-#include "app/manual/page.h"
 #include "app/text/progress.h"
 #include "app/text/values.h"
+#include "core/render/render.h"
+
+#include <fmt/core.h>
 
 #include <filesystem>
 #include <limits>
@@ -17,28 +19,24 @@
 /// What the user asked for, which only read_command() makes, and the commands that do it.
 namespace tyndall {
 
-/// All that options and arguments can say. Each command reads the part that its options fill.
-struct CommandRequest {
-  std::string command;                 ///< "render"
-  std::vector<std::string> arguments;  ///< as the user typed them
-  std::vector<std::string> operands;   ///< those of them that are neither options nor a scene
+/// All that options and arguments can say. Each command reads the part that its options fill. What the options of a
+/// render say beside that, such as its first sample, follows from the scene: see set_up().
+struct CommandRequest : RenderOptions {
+  std::string command;                          ///< "render"
+  int (*run)(const CommandRequest&) = nullptr;  ///< what does it
+  std::vector<std::string> arguments;           ///< as the user typed them
+  std::vector<std::string> operands;            ///< those of them that are neither options nor a scene
   SceneRequest scene;
 
   // Pictures and how they are rendered.
   std::vector<std::filesystem::path> outputs;  ///< of sweep and animate: names with %v or %d in them
   ImageForm form;
-  std::optional<std::uint32_t> spp;
-  std::optional<SampleRange> samples;
-  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds; in the window the picture pauses there
-  double target_error = 0;                                      ///< 0: none
-  std::optional<Region> region;
+  std::optional<SampleRange> sample_range;
   std::optional<int> frame;          ///< of the scene's animation; absent: the scene without keys
   std::optional<SampleKey> replay;   ///< print this sample's path instead of rendering
-  int threads = 0;                   ///< 0: see thread_count()
-  std::string isa;                   ///< "": the best
   std::filesystem::path stats;       ///< empty: none
   std::optional<double> checkpoint;  ///< seconds, 0: never; absent: see checkpoint.h
-  bool fresh = false, resume = false, denoise = false;
+  bool fresh = false, resume = false;
   ProgressStyle progress = ProgressStyle::automatic;
   std::optional<ViewerAddress> viewer;  ///< that is shown the picture
 
@@ -52,11 +50,10 @@ struct CommandRequest {
   double total_time = std::numeric_limits<double>::infinity();  ///< seconds for all pictures
 
   // Of animate.
-  std::filesystem::path video;                    ///< .y4m, "-": standard output; empty: none
-  std::optional<int> frames;                      ///< absent: as many as the scene says
-  std::optional<FrameRange> range;                ///< absent: all
-  bool turntable = false, seed_per_frame = true;  ///< see FramePlan
-  int rate = 24, rate_divisor = 1;                ///< frames of the video per rate_divisor seconds
+  std::filesystem::path video;      ///< .y4m, "-": standard output; empty: none
+  FramePlan film{.frames = 0};      ///< 0: as many as the scene says
+  std::optional<FrameRange> range;  ///< absent: all
+  int rate = 24, rate_divisor = 1;  ///< frames of the video per rate_divisor seconds
 
   // Of compare.
   std::filesystem::path image;          ///< without a baseline; likewise reference, also a scene
@@ -65,7 +62,6 @@ struct CommandRequest {
   BaselineRequest baseline;             ///< without a folder: none
   bool update = false;                  ///< the baseline becomes like the images
   std::filesystem::path report, junit;  ///< of the baseline; empty: none
-  Tolerance limits;
 
   // Of chart, verify, inspect and convert.
   std::filesystem::path output;  ///< chart: the SVG, for "all" a folder; convert: the scene, "-": standard output
@@ -80,7 +76,6 @@ struct CommandRequest {
 /// A text to be printed and nothing else: help or the version.
 struct PrintCommand {
   std::string text;
-  CommandPage page;  ///< of the help of a command: what it says
 };
 
 /// The command line as a whole: a command's request, or what is to be printed. arguments[0] is what follows the
@@ -91,6 +86,12 @@ Command read_command(const std::vector<std::string>& arguments);
 
 /// The exit code of a command that computed a picture and could not write all of it.
 inline constexpr int output_failed = 3;
+
+/// Throws a UsageError of that text.
+template <class... Part>
+[[noreturn]] void refuse(fmt::format_string<Part...> text, Part&&... parts) {
+  throw UsageError(fmt::format(text, std::forward<Part>(parts)...));
+}
 
 /// Runs the command that was read, or prints the text.
 int run(const Command& command);

@@ -1,12 +1,9 @@
 #include "app/cli/requests.h"
 #include "app/export/foreign_scene.h"
-#include "app/files/open_scene.h"
-#include "app/files/outputs.h"
 #include "app/text/standard_streams.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/image_io.h"
-#include "core/scene/load.h"
 
 #include <algorithm>
 
@@ -39,8 +36,7 @@ int run_scenes(const CommandRequest&) {
   std::size_t width = 0;
   for (const BuiltIn& scene : scenes) width = std::max(width, scene.name.size());
   std::string text;
-  for (const BuiltIn& scene : scenes)
-    text += scene.name + std::string(width + 2 - scene.name.size(), ' ') + about(scene) + "\n";
+  for (const BuiltIn& scene : scenes) text += fmt::format("{:<{}}{}\n", scene.name, width + 2, about(scene));
   write_standard_output(text);
   return 0;
 }

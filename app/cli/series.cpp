@@ -1,10 +1,7 @@
-#include "app/cli/series.h"
-
 #include "app/cli/kept_pictures.h"
-#include "app/cli/live_view.h"
+#include "app/cli/pictures.h"
 #include "app/files/checkpoint.h"
 #include "app/files/memory.h"
-#include "app/files/outputs.h"
 #include "app/text/standard_streams.h"
 #include "core/accuracy/estimate.h"
 #include "core/base/error.h"
@@ -13,13 +10,10 @@
 #include "core/files/film_files.h"
 #include "core/render/plan.h"
 
-#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <memory>
 #include <new>
-#include <utility>
 
 namespace tyndall {
 namespace {
@@ -41,15 +35,15 @@ Embedded embedded_in(const RenderJob& job, const Film& film, const std::filesyst
 /// Writes all that can be written; false if something could not. at_end: also what goes to standard output or pipes.
 bool write(const RenderJob& job, const RenderOutcome& outcome, bool at_end = true) {
   const Film& film = outcome.result.film;
+  const bool unfinished = outcome.result.interrupted || !at_end;
   const auto embedded = [&](const std::filesystem::path& file) {
-    return embedded_in(job, film, file, embedded_stats_text(figures(job, outcome)), outcome.unfinished);
+    return embedded_in(job, film, file, embedded_stats_text(figures(job, outcome)), unfinished);
   };
   const auto layers = [&] { return layers_of(*job.prepared, film, outcome.result.kernels); };
   const CleanPicture* clean = outcome.result.clean ? &*outcome.result.clean : nullptr;
   std::vector<std::filesystem::path> files = job.command.outputs;
   if (!at_end) std::erase_if(files, is_stream);
-  if (job.whole_only && outcome.unfinished)
-    std::erase_if(files, [&](const auto& file) { return file != job.begin.place.output; });
+  if (job.whole_only && unfinished) std::erase_if(files, [&](const auto& file) { return file != job.place.output; });
   auto problems = write_images(
       {film, outcome.picture.image, job.loaded.scene.display, embedded, layers, clean, job.command.form}, files);
   const std::filesystem::path& stats = job.command.stats;
@@ -60,7 +54,7 @@ bool write(const RenderJob& job, const RenderOutcome& outcome, bool at_end = tru
   }
   for (const std::string& problem : problems) complain(problem);
   std::error_code ignored;  // what the file beside the output holds is in the output now
-  const std::filesystem::path apart = job.begin.place.beside();
+  const std::filesystem::path apart = job.place.beside();
   if (at_end && problems.empty() && !apart.empty()) std::filesystem::remove(apart, ignored);
   return problems.empty();
 }
@@ -69,7 +63,7 @@ bool write(const RenderJob& job, const RenderOutcome& outcome, bool at_end = tru
 void write_so_far(const RenderJob& job, const RenderResult& result) {
   try {
     if (totals(result.film).max_taken == 0) return;
-    const RenderOutcome outcome{result, finished_picture(*job.prepared, result), true};
+    const RenderOutcome outcome{result, finished_picture(*job.prepared, result)};
     const std::string uneven = uneven_text(job.loaded.scene, outcome.picture.totals);
     if (!uneven.empty()) complain(uneven);
     write(job, outcome, false);
@@ -82,87 +76,61 @@ std::string viewer_text(const std::string& problem) {
   return "--watch-at: " + problem + "; the render goes on without it";
 }
 
-/// Shows the picture in the viewer whenever that is due, beside what else is done with the film.
-void add_view(LiveView& view, ProgressReport& report, RenderBreaks& breaks) {
-  const auto others_due = std::make_shared<bool>(false);
-  breaks.film_due = [&view, &report, others = std::move(breaks.film_due), others_due] {
-    if (const auto problem = view.problem()) report.say(viewer_text(*problem));
-    *others_due = *others_due || (others && others());
-    return *others_due || view.due();
-  };
-  breaks.take_film = [&view, others = std::move(breaks.take_film), others_due](const Film& film, ThreadPool& pool) {
-    if (std::exchange(*others_due, false)) others(film, pool);
-    if (view.due()) view.take(film, pool);
-  };
-}
-
-/// What is done while the render goes on: checkpoints, or saying that there are none, and SIGUSR1.
+/// What is done while the render goes on: checkpoints, or saying that there are none, the viewer, and SIGUSR1.
 RenderBreaks breaks_of(const RenderJob& job, const SignalWatch& signals, ProgressReport& report,
-                       Checkpoints& checkpoints) {
+                       Checkpoints& checkpoints, LiveView* view) {
   RenderBreaks breaks;
   breaks.result_due = [&signals] { return signals.take_save_request(); };
   breaks.take_result = [&job, &checkpoints](const RenderResult& result) {
     checkpoints.finish();
     write_so_far(job, result);
   };
-  if (job.command.checkpoint == 0) return breaks;
-  const bool kept = !checkpoints.file().empty(), told = !job.begin.place.output.empty() || job.whole_only;
-  breaks.film_due = [&checkpoints, &report, kept, said = told]() mutable {
+  const bool wanted = job.command.checkpoint != 0, kept = wanted && !checkpoints.file().empty();
+  const bool told = !wanted || !job.place.output.empty() || job.whole_only;
+  breaks.film_due = [&checkpoints, &report, view, kept, said = told]() mutable {
     if (const auto problem = checkpoints.problem()) report.say(*problem);
-    if (kept || said || !checkpoints.due()) return kept && checkpoints.due();
-    said = true;
-    report.say(
-        "nothing is kept before the end; with a file as output that ends in .exr, and --exr-film yes, a killed render "
-        "can go on");
-    return false;
+    if (const auto problem = view ? view->problem() : std::nullopt) report.say(viewer_text(*problem));
+    if (!kept && !said && checkpoints.due()) {
+      said = true;
+      report.say(
+          "nothing is kept before the end; with a file as output that ends in .exr, and --exr-film yes, a killed "
+          "render can go on");
+    }
+    return (kept && checkpoints.due()) || (view && view->due());
   };
-  breaks.take_film = [&checkpoints](const Film& film, ThreadPool& thread_pool) { checkpoints.take(film, thread_pool); };
+  breaks.take_film = [&checkpoints, view, kept](const Film& film, ThreadPool& thread_pool) {
+    if (kept && checkpoints.due()) checkpoints.take(film, thread_pool);
+    if (view && view->due()) view->take(film, thread_pool);
+  };
   return breaks;
 }
 
-/// Renders, with checkpoints. show: gets the progress.
-RenderResult render_film(RenderJob& job, const SignalWatch& signals, ProgressReport& report,
-                         const std::function<void(const RenderProgress&)>& show) {
-  const auto start = std::chrono::steady_clock::now();
-  job.prepared = prepare(job.loaded.scene);
-  job.seconds_build = seconds_since(start);
-  const auto progress = [&](const RenderProgress& now) {
-    show(now);
-    return signals.received() == 0;
-  };
-  job.samples_before = totals(job.begin.film).samples;
-  const std::filesystem::path& kept = job.begin.place.unfinished;
-  Checkpoints checkpoints(kept, job.command.checkpoint,
-                          [&job, &kept](const Film& film) { return embedded_in(job, film, kept, "", true); });
-  if (job.command.viewer)
-    job.view = std::make_shared<LiveView>(*job.command.viewer, job.loaded.name, *job.prepared, job.kernels.isa,
-                                          job.threads.count);
-  job.options.breaks = breaks_of(job, signals, report, checkpoints);
-  if (job.view) add_view(*job.view, report, job.options.breaks);
-  try {
-    RenderResult result = render(*job.prepared, job.options, progress, std::move(job.begin.film));
-    checkpoints.finish();
-    if (const auto problem = checkpoints.problem()) report.say(*problem);  // of one that failed just before the end
-    return result;
-  } catch (const std::bad_alloc&) {
-    const Region& r = *job.options.region;
-    const auto bytes =
-        static_cast<double>(bytes_per_pixel(needs_trait<&BsdfTraits::emits>(job.prepared->columns().features)));
-    throw IoError(fmt::format("not enough memory: a film of {}x{} pixels takes {:.3g} GB{}", r.width(), r.height(),
-                              1e-9 * bytes * r.width() * r.height(), memory_limit_text()));
-  }
-}
-
 /// Shows the finished picture in the viewer. Files are written by then, and nothing that fails here is an error.
-void show_last(const RenderJob& job, const RenderOutcome& outcome) {
-  if (!job.view) return;
+void show_last(LiveView& view, const RenderResult& result) {
   try {
-    const auto& clean = outcome.result.clean;
-    if (!outcome.result.interrupted) job.view->finish(outcome.result.film, clean ? &*clean : nullptr);
-    if (const auto problem = job.view->problem()) complain(viewer_text(*problem));
+    if (!result.interrupted) view.finish(result.film, result.clean ? &*result.clean : nullptr);
+    if (const auto problem = view.problem()) complain(viewer_text(*problem));
   } catch (const std::exception& error) {
     complain(std::string("--watch-at: ") + error.what());
   }
+}
+
+std::string summary(const RenderOutcome& outcome, const std::vector<std::filesystem::path>& outputs) {
+  const RenderResult& r = outcome.result;
+  const RenderProgress end{outcome.picture.spp, r.seconds,
+                           r.seconds > 0 ? static_cast<double>(r.rays) / r.seconds * 1e-6 : 0,
+                           outcome.picture.estimate.relative_error};
+  const std::string clean =
+      r.clean ? fmt::format(", filtered to {:.2g} in {:.2g} s", r.clean->relative_error, r.seconds_clean) : "";
+  std::vector<std::string> files;
+  for (const auto& file : outputs)
+    if (file != "-") files.push_back(printable(file.string()));
+  const FilmTotals& sum = outcome.picture.totals;
+  std::string lacks = sum.rejected > 0 ? fmt::format(", {} samples rejected", sum.rejected) : "";
+  if (sum.truncated > 0)
+    lacks += fmt::format(", {:.2g} % of the throughput cut at the longest path", 100 * sum.cut_throughput);
+  return (r.interrupted ? "interrupted: " : "done: ") + joined(files) + (files.empty() ? "" : ": ") +
+         progress_text(end, {}) + clean + lacks;
 }
 
 }  // namespace
@@ -170,7 +138,7 @@ void show_last(const RenderJob& job, const RenderOutcome& outcome) {
 void check_names(const CommandRequest& command) {
   check_image_names(command.outputs, command.form, command.stats);
   if (is_image_output(command.stats))
-    throw UsageError("--stats: found " + in_quotes(command.stats.string()) + ", expected a name that ends in .json");
+    refuse("--stats: found {}, expected a name that ends in .json", in_quotes(command.stats.string()));
   kernels_to_render(command.isa);
 }
 
@@ -190,31 +158,53 @@ void prepare(RenderJob& job) {
                 .height = job.options.region->height(),
                 .place = job.loaded.name + ": /image",
                 .emission = has_lights(job.loaded.scene),
-                .clean = command.denoise,
+                .clean = command.clean,
                 .checkpoints = command.checkpoint > 0,
                 .files = command.outputs,
                 .form = command.form},
                free_memory());
-  if (!job.loaded.is_picture) job.begin = find_start(job);  // of a picture there is no film to go on with
+  if (!job.loaded.is_picture) find_start(job);  // of a picture there is no film to go on with
+  if (job.film.empty()) return;
+  job.begin = read_film_alone(job.film);  // to which nothing is added
+  job.options.spp = labelled_spp(job.begin);
+  job.options.time_limit = std::numeric_limits<double>::infinity();
+  job.options.target_error = 0;
 }
 
-RenderResult Series::render(RenderJob& job, const std::string& name) {
+/// Renders, with checkpoints.
+RenderResult Series::render(RenderJob& job, const std::string& name, LiveView* view) {
   const std::uint32_t spp = *job.options.spp;
-  const ProgressGoal goal{totals(job.begin.film).min_taken, spp < max_samples ? spp : 0, job.command.time_limit,
+  const ProgressGoal goal{totals(job.begin).min_taken, spp < max_samples ? spp : 0, job.command.time_limit,
                           job.command.target_error};
-  const std::string place = name + " (" + std::to_string(made_ + 1) + "/" + std::to_string(count_) + "), ";
   const auto show = [&](const RenderProgress& now) {
     if (name.empty()) return report_.show(now.seconds, progress_fraction(now, goal), progress_text(now, goal));
     const double done = (static_cast<double>(made_) + progress_fraction(now, goal)) / static_cast<double>(count_);
     const double seconds = seconds_ + now.seconds;
-    std::string text = place + std::to_string(now.spp) + (goal.spp > 0 ? "/" + std::to_string(goal.spp) : "") + " spp";
+    std::string text = fmt::format("{} ({}/{}), {}{} spp", name, made_ + 1, count_, now.spp,
+                                   goal.spp > 0 ? fmt::format("/{}", goal.spp) : "");
     if (done > 0) text += ", " + duration(seconds * (1 - done) / done) + " left";
     report_.show(seconds, done, text);
   };
-  RenderResult result = render_film(job, signals_, report_, show);
-  seconds_ += result.seconds;
-  if (!result.interrupted) ++made_;
-  return result;
+  const std::filesystem::path& kept = job.place.unfinished;
+  Checkpoints checkpoints(kept, job.command.checkpoint,
+                          [&job, &kept](const Film& film) { return embedded_in(job, film, kept, "", true); });
+  job.options.breaks = breaks_of(job, signals_, report_, checkpoints, view);
+  const auto go_on = [&](const RenderProgress& now) {
+    show(now);
+    return signals_.received() == 0;
+  };
+  try {
+    RenderResult result = tyndall::render(*job.prepared, job.options, go_on, std::move(job.begin));
+    checkpoints.finish();
+    if (const auto problem = checkpoints.problem()) report_.say(*problem);  // of one that failed just before the end
+    return result;
+  } catch (const std::bad_alloc&) {
+    const Region& r = *job.options.region;
+    const auto bytes =
+        static_cast<double>(bytes_per_pixel(needs_trait<&BsdfTraits::emits>(job.prepared->columns().features)));
+    throw IoError(fmt::format("not enough memory: a film of {}x{} pixels takes {:.3g} GB{}", r.width(), r.height(),
+                              1e-9 * bytes * r.width() * r.height(), memory_limit_text()));
+  }
 }
 
 /// Tells what users should know of a picture, also with -q, which only turns progress off; what holds for several,
@@ -233,33 +223,37 @@ void Series::warn(const RenderJob& job, const RenderOutcome& outcome, const std:
   const std::string uneven = uneven_text(job.loaded.scene, sum);
   if (!uneven.empty()) tell(uneven);
   if (sum.rejected == 0) return;
-  std::string text = std::to_string(sum.rejected) + " of " + std::to_string(sum.samples) +
-                     " samples were rejected: not finite, or brighter than any light of the scene explains";
+  std::string places;
   for (const RejectedSample& r : result.first_rejected)
-    text += (&r == result.first_rejected.data() ? "; the first are (pixel and index) " : " ") + std::to_string(r.x) +
-            "," + std::to_string(r.y) + "," + std::to_string(r.sample);
-  tell(text);
+    places +=
+        fmt::format("{}{},{},{}", places.empty() ? "; the first are (pixel and index) " : " ", r.x, r.y, r.sample);
+  tell(fmt::format("{} of {} samples were rejected: not finite, or brighter than any light of the scene explains{}",
+                   sum.rejected, sum.samples, places));
 }
 
 bool Series::make(RenderJob& job, const std::string& name, const PictureSteps& steps) {
   if (begun_++ == 0) tell_remarks(job);
-  const RenderResult result = render(job, name);
-  const RenderOutcome outcome{result, finished_picture(*job.prepared, result), result.interrupted};
-  if (steps.rendered) steps.rendered(outcome);
-  if (outcome.picture.totals.max_taken == 0) return true;
+  const auto start = std::chrono::steady_clock::now();
+  job.prepared = tyndall::prepare(job.loaded.scene);
+  job.seconds_build = seconds_since(start);
+  job.samples_before = totals(job.begin).samples;
+  std::optional<LiveView> view;
+  if (job.command.viewer) view.emplace(job);
+  const RenderResult result = render(job, name, view ? &*view : nullptr);
+  seconds_ += result.seconds;
+  if (!result.interrupted) ++made_;
+  const RenderOutcome outcome{result, finished_picture(*job.prepared, result)};
+  if (name.empty()) report_.finish(summary(outcome, job.command.outputs));
+  if (outcome.picture.totals.max_taken == 0) {
+    if (name.empty()) complain("interrupted before the first samples: nothing written");
+    return true;
+  }
   warn(job, outcome, name);
   if (steps.writing && !result.interrupted) steps.writing();
-  const bool written = job.is_there || write(job, outcome);
+  const bool written = write(job, outcome);
   if (steps.made && !result.interrupted) steps.made(outcome, written);
-  show_last(job, outcome);
+  if (view) show_last(*view, result);
   return written;
-}
-
-void take_film(RenderJob& job, Film film) {
-  job.options.spp = labelled_spp(film);
-  job.options.time_limit = std::numeric_limits<double>::infinity();
-  job.options.target_error = 0;
-  job.begin.film = std::move(film);
 }
 
 }  // namespace tyndall

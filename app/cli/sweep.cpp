@@ -1,19 +1,14 @@
 #include "app/cli/kept_pictures.h"
-#include "app/cli/requests.h"
-#include "app/cli/series.h"
-#include "app/files/open_scene.h"
+#include "app/cli/pictures.h"
 #include "app/report/contact_sheet.h"
 #include "app/report/film_difference.h"
 #include "app/text/markup.h"
 #include "app/text/standard_streams.h"
-#include "app/text/values.h"
 #include "core/accuracy/error.h"
 #include "core/base/error.h"
 #include "core/base/fnv1a.h"
 #include "core/base/text.h"
 #include "core/scene/json_tree.h"
-
-#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,14 +17,10 @@
 namespace tyndall {
 namespace {
 
-/// One picture of a sweep.
+/// One picture of a sweep, and what is found out about it.
 struct SweepStep {
-  std::vector<std::string> values;             ///< one of each axis
-  std::vector<std::filesystem::path> outputs;  ///< files of this picture alone
-};
-
-/// What a sweep finds out about a picture.
-struct SweepFigures {
+  std::vector<std::string> values;  ///< one of each axis
+  PictureTask task{};               ///< its own files
   FilmMean mean{};
   FilmDifference difference{};  ///< to the picture in the middle
   double relative_error = 0, seconds = 0;
@@ -44,8 +35,9 @@ struct Sweeping {
   std::vector<SweepStep> steps{};
   std::size_t middle = 0;  ///< its picture is what the others are compared with
   int columns = 1;
-  std::vector<SweepFigures> figures{};  ///< of each step
-  Film reference{};                     ///< the film in the middle
+  Film reference{};  ///< the film in the middle
+
+  const SweepStep& middle_step() const { return steps[middle]; }
 };
 
 std::vector<SweepStep> steps_of(const CommandRequest& command) {
@@ -53,15 +45,14 @@ std::vector<SweepStep> steps_of(const CommandRequest& command) {
   const auto& first = command.axes[0].values;
   const auto& second = command.axes.size() > 1 ? command.axes[1].values : once;
   if (first.size() * second.size() > max_sweep_steps)
-    throw UsageError("--vary: found " + std::to_string(first.size() * second.size()) + " pictures, expected at most " +
-                     std::to_string(max_sweep_steps));
+    refuse("--vary: found {} pictures, expected at most {}", first.size() * second.size(), max_sweep_steps);
   std::vector<SweepStep> steps;
   for (const std::string& b : second)
     for (const std::string& a : first) {
-      SweepStep step{{a}, {}};
+      SweepStep step{{a}};
       if (command.axes.size() > 1) step.values.push_back(b);
       for (const auto& name : command.outputs)
-        step.outputs.emplace_back(name_for(read_valued_name(name.string()), joined(step.values, "_")));
+        step.task.outputs.emplace_back(name_for(read_valued_name(name.string()), joined(step.values, "_")));
       steps.push_back(std::move(step));
     }
   return steps;
@@ -70,60 +61,41 @@ std::vector<SweepStep> steps_of(const CommandRequest& command) {
 /// The scene of a step. Throws SceneError, which names it.
 LoadedScene scene_of(const Sweeping& sweep, const SweepStep& step) {
   std::vector<Override> overrides;
-  std::string settings;
+  std::vector<std::string> settings;
   for (std::size_t k = 0; k < step.values.size(); ++k) {
     overrides.push_back({sweep.command.axes[k].pointer, step.values[k]});
-    settings += (k > 0 ? ", " : "") + overrides[k].pointer + "=" + step.values[k];
+    settings.push_back(overrides[k].pointer + "=" + step.values[k]);
   }
-  const auto number = std::to_string(&step - sweep.steps.data() + 1);
+  const auto number = &step - sweep.steps.data() + 1;
   return open_variant(sweep.base, sweep.command.scene, overrides,
-                      sweep.base.name + ": step " + number + " (" + settings + ")");
+                      fmt::format("{}: step {} ({})", sweep.base.name, number, joined(settings)));
 }
 
 /// A job whose picture can be compared with what is there already.
-RenderJob job_of(const Sweeping& sweep, const SweepStep& step) {
+RenderJob job_of(const Sweeping& sweep, const SweepStep& step, double time_limit) {
   RenderJob job{sweep.command};
-  job.command.outputs = step.outputs;
-  job.command.time_limit = std::min(job.command.time_limit, sweep.command.total_time);
+  job.command.outputs = step.task.outputs;
+  job.command.time_limit = time_limit;
   check_names(job.command);
   job.loaded = scene_of(sweep, step);
   job.whole_only = true;
+  job.film = step.task.film;
   set_up(job);
   return job;
-}
-
-void check_axes(const CommandRequest& command) {
-  for (const SweepAxis& axis : command.axes) {
-    const auto steps = pointer_steps(axis.pointer);
-    if (steps && steps->front() == "image")
-      throw UsageError("--vary: found " + in_quotes(axis.pointer) +
-                       ", expected a value that leaves all pictures one size");
-  }
-  if (command.axes.size() > 1 && command.axes[0].pointer == command.axes[1].pointer)
-    throw UsageError("--vary: found " + in_quotes(command.axes[0].pointer) + " twice, expected two values");
-}
-
-/// The film of a step that an earlier run has finished; nothing: there is none.
-std::optional<Film> kept_film_of(const RenderJob& job) {
-  if (job.command.fresh) return {};
-  for (const auto& file : job.command.outputs)
-    if (is_exr(file) && look_at_picture(file, job) == PictureState::whole && read_film_label(file))
-      return read_film_alone(file);
-  return {};
 }
 
 /// Finds everything that can be wrong before the first sample.
 void check_steps(Sweeping& sweep) {
   std::vector<Output> outputs{{"--output", sweep.command.sheet}, {"--csv", sweep.command.csv}};
   for (const SweepStep& step : sweep.steps)
-    for (const auto& file : step.outputs) outputs.push_back({"--each", file});
+    for (const auto& file : step.task.outputs) outputs.push_back({"--each", file});
   check_outputs(outputs, sweep.base.files);
   check_can_write(std::vector<Output>(outputs.begin(), outputs.begin() + 2));
-  for (const SweepStep& step : sweep.steps) {
-    const RenderJob job = job_of(sweep, step);
-    if (job.command.fresh) continue;
-    for (const auto& file : step.outputs)
-      if (is_exr(file)) look_at_picture(file, job);
+  for (SweepStep& step : sweep.steps) {
+    const RenderJob job = job_of(sweep, step, std::min(sweep.command.time_limit, sweep.command.total_time));
+    step.task = task_of(job, [&](const auto& file) {  // pictures of other formats are made anew
+      return is_exr(file) ? look_at_picture(file, job) : PictureState::nothing;
+    });
   }
 }
 
@@ -135,34 +107,29 @@ double time_limit(const Sweeping& sweep, const Series& series) {
   return std::min(each, left / static_cast<double>(series.left()));
 }
 
-void add_figures(Sweeping& sweep, std::size_t k, const RenderOutcome& outcome, const Display& display) {
-  SweepFigures& figures = sweep.figures[k];
+/// Takes what is needed of a picture.
+void add_figures(Sweeping& sweep, SweepStep& step, const RenderOutcome& outcome, const Display& display) {
   const RenderResult& result = outcome.result;
-  figures.mean = film_mean(result.film);
-  figures.relative_error = outcome.picture.estimate.relative_error;
-  figures.seconds = result.seconds;
-  figures.spp = outcome.picture.spp;
-  figures.hash = outcome.picture.hash;
   const LinearImage& image = outcome.picture.image;
-  figures.shown = on_sheet(result.clean ? LinearImage{image.width, image.height, result.clean->rgb} : image, display,
-                           sheet_cell(image.width, image.height, sweep.columns));
-  if (k == sweep.middle) sweep.reference = result.film;
-  figures.difference = film_difference(result.film, sweep.reference);
+  if (&step == &sweep.middle_step()) sweep.reference = result.film;
+  step.mean = film_mean(result.film);
+  step.difference = film_difference(result.film, sweep.reference);
+  step.relative_error = outcome.picture.estimate.relative_error;
+  step.seconds = result.seconds;
+  step.spp = outcome.picture.spp;
+  step.hash = outcome.picture.hash;
+  step.shown = on_sheet(result.clean ? LinearImage{image.width, image.height, result.clean->rgb} : image, display,
+                        sheet_cell(image.width, image.height, sweep.columns));
 }
 
-/// Renders a picture and takes what is needed of it; false if something could not be written.
-bool make_picture(Sweeping& sweep, std::size_t k, Series& series) {
-  const SweepStep& step = sweep.steps[k];
-  RenderJob job = job_of(sweep, step);
-  job.command.time_limit = time_limit(sweep, series);
+/// Renders a picture; false if something could not be written.
+bool make_picture(Sweeping& sweep, SweepStep& step, Series& series) {
+  RenderJob job = job_of(sweep, step, time_limit(sweep, series));
   prepare(job);
-  auto kept = kept_film_of(job);
-  job.is_there = job.begin.as_requested || kept;
-  if (kept) take_film(job, std::move(*kept));
   const auto made = [&](const RenderOutcome& outcome, bool) {
-    add_figures(sweep, k, outcome, job.loaded.scene.display);
+    add_figures(sweep, step, outcome, job.loaded.scene.display);
   };
-  return series.make(job, joined(step.values, ", "), {{}, {}, made});
+  return series.make(job, joined(step.values, ", "), {{}, made});
 }
 
 std::string percent(double part, double error) {
@@ -174,17 +141,16 @@ std::string percent(double part, double error) {
 std::string csv_text(const Sweeping& sweep) {
   std::string text = sweep.command.axes.size() > 1 ? "value,value_2" : "value";
   text += ",mean,mean_error,relative_error,change,change_error,difference,difference_error,spp,seconds,image_hash\n";
-  const double mean = sweep.figures[sweep.middle].mean.mean;
+  const double mean = sweep.middle_step().mean.mean;
   // Of a black picture in the middle there is no part: the fields are empty.
   const auto part = [mean](double value, int digits) {
     return mean == 0 ? std::string() : fmt::format("{:.{}g}", value / mean, digits);
   };
-  for (std::size_t k = 0; k < sweep.steps.size(); ++k) {
-    const SweepFigures& f = sweep.figures[k];
-    for (const std::string& value : sweep.steps[k].values) text += in_csv(value) + ",";
-    text += fmt::format("{:.8g},{:.4g},{:.4g},{},{},{:.8g},{:.4g},{},{:.4g},{}\n", f.mean.mean, f.mean.error,
-                        f.relative_error, part(f.difference.mean, 8), part(f.difference.mean_error, 4),
-                        f.difference.rms, f.difference.rms_error, f.spp, f.seconds, hash_text(f.hash));
+  for (const SweepStep& s : sweep.steps) {
+    for (const std::string& value : s.values) text += in_csv(value) + ",";
+    text += fmt::format("{:.8g},{:.4g},{:.4g},{},{},{:.8g},{:.4g},{},{:.4g},{}\n", s.mean.mean, s.mean.error,
+                        s.relative_error, part(s.difference.mean, 8), part(s.difference.mean_error, 4),
+                        s.difference.rms, s.difference.rms_error, s.spp, s.seconds, hash_text(s.hash));
   }
   return text;
 }
@@ -200,28 +166,26 @@ ScreenPicture sheet_of(const Sweeping& sweep) {
   const auto& axes = sweep.command.axes;
   const bool longer = axes.size() > 1 && short_name(axes[0].pointer, false) == short_name(axes[1].pointer, false);
   std::vector<SheetPicture> pictures;
-  const double mean = sweep.figures[sweep.middle].mean.mean;
-  for (std::size_t k = 0; k < sweep.steps.size(); ++k) {
-    const SweepFigures& figures = sweep.figures[k];
-    SheetPicture picture{figures.shown, "", "", k == sweep.middle};
+  const double mean = sweep.middle_step().mean.mean;
+  for (const SweepStep& step : sweep.steps) {
+    const bool is_middle = &step == &sweep.middle_step();
+    SheetPicture picture{step.shown, "", is_middle ? "the others are compared with this one" : "", is_middle};
     for (std::size_t i = 0; i < axes.size(); ++i)
-      picture.title += (i > 0 ? ", " : "") + short_name(axes[i].pointer, longer) + " " + sweep.steps[k].values[i];
-    if (k != sweep.middle && mean != 0 && std::isfinite(figures.difference.mean_error))
-      picture.detail = percent(figures.difference.mean / mean, figures.difference.mean_error / std::abs(mean));
-    if (k == sweep.middle) picture.detail = "the others are compared with this one";
+      picture.title += (i > 0 ? ", " : "") + short_name(axes[i].pointer, longer) + " " + step.values[i];
+    if (!is_middle && mean != 0 && std::isfinite(step.difference.mean_error))
+      picture.detail = percent(step.difference.mean / mean, step.difference.mean_error / std::abs(mean));
     pictures.push_back(std::move(picture));
   }
-  std::string pointers = axes[0].pointer;
-  if (axes.size() > 1) pointers += " and " + axes[1].pointer;
-  return contact_sheet(pictures, sweep.columns, printable(sweep.base.name) + ": " + printable(pointers),
-                       fmt::format("beneath each value: the mean's change, and its standard error; {} samples a pixel, "
-                                   "one seed for all",
-                                   sweep.figures[sweep.middle].spp));
+  const std::string pointers = axes[0].pointer + (axes.size() > 1 ? " and " + axes[1].pointer : "");
+  const std::string legend =
+      fmt::format("beneath each value: the mean's change, and its standard error; {} samples a pixel, one seed for all",
+                  sweep.middle_step().spp);
+  return contact_sheet(pictures, sweep.columns, printable(sweep.base.name) + ": " + printable(pointers), legend);
 }
 
 void write_sheet(const Sweeping& sweep) {
   const LinearImage image = light_of(sheet_of(sweep));
-  const LoadedScene middle = scene_of(sweep, sweep.steps[sweep.middle]);
+  const LoadedScene middle = scene_of(sweep, sweep.middle_step());
   const std::filesystem::path& file = sweep.command.sheet;
   const Scene scene = move_textures(middle.scene, middle.folder, file.parent_path());
   const bool png = image_ending(file, {}) == ".png";
@@ -231,30 +195,11 @@ void write_sheet(const Sweeping& sweep) {
   });
 }
 
-/// Writes the sheet and the table; false if something could not be written, which is told.
-bool write_all(const Sweeping& sweep) {
-  bool whole = true;
-  const CommandRequest& command = sweep.command;
-  if (!command.sheet.empty()) whole = written_or_told([&] { write_sheet(sweep); });
-  if (!command.csv.empty())
-    whole = written_or_told([&] { write_text_or_rescue(command.csv, csv_text(sweep)); }) && whole;
-  return whole;
-}
-
-void check_sheet_name(const std::filesystem::path& sheet) {
-  const std::string ending = image_ending(sheet, {});
-  if (!sheet.empty() && ending != ".png" && ending != ".ppm")
-    throw UsageError("--output: found " + in_quotes(sheet.string()) + ", expected a name that ends in .png or .ppm");
-}
-
 }  // namespace
 
 int run_sweep(const CommandRequest& command) {
-  check_axes(command);
-  check_sheet_name(command.sheet);
   Sweeping sweep{command, open_scene(command.scene)};
   sweep.steps = steps_of(command);
-  sweep.figures.resize(sweep.steps.size());
   const int count = static_cast<int>(sweep.steps.size()), first = static_cast<int>(command.axes[0].values.size());
   const auto middle_of = [](std::size_t steps) { return (steps - 1) / 2; };
   sweep.middle = middle_of(static_cast<std::size_t>(first)) +
@@ -268,15 +213,18 @@ int run_sweep(const CommandRequest& command) {
     if (k != sweep.middle) order.push_back(k);
   bool whole = true;
   for (const std::size_t k : order) {
-    whole = make_picture(sweep, k, series) && whole;
+    whole = make_picture(sweep, sweep.steps[k], series) && whole;
     if (series.signal() != 0) {
-      complain("interrupted: no sheet and no table are written" +
-               std::string(command.outputs.empty() ? "" : "; the same command goes on"));
+      const char* further = command.outputs.empty() ? "" : "; the same command goes on";
+      complain(fmt::format("interrupted: no sheet and no table are written{}", further));
       return 128 + series.signal();
     }
   }
-  series.finish("done: " + std::to_string(count) + " pictures, " + duration(series.seconds()));
-  return write_all(sweep) && whole ? 0 : output_failed;
+  series.finish(fmt::format("done: {} pictures, {}", count, duration(series.seconds())));
+  if (!command.sheet.empty()) whole = written_or_told([&] { write_sheet(sweep); }) && whole;
+  if (!command.csv.empty())
+    whole = written_or_told([&] { write_text_or_rescue(command.csv, csv_text(sweep)); }) && whole;
+  return whole ? 0 : output_failed;
 }
 
 }  // namespace tyndall

@@ -13,19 +13,29 @@ namespace tyndall {
 
 /// One known answer: the mean of a picture over its pixels and channels.
 struct VerifyCase {
-  std::string name;                 ///< "plate/reflected-60deg"
-  std::filesystem::path scene;      ///< file
-  std::vector<Override> overrides;  ///< of the scene, in order
+  std::string name;                   ///< "plate/reflected-60deg"
+  std::string scene;                  ///< file
+  std::vector<Override> overrides{};  ///< of the scene, in order
   double expected = 0;
-  std::string source;                    ///< author, title, year, or how it is derived
+  std::string source{};                  ///< author, title, year, or how it is derived
   bool requires_light_sampling = false;  ///< its lights are too small for a path to meet by chance
   bool requires_specular_paths = false;  ///< so small that light through or off a sphere is found by chains alone
 };
 
+constexpr auto fields(const VerifyCase*) {
+  return std::tuple{Field{"name", &VerifyCase::name, ""},
+                    Field{"scene", &VerifyCase::scene, ""},
+                    Field{"set", &VerifyCase::overrides, ""},
+                    Field{"expected", &VerifyCase::expected, any_number(), no_slider(), "", "mean radiance"},
+                    Field{"source", &VerifyCase::source, ""},
+                    Field{"light_sampling", &VerifyCase::requires_light_sampling, ""},
+                    Field{"chains", &VerifyCase::requires_specular_paths, ""}};
+}
+
 /// Reads a table of cases: { "groups": [{ "name", "scene", "source", "set": { POINTER: VALUE, … }, "light_sampling",
-/// "chains", "cases": [{ "name", "set", "expected", "source" }, …] }, …] }. Scenes are files in the table's folder; a
-/// group's overrides go before a case's, a case's source before its group's. Throws SceneError for everything that is
-/// wrong with the table.
+/// "chains", "cases": [{ "name", "set", "expected", "source" }, …] }, …] }. Scenes are files in the table's folder. A
+/// group is itself a case, of which its cases have all that they do not say; its overrides go before theirs. Throws
+/// SceneError for everything that is wrong with the table.
 std::vector<VerifyCase> read_verify_cases(const std::filesystem::path& file);
 
 /// The cases whose names begin with one of these; without names all cases. Throws UsageError for a name that chooses
@@ -48,8 +58,7 @@ constexpr Label label(Verdict verdict) {
   return {};
 }
 
-struct VerifyRow {
-  VerifyCase what;
+struct VerifyRow : VerifyCase {
   RenderSettings method;
   Measured measured{};
   double z = 0;

@@ -1,9 +1,6 @@
-#include "app/cli/render_setup.h"
-#include "app/cli/requests.h"
+#include "app/cli/pictures.h"
 #include "app/files/arriving_picture.h"
 #include "app/files/memory.h"
-#include "app/files/open_scene.h"
-#include "app/files/outputs.h"
 #include "app/text/markup.h"
 #include "app/window/window.h"
 #include "core/base/error.h"
@@ -14,8 +11,6 @@
 #ifdef TYNDALL_WINDOW
 #include "app/window/system/preferences.h"
 #endif
-
-#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,11 +29,8 @@ std::string shell_argument(const std::string& argument) {
   if (all_printable(argument) == argument) return in_shell(argument);
   std::string quoted;
   for (const char c : argument) {  // what a line cannot show, bash reads from numbers: $'two\x0alines'
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte >= 0x7f || c == '\'' || c == '\\')
-      quoted += fmt::format("\\x{:02x}", byte);
-    else
-      quoted += c;
+    const bool is_plain = c >= 0x20 && c < 0x7f && c != '\'' && c != '\\';
+    quoted += is_plain ? std::string(1, c) : fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
   }
   return "$'" + quoted + "'";
 }
@@ -71,13 +63,13 @@ void check_memory(const Scene& scene) {
   check_memory(plan, free_memory(), "write \"clean off\" into " + file);
 }
 
-/// Opens the window; where there is none, says what to do instead. options: made only when it is needed.
-template <class Options>
-int open_window(const std::string& instead, [[maybe_unused]] const Options& options) {
+/// Opens the window; where there is none, says what to do instead.
+int open_window(const std::string& instead, const WindowOptions& options) {
   if (!has_display()) throw IoError("no display for a window; " + instead);
 #ifdef TYNDALL_WINDOW
+  tell_alpha(options.scene);
   try {
-    return run_window(options());
+    return run_window(options);
   } catch (const IoError& error) {
     throw IoError(error.what() + ("; " + instead));
   }
@@ -105,21 +97,9 @@ void refuse_scene_options(const CommandRequest& command) {
   const SceneRequest& request = command.scene;
   const bool limited = std::isfinite(command.time_limit) || command.target_error > 0;
   if (request.overrides.empty() && !request.size && request.render.given.empty() && !limited) return;
-  throw UsageError(
+  refuse(
       "standard input: found a picture, expected a scene: --set, --size, limits and the options of rendering change "
       "nothing in a picture");
-}
-
-/// A scene of the picture's size that has nothing else, to be shown in its place.
-LoadedScene scene_of(const ArrivingPicture& picture, const CommandRequest& command) {
-  LoadedScene loaded;
-  loaded.name = input_name;
-  loaded.folder = ".";
-  loaded.is_picture = true;
-  loaded.scene.width = picture.width(), loaded.scene.height = picture.height();
-  loaded.scene.render.spp = 1;
-  apply(command.scene.display, loaded.scene.display);
-  return loaded;
 }
 
 /// Shows what a program writes to standard input, as it comes. begin: the bytes with which it begins.
@@ -127,19 +107,22 @@ int view_picture(const CommandRequest& command, const std::string& begin) {
   refuse_scene_options(command);
   check_files(command, {});
   const auto picture = std::make_shared<ArrivingPicture>(standard_input, begin, input_name, command.form.ppm);
-  const LoadedScene loaded = scene_of(*picture, command);
+  LoadedScene loaded;  // of the picture's size, to be shown in its place
+  loaded.name = input_name;
+  loaded.folder = ".";
+  loaded.is_picture = true;
+  loaded.scene.width = picture->width(), loaded.scene.height = picture->height();
+  loaded.scene.render.spp = 1;
+  apply(command.scene.display, loaded.scene.display);
   check_memory(loaded.scene);
-  return open_window("the program's picture can be kept in a file: > image.ppm in place of | tyndall view -", [&] {
-    WindowOptions options = options_of(command, loaded);
-    options.picture = picture;
-    return options;
-  });
+  WindowOptions options = options_of(command, loaded);
+  options.picture = picture;
+  return open_window("the program's picture can be kept in a file: > image.ppm in place of | tyndall view -", options);
 }
 
 int view_scene(const CommandRequest& command) {
   if (command.form.ppm == PpmCurve::gamma2)
-    throw UsageError(
-        "--gamma2: found a scene, expected a picture (P3 or P6) on standard input: only these are read so");
+    refuse("--gamma2: found a scene, expected a picture (P3 or P6) on standard input: only these are read so");
   const auto own = std::make_shared<OwnSamples>();
   const auto open = [request = command.scene, own](const std::function<bool()>& go_on) mutable {
     request.program.go_on = go_on;
@@ -156,16 +139,13 @@ int view_scene(const CommandRequest& command) {
   find_kernels(command.isa);
   check_memory(loaded.scene);
   check_files(command, loaded.files);
-  return open_window("the same picture without a window: " + headless_command(command), [&] {
-    tell_alpha(loaded);
-    WindowOptions options = options_of(command, loaded);
-    const auto& arguments = command.arguments;
-    options.reload = open, options.read_edits = read_edits;
-    options.scene_named = std::find(arguments.begin(), arguments.end(), command.scene.what) != arguments.end();
-    options.limits = {command.time_limit, command.target_error};
-    if (is_program(command.scene.what)) options.function = own->function();
-    return options;
-  });
+  WindowOptions options = options_of(command, loaded);
+  const auto& arguments = command.arguments;
+  options.reload = open, options.read_edits = read_edits;
+  options.scene_named = std::find(arguments.begin(), arguments.end(), command.scene.what) != arguments.end();
+  options.limits = {command.time_limit, command.target_error};
+  if (is_program(command.scene.what)) options.function = own->function();
+  return open_window("the same picture without a window: " + headless_command(command), options);
 }
 
 }  // namespace
@@ -173,13 +153,13 @@ int view_scene(const CommandRequest& command) {
 int run_view(const CommandRequest& command) {
   if (command.scene.what != "-") return view_scene(command);
   const Beginning begin = beginning_of(standard_input);
-  if (begin.bytes.empty())
-    throw UsageError(std::string(input_name) + ": found nothing, expected a scene, or a picture (P3 or P6)");
+  if (begin.bytes.empty()) refuse("{}: found nothing, expected a scene, or a picture (P3 or P6)", input_name);
   if (begin.is_picture) return view_picture(command, begin.bytes);
   if (!begin.is_scene)
-    throw UsageError(std::string(input_name) + ": found " + first_line_of(standard_input, begin.bytes) +
-                     ", expected P3 or P6 as the first bytes, or a scene's {; what a program says besides its picture "
-                     "belongs on standard error (std::cerr)");
+    refuse(
+        "{}: found {}, expected P3 or P6 as the first bytes, or a scene's {{; what a program says besides its picture "
+        "belongs on standard error (std::cerr)",
+        input_name, first_line_of(standard_input, begin.bytes));
   // The C library takes back as many bytes as it is given.
   std::for_each(begin.bytes.rbegin(), begin.bytes.rend(), [](char byte) { std::ungetc(byte, stdin); });
   return view_scene(command);

@@ -1,34 +1,55 @@
 #pragma once
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-/// What the program can tell about itself beside --help: a page for man, completion for shells, what it was built from.
+/// The options and the commands, a row each, and what the program can tell about itself by them beside --help: a page
+/// for man, completion for shells; and what it was built from.
 namespace tyndall {
 
-/// One option of a command, as its --help shows it.
-struct OptionPage {
-  std::vector<std::string> names;    ///< with their dashes, the short one first; of an argument its name in capitals
-  std::string group;                 ///< the heading that it stands below
-  std::string unit;                  ///< what the help calls its value; "": it takes none
-  std::vector<std::string> choices;  ///< the values that it takes, where they have names; else none
-  std::string help;                  ///< lines, with \n between them
+struct CommandRequest;  // see app/cli/requests.h
+
+/// How often an option may be given: a flag takes no value, of `once` the last value counts.
+enum class Takes { flag, once, each };
+
+/// What an option does with its text; a flag gets "on". Throws UsageError `found "X", expected Y`, before which the
+/// option's name is put.
+struct Taker {
+  std::function<void(CommandRequest&, const std::string&)> take;
+  Takes takes = Takes::once;
+  std::vector<std::string> choices{};  ///< the values that it takes, where they have names, for shells
 };
 
-/// One command, as its --help shows it. All texts are lines with \n between them.
-struct CommandPage {
+/// An option of commands, or without dashes in its names an argument.
+struct OptionRow {
+  /// Where memory runs out within a list of rows, GCC 12 destroys members of an aggregate that were not made yet.
+  OptionRow(std::string n, std::string u, Taker t, std::string h, std::string_view c = "", const char* below = "")
+      : names(std::move(n)), unit(std::move(u)), taker(std::move(t)), help(std::move(h)), commands(c), heading(below) {}
+
+  std::string names;  ///< "-t,--threads", "SCENE"
+  std::string unit;   ///< what the help calls the value; "": it takes none, " ": the name says it
+  Taker taker;
+  std::string help;           ///< lines, with \n between them
+  std::string_view commands;  ///< those that it is an option of in this way; "": of all that name it
+  std::string heading;        ///< that it stands below in a help; "": no help lists it
+};
+
+/// One command. All texts are lines with \n between them.
+struct CommandRow {
   std::string name, summary;    ///< "render", and what it does in a few words
   std::string usage;            ///< what follows "tyndall"
-  std::string about, examples;  ///< before and after the options
-  std::vector<OptionPage> arguments, options;
+  std::string about, examples;  ///< before and after the options in the help
+  std::vector<OptionRow> arguments, options;
 };
 
 /// The page "tyndall.1" in the language of man(7).
-std::string man_page(const std::vector<CommandPage>& commands);
+std::string man_page(const std::vector<CommandRow>& commands);
 
 /// Scripts that complete commands, options, named values, files and built-in scenes.
-std::string bash_completion(const std::vector<CommandPage>& commands);
-std::string zsh_completion(const std::vector<CommandPage>& commands);
-std::string fish_completion(const std::vector<CommandPage>& commands);
+std::string bash_completion(const std::vector<CommandRow>& commands);
+std::string zsh_completion(const std::vector<CommandRow>& commands);
+std::string fish_completion(const std::vector<CommandRow>& commands);
 
 /// Lines that name the version, the compiler, the instruction sets and the libraries.
 std::string version_text();

@@ -180,10 +180,10 @@ APP = [
     ("the region ends on the right where it ends below", "app/python/module.cpp", "Region{x0, y0, «x1 → y1», y1};", "python"),
 
     ("a line that begins with a dot is a request", "app/manual/page.cpp", "if (at_start && («c == '.' → false» || c == '\\''))", "app/manual/page"),
-    ("a switch wants a value in bash", "app/manual/page.cpp", "«if (option.unit.empty()) continue; → »", "app/manual/page"),
+    ("a switch wants a value in bash", "app/manual/page.cpp", "«if (option.unit.empty()) return std::string(); → »", "app/manual/page"),
     ("brackets end the help of zsh", "app/manual/page.cpp", "«for (const char c : {'[', ']'}) std::replace(help.begin(), help.end(), c, c == '[' ? '(' : ')'); → »", "app/manual/page"),
     ("fish offers files where words are wanted", "app/manual/page.cpp", "text += «takes_file(option) → true» ? \" -r -F\" : \" -x\";", "app/manual/page"),
-    ("a group's heading above each of its options", "app/manual/page.cpp", "«group = option.group; → »", "app/manual/page"),
+    ("a group's heading above each of its options", "app/manual/page.cpp", "«group = option.heading; → »", "app/manual/page"),
 
     ("tolerances that are kept are not looked at", "app/comparison/baseline.cpp",
      "return «at == kept.end() || at->second.none() ? usual_tolerance : at->second → usual_tolerance»;", "app/baseline.sh app/baseline_folders.sh"),
@@ -208,9 +208,9 @@ APP = [
      "app/check/statistics"),
 
     ("parts of adaptive renders are merged", "app/cli/merge.cpp", "if («part.scene.render.adaptive → false»)", "app/shards.sh"),
-    ("one value is varied twice", "app/cli/sweep.cpp", "&& «command.axes[0].pointer == command.axes[1].pointer → false»)", "commands/refusals app/sweep.sh"),
+    ("one value is varied twice", "app/cli/options.cpp", "&& «axes[0].pointer == axes[1].pointer → false»)", "commands/refusals app/sweep.sh"),
     ("a picture of too few samples counts as whole", "app/cli/kept_pictures.cpp", "found > wanted : «found != wanted → found > wanted»))", "app/animate.sh app/sweep.sh"),
     ("a file that cannot be written is no failure", "app/cli/merge.cpp", "return problems.empty() ? 0 : «output_failed → 0»;", "app/shards.sh"),
-    ("--fresh goes on all the same", "app/cli/sweep.cpp", "«if (job.command.fresh) return {}; → »", "app/sweep.sh"),
+    ("--fresh goes on all the same", "app/cli/kept_pictures.cpp", "const bool whole = «!job.command.fresh → true» &&", "app/animate.sh app/sweep.sh"),
     ("a frame that was not written is listed as whole", "app/cli/animate.cpp", "«if (!written) return; → »", "app/animate.sh app/full_disk.sh"),
 ]

@@ -82,7 +82,22 @@ struct WrongSet {
   bool names_both = false;  ///< and one of the others
 };
 
-constexpr int kinds = 13;
+/// What one shard has otherwise.
+struct Change {
+  const char* kind;
+  void (*make)(Shard&);
+  bool names_both = true;
+};
+const Change changes[] = {{"overlap", [](Shard& shard) { shard.first -= 1; }},
+                          {"scene", [](Shard& shard) { shard.radius = "2"; }},
+                          {"seed", [](Shard& shard) { shard.seed = "1"; }},
+                          {"size", [](Shard& shard) { shard.width = 7; }},
+                          {"version", [](Shard& shard) { shard.version = "0.9"; }},
+                          {"sampler", [](Shard& shard) { shard.sampler = "random"; }},
+                          {"adaptive", [](Shard& shard) { shard.adaptive = "true"; }, false},
+                          {"film", [](Shard& shard) { shard.with_film = false; }, false},
+                          {"gap", [](Shard& shard) { shard.last -= 1; }}};
+constexpr int kinds = static_cast<int>(std::size(changes)) + 4;
 
 /// A set of which one shard is wrong, in the way of that number: a copy of a right one, with a change.
 WrongSet wrong_set(const std::vector<fs::path>& right, const fs::path& folder, int kind, std::mt19937& random) {
@@ -97,10 +112,6 @@ WrongSet wrong_set(const std::vector<fs::path>& right, const fs::path& folder, i
   shard.first = static_cast<std::uint32_t>(std::stoul(name));
   shard.last = static_cast<std::uint32_t>(std::stoul(name.substr(name.find('-') + 1)));
   set.wrong = set.parts[at];
-  const auto replace = [&](const char* text) {
-    set.kind = text;
-    write_shard(set.wrong, shard);
-  };
   const auto damage = [&](const char* text, auto change) {
     set.kind = text;
     set.names_both = false;
@@ -108,64 +119,28 @@ WrongSet wrong_set(const std::vector<fs::path>& right, const fs::path& folder, i
     change(bytes);
     write_text(set.wrong, bytes);
   };
-  switch (kind) {
-    case 0:
-      set.kind = "duplicate";
-      set.parts.push_back(set.wrong);
-      fs::copy_file(set.wrong, set.parts.back() = folder / "again.exr");
-      break;
-    case 1:
-      shard.first -= 1;
-      replace("overlap");
-      break;
-    case 2:
-      set.kind = "gap";
-      set.parts.erase(set.parts.begin() + static_cast<std::ptrdiff_t>(at));
-      set.wrong = set.parts[at];
-      break;
-    case 3:
-      shard.last -= 1;
-      replace("gap");
-      set.wrong = set.parts[at + 1];
-      break;
-    case 4:
-      shard.radius = "2";
-      replace("scene");
-      break;
-    case 5:
-      shard.seed = "1";
-      replace("seed");
-      break;
-    case 6:
-      shard.width = 7;
-      replace("size");
-      break;
-    case 7:
-      shard.version = "0.9";
-      replace("version");
-      break;
-    case 8:
-      shard.sampler = "random";
-      replace("sampler");
-      break;
-    case 9:
-      damage("cut", [&](std::string& bytes) { bytes.resize(1 + random() % (bytes.size() - 1)); });
-      break;
-    case 10:  // in the film's text or in its pixels, behind the attributes that say nothing of it
-      damage("flipped", [&](std::string& bytes) {
-        const std::size_t from = bytes.find("film.taken"), place = from + 200 + random() % (bytes.size() - from - 200);
-        bytes[place] = static_cast<char>(bytes[place] ^ (1 << random() % 8));
-      });
-      break;
-    case 11:
-      shard.adaptive = "true";
-      replace("adaptive");
-      set.names_both = false;
-      break;
-    default:
-      shard.with_film = false;
-      replace("film");
-      set.names_both = false;
+  if (kind >= 4) {
+    const Change& change = changes[kind - 4];
+    change.make(shard);
+    write_shard(set.wrong, shard);
+    set.kind = change.kind;
+    set.names_both = change.names_both;
+    if (set.kind == "gap") set.wrong = set.parts[at + 1];
+  } else if (kind == 3) {
+    set.kind = "duplicate";
+    set.parts.push_back(folder / "again.exr");
+    fs::copy_file(set.wrong, set.parts.back());
+  } else if (kind == 2) {
+    set.kind = "gap";
+    set.parts.erase(set.parts.begin() + static_cast<std::ptrdiff_t>(at));
+    set.wrong = set.parts[at];
+  } else if (kind == 1) {
+    damage("cut", [&](std::string& bytes) { bytes.resize(1 + random() % (bytes.size() - 1)); });
+  } else {  // in the film's text or in its pixels, behind the attributes that say nothing of it
+    damage("flipped", [&](std::string& bytes) {
+      const std::size_t from = bytes.find("film.taken"), place = from + 200 + random() % (bytes.size() - from - 200);
+      bytes[place] = static_cast<char>(bytes[place] ^ (1 << random() % 8));
+    });
   }
   std::shuffle(set.parts.begin(), set.parts.end(), random);
   return set;

@@ -9,26 +9,23 @@ namespace {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-std::vector<CommandPage> pages() {
-  const OptionPage scene{{"SCENE"}, "", "", {}, "a scene"};
-  const OptionPage output{{"-o", "--output"}, "Output", "FILE", {}, "the image; it's required"};
-  const OptionPage method{{"--method"}, "Method", "NAME", {"fast", "slow"}, "how [from the scene]"};
-  const OptionPage quiet{{"-q", "--quiet"}, "Output", "", {}, ".dots and \\ backslashes"};
-  const OptionPage bits{{"--bits"}, "Output", "N", {}, "bits[8]"};
-  return {{"paint",
-           "paint a scene",
-           "paint SCENE -o FILE",
-           "Paints.\n\nSlowly.",
-           "tyndall paint a.json",
-           {scene},
-           {output, method, quiet, bits}},
-          {"list", "list: all of them", "list", "Lists.", "", {}, {}}};
-}
+const OptionRow output{"-o,--output", "FILE", {}, "the image; it's required", "", "Output"};
+const OptionRow method{"--method", "NAME", {{}, Takes::once, {"fast", "slow"}}, "how [from the scene]", "", "Method"};
+const OptionRow quiet{"-q,--quiet", "", {}, ".dots and \\ backslashes", "", "Output"};
+const OptionRow bits{"--bits", "N", {}, "bits[8]", "", "Output"};
+const std::vector<CommandRow> rows{{"paint",
+                                    "paint a scene",
+                                    "paint SCENE -o FILE",
+                                    "Paints.\n\nSlowly.",
+                                    "tyndall paint a.json",
+                                    {{"SCENE", " ", {}, "a scene"}},
+                                    {output, method, quiet, bits}},
+                                   {"list", "list: all of them", "list", "Lists.", "", {}, {}}};
 
 }  // namespace
 
 TEST_CASE("manual: every option with its value, nothing that the formatter would take for a request") {
-  const std::string text = man_page(pages());
+  const std::string text = man_page(rows);
   CHECK(has(text, ".SH PAINT\n.B tyndall paint SCENE \\-o FILE\n"));
   CHECK(has(text, "Paints.\n.PP\nSlowly.\n"));
   CHECK(has(text, ".SS Output\n.TP\n\\fB\\-o\\fR, \\fB\\-\\-output\\fR \\fIFILE\\fR\nthe image; it's required\n"));
@@ -37,18 +34,18 @@ TEST_CASE("manual: every option with its value, nothing that the formatter would
 }
 
 TEST_CASE("completion: names, choices and files") {
-  const std::string bash = bash_completion(pages());
+  const std::string bash = bash_completion(rows);
   CHECK(has(bash, "'paint -o' | 'paint --output') _tyndall_files \"$word\"; return ;;"));
   CHECK(has(bash, "'paint --method') words='fast slow' ;;"));
   CHECK(has(bash, "paint) words='-o --output --method -q --quiet --bits' ;;"));
   CHECK(has(bash, "'paint --bits') return ;;"));
   CHECK_FALSE(has(bash, "'paint -q'"));
-  const std::string fish = fish_completion(pages());
+  const std::string fish = fish_completion(rows);
   CHECK(has(fish, "-s o -l output -r -F -d 'the image'"));
   CHECK(has(fish, "-l method -x -a 'fast slow' -d 'how'"));
   CHECK(has(fish, "-l bits -x -d 'bits[8]'"));
   CHECK(has(fish, "-a list -d 'list'"));
-  const std::string zsh = zsh_completion(pages());
+  const std::string zsh = zsh_completion(rows);
   CHECK(has(zsh, "'*'{-o,--output}'[the image]:FILE:_files'"));
   CHECK(has(zsh, "'*'--method'[how]:NAME:(fast slow)'"));
   CHECK(has(zsh, "'*'{-q,--quiet}'[.dots and \\ backslashes]'"));
