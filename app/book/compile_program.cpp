@@ -1,17 +1,18 @@
 #include "app/book/compile_program.h"
 
-#include "app/book/book_folder.h"
 #include "app/book/inserted_calls.h"
-#include "app/book/scratch_folder.h"
 #include "app/text/values.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/system/files.h"
 #include "core/system/open_file.h"
 #include "core/system/signals.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <regex>
 #include <sstream>
 #include <system_error>
@@ -31,6 +32,34 @@ std::vector<std::string> lines_of(const std::string& text) {
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   return lines;
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  errno = 0;
+  std::ofstream out(file, std::ios::binary);
+  if (!(out << text << std::flush))
+    throw IoError(printable(file.parent_path().string()) + ": cannot write temporary files: " + error_text(errno));
+}
+std::string read_text(const fs::path& file) {
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(in)), {});
+  if (!in.is_open() || in.bad()) throw IoError(printable(file.string()) + ": cannot be read: " + error_text(errno));
+  return text;
+}
+
+/// The folder of our headers: book in $TYNDALL_ASSETS, share/tyndall/book of the installation, or book beside the
+/// program.
+fs::path book_folder() {
+  std::error_code error;
+  const fs::path program = own_file().parent_path();
+  const char* assets = std::getenv("TYNDALL_ASSETS");
+  const fs::path chosen = assets && *assets ? fs::path(assets) / "book" : fs::path();
+  for (const fs::path& folder : {chosen, program.parent_path() / "share" / "tyndall" / "book", program / "book"})
+    if (!folder.empty() && fs::is_regular_file(folder / "take.h", error)) return fs::canonical(folder);
+  throw IoError(
+      "the folder of headers for readers' programs was not found: neither share/tyndall/book of the installation nor " +
+      (program / "book").string() + " has take.h");
 }
 
 std::string undefined_reference(const std::vector<std::string>& lines) {
@@ -131,10 +160,10 @@ fs::path folder_with(const std::string& header, const fs::path& program) {
 
 class Compilation {
  public:
-  Compilation(const ProgramTask& task, const ProgramSources& sources)
-      : task_(task), main_(sources.files.front()), headers_(fs::canonical(book_folder())) {
-    for (const fs::path& file : sources.files) sources_.push_back(fs::absolute(file).lexically_normal());
-    for (const fs::path& folder : sources.include_folders)
+  explicit Compilation(const ProgramTask& task)
+      : task_(task), main_(task.sources.files.front()), headers_(book_folder()) {
+    for (const fs::path& file : task.sources.files) sources_.push_back(fs::absolute(file).lexically_normal());
+    for (const fs::path& folder : task.sources.include_folders)
       options_.insert(options_.end(), {"-I", fs::absolute(folder).string()});
   }
 
@@ -150,9 +179,7 @@ class Compilation {
         const InsertedCalls calls = insert_calls(text_, outline_, reads_world);
         if (!calls.problem.empty()) throw UsageError(task_.name + ": " + calls.problem);
         const std::string error = compile(calls.text);
-        if (error.empty())
-          return {task_.folder / "program", outline_.files,
-                  reads_world ? "" : "its classes are not those of the books"};
+        if (error.empty()) return {task_.folder / "program", outline_.files, calls.draws_by_pdf, calls.decodes_images};
         if (!reads_world || !is_in_ours_) errors.push_back(error);
         if (!is_in_ours_) break;
       }
@@ -241,8 +268,6 @@ std::string first_error(const std::string& output, const fs::path& main) {
          shortened(lines.empty() ? "the compiler does not say why" : lines.front(), longest_error);
 }
 
-CompiledProgram compile_program(const ProgramTask& task, const ProgramSources& sources) {
-  return Compilation(task, sources).run();
-}
+CompiledProgram compile_program(const ProgramTask& task) { return Compilation(task).run(); }
 
 }  // namespace tyndall

@@ -1,0 +1,70 @@
+#include "app/book/reading.h"
+
+#include "app/book/program_outline.h"
+#include "core/base/text.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace tyndall {
+
+double largest(Vector a) { return std::fmax(std::fabs(a.x), std::fmax(std::fabs(a.y), std::fabs(a.z))); }
+bool is_near(double a, double b, double precision) {
+  return std::fabs(a - b) <= precision * std::fmax(1.0, std::fmax(std::fabs(a), std::fabs(b)));
+}
+bool is_near(Vector a, Vector b, double precision) {
+  return largest(a - b) <= precision * std::fmax(1.0, std::fmax(largest(a), largest(b)));
+}
+std::string triple(Vector a) { return fmt::format("[{},{},{}]", a.x, a.y, a.z); }
+
+bool Described::has(char kind) const {
+  return std::any_of(members.begin(), members.end(), [&](const Member& one) { return one.kind == kind; });
+}
+std::vector<double> Described::all(char kind) const {
+  std::vector<double> found;
+  for (const Member& one : members)
+    if (one.kind == kind) found.insert(found.end(), one.numbers.begin(), one.numbers.end());
+  return found;
+}
+std::vector<Vector> Described::vectors() const {
+  const std::vector<double> numbers = all('v');
+  std::vector<Vector> found;
+  for (std::size_t k = 0; k < numbers.size(); k += 3) found.push_back({numbers[k], numbers[k + 1], numbers[k + 2]});
+  return found;
+}
+const double* Described::named(const std::string& part) const {
+  for (const Member& one : members)
+    if (one.kind == 'n' && key_of(one.name).find(part) != std::string::npos) return one.numbers.data();
+  return nullptr;
+}
+
+Described described_by(const std::string& text) {
+  Described made;
+  std::istringstream lines(text);
+  std::getline(lines, made.class_name), std::getline(lines, made.file);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    Described::Member member;
+    words >> member.kind >> member.name;
+    for (std::string word; words >> word;) member.numbers.push_back(std::strtod(word.c_str(), nullptr));
+    made.members.push_back(member);
+  }
+  made.class_name = printable(made.class_name);
+  return made;
+}
+
+const Described& Reading::described(char kind, double object) {
+  const auto [known, is_new] = described_ones.try_emplace(object);
+  if (is_new) known->second = described_by(program.describe(kind, object));
+  return known->second;
+}
+
+std::string Reading::add(const std::string& kind, std::string& list, const std::string& made) {
+  std::string name = in_quotes(kind + " " + std::to_string(++counts[kind]));
+  list += (list.empty() ? "" : ",\n") + name + ":" + made;
+  return name;
+}
+
+}  // namespace tyndall
