@@ -27,13 +27,6 @@ constexpr double max_seconds = 120;
 constexpr std::size_t max_output = std::size_t(1) << 20;
 constexpr std::size_t longest_error = 240;  // letters of one message
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
-
 void write_text(const fs::path& file, const std::string& text) {
   errno = 0;
   std::ofstream out(file, std::ios::binary);
@@ -60,16 +53,6 @@ fs::path book_folder() {
   throw IoError(
       "the folder of headers for readers' programs was not found: neither share/tyndall/book of the installation nor " +
       (program / "book").string() + " has take.h");
-}
-
-std::string undefined_reference(const std::vector<std::string>& lines) {
-  for (const std::string& line : lines) {
-    const std::size_t at = line.find("undefined reference to ");
-    if (at != std::string::npos)
-      return line.substr(at) +
-             " (if it is in another source file, name that, too: tyndall main.cc other.cc; libraries are not linked)";
-  }
-  return "";
 }
 
 /// Compilers by their names, each with arguments that the user gave.
@@ -253,19 +236,24 @@ class Compilation {
 }  // namespace
 
 std::string first_error(const std::string& output, const fs::path& main) {
-  const std::vector<std::string> lines = lines_of(output);
-  for (const std::string& line : lines) {
+  std::istringstream lines(output);
+  std::string first, undefined;
+  for (std::string line; std::getline(lines, line);) {
+    if (first.empty()) first = line;
     const std::size_t fatal = line.find("fatal error: "), at = std::min(fatal, line.find("error: "));
-    const std::size_t place = line.find(':');
-    const bool of_linker = line.rfind("collect2", 0) == 0 || line.find("undefined reference") != std::string::npos;
-    if (at == std::string::npos || place >= at || of_linker) continue;
+    const std::size_t place = line.find(':'), reference = line.find("undefined reference to ");
+    if (reference != std::string::npos && undefined.empty())
+      undefined =
+          line.substr(reference) +
+          " (if it is in another source file, name that, too: tyndall main.cc other.cc; libraries are not linked)";
+    if (at == std::string::npos || place >= at || reference != std::string::npos || line.rfind("collect2", 0) == 0)
+      continue;
     return shown(line.substr(0, place), main) + line.substr(place, at - place) +
            shortened(line.substr(at + (at == fatal ? 13 : 7)), longest_error);
   }
-  const std::string undefined = undefined_reference(lines);
   if (!undefined.empty()) return main.string() + ": " + shortened(undefined, longest_error);
-  return main.string() + ": cannot be compiled: " +
-         shortened(lines.empty() ? "the compiler does not say why" : lines.front(), longest_error);
+  if (first.empty()) first = "the compiler does not say why";
+  return main.string() + ": cannot be compiled: " + shortened(first, longest_error);
 }
 
 CompiledProgram compile_program(const ProgramTask& task) { return Compilation(task).run(); }

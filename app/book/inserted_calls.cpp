@@ -69,8 +69,11 @@ class Inserter {
     if (!has_colour_) return {"", "has no function that computes the colour of a ray in a world"};
     for (const std::string_view head : outline_.heads) insert(head.data(), "::std::unitbuf << ");
     hurry_through_images();
-    const std::string end =
-        reads_world ? tail() : "namespace tyndall_book { void take_over(session& s) { take_samples(s); } }\n";
+    const std::string end = reads_world ? tail() : R"(namespace tyndall_book {
+template <class C> std::string described_camera(const C&) { return {}; }
+void take_over(session& s) { take_samples(s); }
+}
+)";
     return {with_insertions() + "\n# 1 \"tyndall/book/names\"\n" + end, "", draws_by_pdf_, decodes_images()};
   }
 
@@ -168,7 +171,7 @@ class Inserter {
       return parameter.name == first ? "tyndall_a" : parameter.name == second ? "tyndall_b" : parameter.name;
     });
     insert(function,
-           fmt::format(" if (::tyndall_book::is_watching()) ::tyndall_book::ray_wanted({}, [=](auto tyndall_a, auto "
+           fmt::format(" if (!::tyndall_book::is_ours) ::tyndall_book::ray_wanted({}, [=](auto tyndall_a, auto "
                        "tyndall_b) {{ return {}({}); }}, {}, {});",
                        function.owner >= 0 && !function.is_static ? "*this" : "0", function.name, arguments, first,
                        second));
@@ -186,7 +189,8 @@ class Inserter {
       else if (is_real(parameter))
         (reals++ == 0 ? low : high) = parameter.name;
       else
-        low = parameter.name + ".min", high = parameter.name + ".max";
+        low = fmt::format("::tyndall_book::end_of({}, false)", parameter.name),
+        high = fmt::format("::tyndall_book::end_of({}, true)", parameter.name);
     }
     if (!ray.empty() && !record.empty())
       insert(function,
@@ -203,11 +207,10 @@ class Inserter {
       ray = parameter.name;
       return "tyndall_ray";
     });
-    insert(
-        function,
-        fmt::format(" if (::tyndall_book::is_watching()) return ::tyndall_book::colour_wanted<{}, {}>([&](const auto& "
-                    "tyndall_ray) -> {} {{ return {}({}); }}, {}, {}, static_cast<int>({}));",
-                    qualified(shape_), has_camera_, function.result, function.name, arguments, ray, world, depth));
+    insert(function,
+           fmt::format(" if (!::tyndall_book::is_ours) return ::tyndall_book::colour_wanted<{}, {}>([&](const auto& "
+                       "tyndall_ray) -> {} {{ return {}({}); }}, {}, {}, static_cast<int>({}));",
+                       qualified(shape_), has_camera_, function.result, function.name, arguments, ray, world, depth));
   }
   /// A function of a ray alone, whose world is a member or a global object that it asks for hits.
   void hook_without_world(const Function& function) {
@@ -324,11 +327,15 @@ class Inserter {
   template <class P> static vector value(const texture& t, double u, double v, const P& p) {{
     (void)t, (void)u, (void)v, (void)p; {} }}
 )",
-                       qualified(shape_), qualified(ray_), qualified(record_), class_or(material_, "absent_material"),
-                       class_or(texture_, "absent_texture"), call(*hit_, "shape&>(o)", "low", "high"), scatter_call(),
-                       value_of(emitted_, "material&>(m)"), value_of(value_, "texture&>(t)")) +
+                       qualified(shape_), qualified(ray_), qualified(record_), class_or(material_, "absent_class<'m'>"),
+                       class_or(texture_, "absent_class<'t'>"), call(*hit_, "shape&>(o)", "low", "high"),
+                       scatter_call(), value_of(emitted_, "material&>(m)"), value_of(value_, "texture&>(t)")) +
            members_of(shape_, "shape") + members_of(material_, "material") + members_of(texture_, "texture") +
-           "};\nvoid take_over(session& s) { take_over_world<names>(s); }\n}\n";
+           R"(};
+template <class C> std::string described_camera(const C& camera) { return description<names>::of(camera); }
+void take_over(session& s) { take_over_world<names>(s); }
+}
+)";
   }
 
   const std::string& text_;

@@ -1,4 +1,3 @@
-#include "app/book/program_outline.h"
 #include "app/book/reading.h"
 #include "core/base/math.h"
 
@@ -83,20 +82,16 @@ class CameraReader {
   /// Takes what the camera's members say in place of what was measured, where it is nearly that.
   void take_members() {
     const Vector to = normalized(camera_.look_at - camera_.look_from), up = camera_.vup;
-    const std::vector<Vector> points = o_.vectors();
-    const auto take_point = [&](Vector& to_set, const auto& is) {
+    const auto take_point = [&](Vector& to_set, const char* name, const auto& is) {
+      const std::vector<Vector> points = o_.vectors(name);
       if (const auto one = std::find_if(points.begin(), points.end(), is); one != points.end()) to_set = *one;
     };
-    take_point(camera_.look_from,
+    const auto have_one_direction = [&](Vector a, Vector b) { return length(normalized(a) - normalized(b)) < noise_; };
+    take_point(camera_.look_from, "",
                [&](Vector one) { return is_near(one, camera_.look_from, noise_ * camera_.focus_distance); });
     camera_.look_at = camera_.look_from + camera_.focus_distance * to;
-    const auto have_one_direction = [&](Vector a, Vector b) { return length(normalized(a) - normalized(b)) < noise_; };
-    take_point(camera_.look_at, [&](Vector one) { return have_one_direction(one - camera_.look_from, to); });
-    for (const Described::Member& member : o_.members) {
-      if (member.kind != 'v' || key_of(member.name).find("up") == std::string::npos) continue;
-      const Vector one{member.numbers[0], member.numbers[1], member.numbers[2]};
-      if (have_one_direction(cross(to, one), cross(to, up))) camera_.vup = one;
-    }
+    take_point(camera_.look_at, "at", [&](Vector one) { return have_one_direction(one - camera_.look_from, to); });
+    take_point(camera_.vup, "up", [&](Vector one) { return have_one_direction(cross(to, one), cross(to, up)); });
     const auto take = [&](double& to_set, double allowed, const auto& value) {
       const double measured = to_set;
       double nearest = allowed * measured;
@@ -221,7 +216,7 @@ int read_depth(Reading& reading) {
   const std::vector<LightAnswer> its = light(
       reading, {{}, {from, to, shining, lights}, {from, to, matt, matts}, {from, to, matt, matts, shining, lights}});
   if (its[0].high == 0 || (matt == 0 && shining == 0)) return told;  // its world cannot be replaced, or has neither
-  if (!(its[0].low > 0))
+  if (its[0].low <= 0)
     throw NotTaken{"ray_color() takes hits at t = 0, so that half of the light meets the surface that it leaves"};
   if (!(its[0].low <= 0.05 && its[0].high >= 1e4))
     throw NotTaken{fmt::format("ray_color() looks for hits at t from {} to {} only", its[0].low, its[0].high)};

@@ -28,10 +28,11 @@ std::vector<double> Described::all(char kind) const {
     if (one.kind == kind) found.insert(found.end(), one.numbers.begin(), one.numbers.end());
   return found;
 }
-std::vector<Vector> Described::vectors() const {
-  const std::vector<double> numbers = all('v');
+std::vector<Vector> Described::vectors(const std::string& part) const {
   std::vector<Vector> found;
-  for (std::size_t k = 0; k < numbers.size(); k += 3) found.push_back({numbers[k], numbers[k + 1], numbers[k + 2]});
+  for (const Member& one : members)
+    if (one.kind == 'v' && key_of(one.name).find(part) != std::string::npos)
+      found.push_back({one.numbers[0], one.numbers[1], one.numbers[2]});
   return found;
 }
 const double* Described::named(const std::string& part) const {

@@ -65,8 +65,9 @@ struct Described {
 
   bool has(char kind) const;
   std::vector<double> all(char kind) const;  ///< the numbers of all members of the kind
-  std::vector<Vector> vectors() const;
-  /// The first number whose name has the part, in lower case and without underscores; null: none.
+  /// Those whose names have the part, in lower case and without underscores.
+  std::vector<Vector> vectors(const std::string& part = "") const;
+  /// The first such number; null: none.
   const double* named(const std::string& part) const;
   [[noreturn]] void refuse(const std::string& why) const { throw NotTaken{class_name + ": " + why}; }
 };

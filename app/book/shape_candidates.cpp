@@ -26,9 +26,7 @@ Candidate sphere_of(const Motion& centre, double radius) {
   const bool moves = length(centre.end - centre.begin) > 0;
   return {fmt::format("{{\"type\":\"sphere\",\"center\":{}{},\"radius\":{}", triple(centre.begin),
                       moves ? ",\"center_end\":" + triple(centre.end) : "", radius),
-          centre.at(0.5),
-          size,
-          true,
+          {centre.at(0.5), size, true},
           [=](RandomNumbers& random, double time) {
             const Vector from = centre.at(time) + (size * random.between(0, 3)) * random.on_sphere();
             return Shot{from, centre.at(time) + (size * random.between(0, 1.4)) * random.on_sphere() - from, time};
@@ -73,9 +71,11 @@ Candidate flat_of(const Flat& flat, double precision) {
   const double low = flat.is_disk() ? -1.6 * flat.outer : -0.6, high = 1.6 * flat.outer;
   const Vector across = plane.normal();
   return {flat.text(),
-          flat.middle(),
-          flat.outer * std::fmin(length(plane.u), length(plane.v)),
-          false,
+          {flat.middle(),
+           flat.outer * std::fmin(length(plane.u), length(plane.v)),
+           false,
+           flat.type == "quad" && is_near(dot(plane.u, plane.v), 0, 1e-9),
+           {plane.at(0, 0), plane.at(1, 1)}},
           [=](RandomNumbers& random, double) {
             const Vector target = plane.at(random.between(low, high), random.between(low, high));
             const double distance = random.between(0.5, 3) * (length(plane.u) + length(plane.v));

@@ -1,6 +1,7 @@
 #pragma once
 #include "app/book/reading.h"
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -14,12 +15,18 @@ struct Crossing {
   double t = 0;
   Vector normal;
 };
+/// An object of the scene: where it lies for the object that encloses it.
+struct Piece {
+  Vector centre;
+  double size = 1;
+  bool is_solid = false, is_rectangle = false;
+  std::array<Vector, 2> corners{};  ///< of a rectangle: opposite ones
+  std::string material{}, moves{};
+};
 /// A shape of the scene, which one of the reader's may be.
 struct Candidate {
   std::string text;  ///< JSON, without its end
-  Vector centre;
-  double size = 1;
-  bool is_solid = false;  ///< its normals point out, or to the ray
+  Piece piece;       ///< if it is solid, its normals point out, or to the ray
   /// A shot near it, at its time.
   std::function<Shot(RandomNumbers&, double time)> aim;
   /// Where the line of a shot meets it, nearest first; nothing: it is too near an edge to be sure.

@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace tyndall {
@@ -15,15 +14,6 @@ struct Placing {
   std::string moves;      ///< JSON, innermost first, with commas between them
   bool boundary = false;  ///< of a medium: it is written without a material
   bool flipped = false;   ///< its normals point the other way
-};
-
-/// An object of the scene: where it lies for the object that encloses it.
-struct Piece {
-  Vector centre;
-  double size = 1;
-  bool can_be_filled = false, is_rectangle = false;
-  std::array<Vector, 2> corners{};  ///< of a rectangle: opposite ones
-  std::string material{}, moves{};
 };
 
 /// The books' translate and rotate_y.
@@ -70,12 +60,12 @@ class WorldReader {
   std::vector<ShotAnswer> shoot(double shape, const std::vector<Shot>& shots, std::size_t count = 0) {
     return r_.program.ask<ShotAnswer>('h', shape, shots, count);
   }
-  /// Whether hit() answers 300 shots from all sides, in different intervals of t, as the candidate would. Then `met` is
-  /// one of the hits, in front if its normal is.
-  bool is(double shape, const Candidate& candidate, ShotAnswer& met) {
+  /// Whether hit() answers 300 shots from all sides, in different intervals of t, as the candidate would; then it is
+  /// taken over, and met_ is one of the hits, in front if its normal is.
+  bool take(double shape, const Described& o, const Candidate& candidate, const Placing& at) {
     RandomNumbers random;
     bool outward = true, against = true;
-    met = {};
+    met_ = {};
     for (const int end : {20, 300}) {  // what is another shape shows it soon
       std::vector<Shot> shots;
       std::vector<std::vector<Crossing>> crossings;
@@ -92,7 +82,7 @@ class WorldReader {
         const auto expected = std::find_if(crossings[k].begin(), crossings[k].end(),
                                            [&](const Crossing& one) { return one.t > shot.low && one.t < shot.high; });
         const bool hits = expected != crossings[k].end(), limited = shot.low > 0.001 || shot.high < endless;
-        const double scale = std::fmax(candidate.size, largest(candidate.centre)) / length(shot.to);
+        const double scale = std::fmax(candidate.piece.size, largest(candidate.piece.centre)) / length(shot.to);
         if ((its.found != 0) != hits ||
             (hits && !(std::fabs(its.t - expected->t) <= 10 * r_.precision * std::fmax(scale, expected->t)))) {
           if (!limited) return false;
@@ -103,12 +93,17 @@ class WorldReader {
         if (!(std::fabs(std::fabs(cosine) - 1) <= 0.02)) wrong = "its normals are not those of the books";
         outward = outward && cosine > 0;
         against = against && cosine * facing < 0 && (its.front != 0) == (facing < 0);
-        if (met.found != 0 && met.material != its.material) return false;
-        if (met.found == 0) met = its, met.front = (its.front != 0) == (facing < 0);
+        if (met_.found != 0 && met_.material != its.material) return false;
+        if (met_.found == 0) met_ = its, met_.front = (its.front != 0) == (facing < 0);
       }
       if (wrong) return reason_ = wrong, false;
     }
-    return met.found != 0 && (!candidate.is_solid || outward || against);
+    if (met_.found == 0 || (candidate.piece.is_solid && !outward && !against)) return false;
+    if (!at.boundary && met_.material == 0) o.refuse("it has no material: there is no light to trace in this chapter");
+    Piece piece = candidate.piece;
+    piece.material = at.boundary ? "" : ",\"material\":" + material_name(r_, met_.material), piece.moves = at.moves;
+    push(candidate.text, piece);
+    return true;
   }
 
   bool sphere(double shape, const Described& o, const Placing& at) {
@@ -116,40 +111,32 @@ class WorldReader {
     const double* radius = o.named("rad");
     if (radius && *radius == 0 && !motions.empty()) return true;
     if (radius && !motions.empty()) reason_ = "its hit() is not that of the books' sphere";
-    ShotAnswer met;
     for (const double size : o.all('n'))
       for (const Motion& centre : motions) {
-        const Candidate candidate = sphere_of(centre, size);
-        if (size == 0 || !is(shape, candidate, met)) continue;
+        if (size == 0 || !take(shape, o, sphere_of(centre, size), at)) continue;
         if (at.boundary && length(centre.end - centre.begin) > 0) o.refuse("fog in a moving sphere");
-        push(candidate.text, o, met.material, at, {candidate.centre, candidate.size, true});
         return true;
       }
     return false;
   }
 
   bool flat(double shape, const Described& o, const Placing& at) {
-    ShotAnswer met;
     for (const Plane& plane : planes_of(o)) {
       const double begin = length(plane.normal()) > 0 ? first_met(shape, plane) : endless;
       if (begin == endless) continue;
       reason_ = "its hit() is not that of a quad, a triangle, a disk or a ring";
       for (Flat flat : {Flat{plane, "quad"}, Flat{plane, "triangle"}, Flat{plane, "disk"}}) {
         if (flat.is_disk() && !measure(shape, begin, flat)) continue;
-        const Candidate candidate = flat_of(flat, r_.precision);
-        if (!is(shape, candidate, met)) continue;
-        const bool is_rectangle = flat.type == "quad" && is_near(dot(plane.u, plane.v), 0, 1e-9);
-        push(candidate.text, o, met.material, at,
-             {candidate.centre, candidate.size, false, is_rectangle, {plane.at(0, 0), plane.at(1, 1)}});
-        if (!at.boundary && shines_on_one_side(r_, met.material)) add_back(flat, (met.front != 0) != at.flipped, at);
+        if (!take(shape, o, flat_of(flat, r_.precision), at)) continue;
+        if (!at.boundary && shines_on_one_side(r_, met_.material)) add_back(flat, (met_.front != 0) != at.flipped, at);
         return true;
       }
     }
     return false;
   }
-  std::vector<bool> meets(double shape, const Plane& plane, const std::vector<double>& radii) {
+  std::vector<bool> meets(double shape, const Plane& plane, const std::vector<double>& along_u, double along_v) {
     std::vector<Shot> shots;
-    for (const double radius : radii) shots.push_back(plane.shot(radius, radius > 1.5 ? 0 : 1e-3));
+    for (const double place : along_u) shots.push_back(plane.shot(place, along_v));
     const double allowed = 10 * r_.precision * std::fmax(1, largest(plane.corner) / length(plane.shot(0, 0).to));
     std::vector<bool> all;
     for (const ShotAnswer& its : shoot(shape, shots)) all.push_back(its.found != 0 && std::fabs(its.t - 1) < allowed);
@@ -159,21 +146,22 @@ class WorldReader {
   double first_met(double shape, const Plane& plane) {
     std::vector<double> radii;
     for (int k = 0; k < 150; ++k) radii.push_back(0.01 * k);
-    const std::vector<bool> all = meets(shape, plane, radii);
+    const std::vector<bool> all = meets(shape, plane, radii, 1e-3);
     const auto first = std::find(all.begin(), all.end(), true);
     return first == all.end() ? endless : radii[static_cast<std::size_t>(first - all.begin())];
   }
   /// Measures the radii of a disk or ring; begin: where it is met.
   bool measure(double shape, double begin, Flat& disk) {
+    const auto holds = [&](double radius) -> bool { return meets(shape, disk.plane, {radius}, 0)[0]; };
     const auto edge = [&](double low, double high) {
-      const bool beyond = meets(shape, disk.plane, {high})[0];
+      const bool beyond = holds(high);
       for (int k = 0; k < 40; ++k) {
         const double middle = 0.5 * (low + high);
-        (meets(shape, disk.plane, {middle})[0] == beyond ? high : low) = middle;
+        (holds(middle) == beyond ? high : low) = middle;
       }
       return std::round(1e6 * high) / 1e6;
     };
-    if (meets(shape, disk.plane, {100})[0]) return false;
+    if (holds(100)) return false;
     disk.inner = begin > 0 ? edge(begin - 0.01, begin) : 0, disk.outer = edge(begin, 100);
     return true;
   }
@@ -184,8 +172,9 @@ class WorldReader {
     flat.plane.corner = flat.plane.corner + distance * normalized(normal);
     const std::string black =
         r_.name_of(-1, "black", r_.materials, [] { return "{\"type\":\"lambertian\",\"albedo\":[0,0,0]}"; });
-    r_.objects.push_back(flat.text() + ",\"material\":" + black + transform(at.moves) + "}");
-    pieces_.push_back({});
+    Piece piece;
+    piece.material = ",\"material\":" + black, piece.moves = at.moves;
+    push(flat.text(), piece);
   }
 
   /// Lists, trees, and what moves or turns another object: the nearest of its parts is hit.
@@ -251,7 +240,7 @@ class WorldReader {
     inside.boundary = true;
     const std::size_t begin = r_.objects.size();
     add(boundary[0], inside);
-    if (r_.objects.size() != begin + 1 || !pieces_.back().can_be_filled)
+    if (r_.objects.size() != begin + 1 || !pieces_.back().is_solid)
       o.refuse("Tyndall's fog fills one sphere or one box");
     const double extinction = *inverse < 0 ? -1 / *inverse : *inverse;
     check_passing(shape, o, boundary[0], extinction, aimed(begin));
@@ -274,15 +263,10 @@ class WorldReader {
       o.refuse("it is denser or thinner than the books' fog");
   }
 
-  static std::string transform(const std::string& moves) {
-    return moves.empty() ? "" : ",\"transform\":[" + moves + "]";
-  }
-  void push(const std::string& body, const Described& o, double material, const Placing& at, Piece its) {
-    if (!at.boundary && material == 0) o.refuse("it has no material: there is no light to trace in this chapter");
-    its.material = at.boundary ? "" : ",\"material\":" + material_name(r_, material);
-    its.moves = at.moves;
-    r_.objects.push_back(body + its.material + transform(at.moves) + "}");
-    pieces_.push_back(its);
+  void push(const std::string& body, const Piece& piece) {
+    const std::string transform = piece.moves.empty() ? "" : ",\"transform\":[" + piece.moves + "]";
+    r_.objects.push_back(body + piece.material + transform + "}");
+    pieces_.push_back(piece);
   }
   void drop(std::size_t begin) { r_.objects.resize(begin), pieces_.resize(begin); }
   /// A ray near one of the objects from that one on, if there are any.
@@ -326,14 +310,14 @@ class WorldReader {
     }
     if (sides != 63) return;
     drop(begin);
-    r_.objects.push_back("{\"type\":\"box\",\"min\":" + triple(low) + ",\"max\":" + triple(high) + first.material +
-                         transform(first.moves) + "}");
-    pieces_.push_back({0.5 * (low + high), 0.5 * length(high - low), true, false, {}, first.material, first.moves});
+    push("{\"type\":\"box\",\"min\":" + triple(low) + ",\"max\":" + triple(high),
+         {0.5 * (low + high), 0.5 * length(high - low), true, false, {}, first.material, first.moves});
   }
 
   Reading& r_;
   std::vector<Piece> pieces_;  ///< one for each object of the scene
   RandomNumbers random_;
+  ShotAnswer met_;
   std::string reason_;
   int depth_ = 0;
   bool has_media_ = false;

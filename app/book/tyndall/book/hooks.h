@@ -64,10 +64,8 @@ struct ray_source {
   double first = 0, second = 0;        ///< the last arguments
 };
 
-/// Whether this thread is asked by us: then the reader's functions do what they always do.
+/// Whether this thread is asked by us, which the inserted calls look at: then his functions do what they always do.
 static thread_local bool is_ours = false;
-/// What the inserted calls ask first.
-inline bool is_watching() { return !is_ours; }
 /// A world that does not answer by itself what a ray meets, and who does in its place. The record is the reader's.
 static thread_local const void* asked_world = nullptr;
 static thread_local bool (*answer_of_world)(const void* ray, double low, double high, void* record) = nullptr;

@@ -75,16 +75,6 @@ class description {
   const shape* const* array_ = nullptr;
   int count_ = 0;
 };
-struct no_names {
-  using shape = absent;
-  using material = absent;
-  using texture = absent;
-  using ray = absent;
-};
-template <class C>
-std::string described_camera(const C& camera) {
-  return description<no_names>::of(camera);
-}
 
 /// Reads what the third book's scatter() fills: a mirror's ray, or a density that directions are drawn from.
 template <class N, class R>

@@ -26,11 +26,9 @@ constexpr bool can(F) {
 
 struct absent {};
 /// In the place of classes that the reader's program does not have.
-struct absent_material {
-  virtual ~absent_material() = default;
-};
-struct absent_texture {
-  virtual ~absent_texture() = default;
+template <char role>
+struct absent_class {
+  virtual ~absent_class() = default;
 };
 
 /// What the first of the readers that can be compiled reads; absent: none can.
@@ -102,6 +100,18 @@ struct members {
   template <class O, class F>
   static void each(O&, const F&) {}
 };
+
+/// An end of an interval of the reader's, the lower one or the other; none (NaN): it has no two numbers.
+template <class T>
+double end_of(const T& interval, bool upper) {
+  double ends[2] = {NAN, NAN};
+  int count = 0;
+  members<T>::each(interval, [&](const char*, char, const auto& member) {
+    if constexpr (std::is_floating_point<std::decay_t<decltype(member)>>::value)
+      if (count < 2) ends[count++] = double(member);
+  });
+  return ends[upper];
+}
 
 /// The rays of a class, by any edition's names.
 template <class R>
