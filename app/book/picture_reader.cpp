@@ -173,36 +173,35 @@ Vector product(Vector a, Vector b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 std::string read_camera(Reading& reading) { return CameraReader(reading).text(); }
 
 std::string read_sky(Reading& reading) {
-  const std::vector<LightAnswer> ends = light(reading, {{{}, {0, -1, 0}}, {{}, {0, 1, 0}}});
-  const Vector bottom = ends[0].colour, top = ends[1].colour;
-  const auto check = [&](const std::vector<LightQuestion>& questions) {
-    const std::vector<LightAnswer> answers = light(reading, questions);
-    for (std::size_t k = 0; k < answers.size(); ++k) {
-      const double a = 0.5 * (normalized(questions[k].to).y + 1);
-      const Vector found = answers[k].colour, expected = (1 - a) * bottom + a * top;
-      if (!(largest(found - expected) <= reading.precision * std::fmax(1, largest(top))))
+  const auto colours = [&](const std::vector<RayAnswer>& rays) { return reading.program.ask<Vector>('y', 0, rays); };
+  const std::vector<Vector> ends = colours({{{}, {0, -1, 0}}, {{}, {0, 1, 0}}});
+  const Vector bottom = ends[0], top = ends[1];
+  const auto check = [&](const std::vector<RayAnswer>& rays) {
+    const std::vector<Vector> found = colours(rays);
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+      const double a = 0.5 * (normalized(rays[k].to).y + 1);
+      if (!(largest(found[k] - ((1 - a) * bottom + a * top)) <= reading.precision * std::fmax(1, largest(top))))
         throw NotTaken{"the sky of ray_color() is neither one colour nor a gradient from top to bottom"};
-      if (!(found.x >= 0 && found.y >= 0 && found.z >= 0))
+      if (!(found[k].x >= 0 && found[k].y >= 0 && found[k].z >= 0))
         throw NotTaken{"the sky of ray_color() is darker than black"};
     }
   };
   RandomNumbers random;
   std::vector<PixelPlace> places;
   for (int k = 0; k < 20000; ++k)  // what the camera sees
-    places.push_back({random.between(0, reading.scene.width), random.between(0, reading.scene.height)});
-  std::vector<LightQuestion> questions;
-  for (const RayAnswer& ray : reading.program.ask<RayAnswer>('r', 0, places)) questions.push_back({ray.from, ray.to});
-  check(questions);
-  const Vector eye = questions[0].from;
+    places.push_back({random.between(0, reading.picture.width), random.between(0, reading.picture.height)});
+  std::vector<RayAnswer> rays = reading.program.ask<RayAnswer>('r', 0, places);
+  check(rays);
+  const Vector eye = rays[0].from;
   constexpr int rows = 1024, columns = 2048;
   for (int row = 0; row < rows; ++row) {
-    questions.clear();
+    rays.clear();
     for (int column = 0; column < columns; ++column) {
       const double y = 1 - 2 * (row + 0.5) / rows, angle = 2 * pi * (column + 0.5) / columns, r = std::sqrt(1 - y * y);
-      questions.push_back({column % 2 ? eye : Vector{30.0 * row, -40, 7.0 * column},
-                           (1.0 + column % 3) * Vector{r * std::cos(angle), y, r * std::sin(angle)}});
+      rays.push_back({column % 2 ? eye : Vector{30.0 * row, -40, 7.0 * column},
+                      (1.0 + column % 3) * Vector{r * std::cos(angle), y, r * std::sin(angle)}});
     }
-    check(questions);
+    check(rays);
   }
   return is_near(top, bottom, 1e-9)
              ? triple(top)
@@ -223,7 +222,7 @@ int read_depth(Reading& reading) {
   if (shining != 0) expect(reading.light, its[1].colour, reading.precision, "a light");
   if (matt == 0) return told;
   if (!reading.scene.draws_by_pdf) {
-    const Vector sky = light(reading, {{{}, its[2].second}})[0].colour;
+    const Vector sky = reading.program.ask<Vector>('y', 0, std::vector{RayAnswer{{}, its[2].second}})[0];
     expect(product(reading.albedo, sky), its[2].colour, reading.precision, "one hit");
     if (shining != 0)
       expect(product(reading.albedo, reading.light), its[3].colour, reading.precision, "a hit and a light");

@@ -17,7 +17,7 @@ class Ray { public: Ray(int a) : b{a}, c(a) { } int b, c; };
 struct Hit { double t; };
 class Shape { public: virtual ~Shape() = default; virtual bool hit(const Ray& r, double low, double high, Hit& h) const = 0; };
 template <class T> class Many : public Shape { };
-class Ball final : public Shape { bool hit(const Ray&, double, double, Hit&) const override { return true; } };
+class Ball final : public Shape { bool hit(const Ray& a, double low, double high, Hit& b) const override { return true; } };
 inline std::ostream& operator<<(std::ostream& out, const Ray& r) { return out; }
 struct Camera { Ray get_ray(double u, double v) const { return Ray(int(u)); } };
 }
@@ -61,6 +61,8 @@ TEST_CASE("calls are inserted where rays are made and where their colours are co
   CHECK(made.text.find("return shade(tyndall_ray, world, depth); }, r, world, static_cast<int>(depth))") !=
         std::string::npos);
   CHECK(made.text.find("std::cout << ::std::unitbuf << \"P3\\n\" <<") != std::string::npos);
+  CHECK(made.text.find("return ::tyndall_book::answer_of_world(&a, low, high, &b); return true; }") !=
+        std::string::npos);
   CHECK(made.text.find("struct members<::rt::Hit>") != std::string::npos);
   CHECK(made.text.find("typeid(o) == typeid(::rt::Ball)") != std::string::npos);
   CHECK(made.text.find("typeid(::rt::Many)") == std::string::npos);

@@ -60,6 +60,7 @@ struct texture_place {
 struct pixel_place {
   double x = 0, y = 0;
 };
+/// y: a ray that meets nothing; what is its colour.
 struct ray_answer {
   vector from, to;
   double time = 0;

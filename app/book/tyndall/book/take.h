@@ -176,6 +176,9 @@ class replies {
     asked_world = nullptr;
     return made;
   }
+  static vector sky(const session& s, const void* of, const ray_answer& seen) {
+    return light(s, of, {seen.from, seen.to}).colour;
+  }
 
  private:
   template <class O>
