@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t max_file = std::size_t(1) << 30;
+constexpr double seconds_for_world = 20;
 
 /// An empty folder among the temporary files ($TMPDIR, else /tmp), only for this user; removed with all that is in it.
 class ScratchFolder {
@@ -160,6 +161,7 @@ ProgramScene load_program(const ProgramRequest& request) {
     scene.own = {new OwnProgram(task.name, plan_of(task, program, main), request.seconds, go_on), remove};
     Reading reading{scene, *scene.own};
     bool told = read_messages(task, reading);
+    scene.own->set_deadline(seconds_for_world);
     if (told && again) scene.reason = "it crashes while its world is looked at";
     try {
       if (told && scene.reason.empty()) scene.json = read_scene(reading);

@@ -43,6 +43,7 @@ class MaterialReader {
     if (shines) {
       const std::string colour = colour_of([&](const auto& points) { return emitted(points); });
       if (colour[0] == '[') r_.shining = m_, r_.light = light[0];
+      if (!(largest(light[1]) > 0)) r_.one_sided.insert(m_);
       return "{\"type\":\"light\",\"radiance\":" + colour + "}";
     }
     for (const std::size_t count : {2000U, 40000U})  // what 2,000 rays leave open, more decide
@@ -286,10 +287,6 @@ std::string material_name(Reading& reading, double material) {
 }
 std::string medium_colour(Reading& reading, double material) {
   return MaterialReader(reading, material).medium_albedo();
-}
-bool shines_on_one_side(Reading& reading, double material) {
-  const std::vector<Vector> light = MaterialReader(reading, material).emitted({slanted, behind});
-  return largest(light[0]) > 0 && !(largest(light[1]) > 0);
 }
 std::string texture_name(Reading& reading, double texture) {
   return reading.name_of(texture, reading.described('t', texture).class_name, reading.textures,

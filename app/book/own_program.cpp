@@ -13,7 +13,7 @@ OwnProgram::OwnProgram(std::string name, ChildPlan plan, double seconds, std::fu
   channel_ = std::move(mine);
   plan.channel = its.descriptor(), plan.channel_variable = "TYNDALL_BOOK_CHANNEL";
   plan.seconds = 1e9;
-  deadline_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(static_cast<long>(1000 * seconds));
+  set_deadline(seconds);
   plan.go_on = [this] { return !stops_ && is_wanted(); };
   thread_ = std::thread([this, plan = std::move(plan), its = std::move(its)]() mutable {
     end_ = run_child(plan);
@@ -24,6 +24,11 @@ OwnProgram::OwnProgram(std::string name, ChildPlan plan, double seconds, std::fu
 OwnProgram::~OwnProgram() {
   stops_ = true;
   if (thread_.joinable()) thread_.join();
+}
+
+void OwnProgram::set_deadline(double seconds) {
+  const std::lock_guard lock(wanted_mutex_);
+  deadline_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(static_cast<long>(1000 * seconds));
 }
 
 void OwnProgram::set_lasting() {
@@ -69,10 +74,10 @@ std::vector<double> OwnProgram::samples(const std::vector<double>& places) {
   return colours;
 }
 
-std::string OwnProgram::describe(char kind, double object) {
+std::string OwnProgram::describe(char kind, const std::vector<double>& objects) {
   const std::lock_guard lock(mutex_);
-  const tyndall_book::question head{double(kind), object};
-  send(&head, sizeof head);
+  const tyndall_book::question head{double(kind), 0, static_cast<double>(objects.size())};
+  send(&head, sizeof head), send(objects.data(), objects.size() * sizeof(double));
   const std::optional<Message> message = next_message();
   if (!message) throw IoError(name_ + ": the program has ended");
   return message->text;

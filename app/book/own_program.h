@@ -32,6 +32,8 @@ class OwnProgram {
   };
   /// The next message; nothing: it has ended, see end().
   std::optional<Message> next_message();
+  /// It has these seconds from now on.
+  void set_deadline(double seconds);
   /// From now on it may take as long as it likes, and nobody is asked.
   void set_lasting();
 
@@ -46,8 +48,8 @@ class OwnProgram {
   }
   /// Linear colours, three numbers each, of places in pixels, two numbers each.
   std::vector<double> samples(const std::vector<double>& places);
-  /// The members of a shape (s), material (m) or texture (t).
-  std::string describe(char kind, double object);
+  /// The members of shapes (s), materials (m) or textures (t), each text with a form feed behind it.
+  std::string describe(char kind, const std::vector<double>& objects);
 
   /// How it ended, after something has found that it did.
   const ChildEnd& end();

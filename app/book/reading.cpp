@@ -57,9 +57,17 @@ Described described_by(const std::string& text) {
 }
 
 const Described& Reading::described(char kind, double object) {
-  const auto [known, is_new] = described_ones.try_emplace(object);
-  if (is_new) known->second = described_by(program.describe(kind, object));
-  return known->second;
+  describe(kind, {object});
+  return described_ones[object];
+}
+
+void Reading::describe(char kind, std::vector<double> wanted) {
+  std::erase_if(wanted, [&](double one) { return described_ones.contains(one); });
+  if (wanted.empty()) return;
+  std::istringstream texts(program.describe(kind, wanted));
+  std::string text;
+  for (const double one : wanted)
+    if (std::getline(texts, text, '\f')) described_ones[one] = described_by(text);
 }
 
 std::string Reading::add(const std::string& kind, std::string& list, const std::string& made) {

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -83,11 +84,14 @@ struct Reading {
   std::vector<std::string> objects{};   ///< JSON objects
   double matt = 0, shining = 0;         ///< a material that scatters one colour, and one that shines
   Vector albedo{}, light{};             ///< their colours
+  std::set<double> one_sided{};         ///< materials that shine where their normals point to
   std::map<double, Described> described_ones{};
   std::map<double, std::string> names{};
   std::map<std::string, int> counts{};
 
   const Described& described(char kind, double object);
+  /// Asks for many at once.
+  void describe(char kind, std::vector<double> wanted);
   /// The quoted name of a texture or material, which is added to `list` when it is asked for first. text: makes it; a
   /// colour needs no name.
   template <class Text>
@@ -102,7 +106,6 @@ struct Reading {
 std::string material_name(Reading& reading, double material);
 std::string texture_name(Reading& reading, double texture);
 std::string medium_colour(Reading& reading, double material);
-bool shines_on_one_side(Reading& reading, double material);
 /// Makes the objects.
 void read_world(Reading& reading);
 std::string read_camera(Reading& reading);

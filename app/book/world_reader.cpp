@@ -57,47 +57,46 @@ class WorldReader {
   }
 
  private:
-  std::vector<ShotAnswer> shoot(double shape, const std::vector<Shot>& shots, std::size_t count = 0) {
-    return r_.program.ask<ShotAnswer>('h', shape, shots, count);
+  std::vector<ShotAnswer> shoot(double shape, std::vector<Shot> shots, std::size_t count = 0) {
+    for (Shot& shot : shots) shot.shape = shape;
+    return r_.program.ask<ShotAnswer>('h', 0, shots, count);
   }
-  /// Whether hit() answers 300 shots from all sides, in different intervals of t, as the candidate would; then it is
+  /// Whether hit() answers 200 shots from all sides, in different intervals of t, as the candidate would; then it is
   /// taken over, and met_ is one of the hits, in front if its normal is.
   bool take(double shape, const Described& o, const Candidate& candidate, const Placing& at) {
     RandomNumbers random;
     bool outward = true, against = true;
-    met_ = {};
-    for (const int end : {20, 300}) {  // what is another shape shows it soon
-      std::vector<Shot> shots;
-      std::vector<std::vector<Crossing>> crossings;
-      for (int k = end == 20 ? 0 : 20; k < end; ++k) {
-        Shot shot = candidate.aim(random, k % 4 == 0 ? 1 : k % 4 == 1 ? 0 : random.next());
-        const auto all = candidate.crossings(shot);
-        if (all && set_interval(shot, *all, k)) shots.push_back(shot), crossings.push_back(*all);
-      }
-      const std::vector<ShotAnswer> answers = shoot(shape, shots);
-      const char* wrong = nullptr;
-      for (std::size_t k = 0; k < shots.size(); ++k) {
-        const Shot& shot = shots[k];
-        const ShotAnswer& its = answers[k];
-        const auto expected = std::find_if(crossings[k].begin(), crossings[k].end(),
-                                           [&](const Crossing& one) { return one.t > shot.low && one.t < shot.high; });
-        const bool hits = expected != crossings[k].end(), limited = shot.low > 0.001 || shot.high < endless;
-        const double scale = std::fmax(candidate.piece.size, largest(candidate.piece.centre)) / length(shot.to);
-        if ((its.found != 0) != hits ||
-            (hits && !(std::fabs(its.t - expected->t) <= 10 * r_.precision * std::fmax(scale, expected->t)))) {
-          if (!limited) return false;
-          wrong = "its hit() does not keep the interval of t";
-        }
-        if (!hits || wrong) continue;
-        const double cosine = dot(its.normal, expected->normal), facing = dot(shot.to, expected->normal);
-        if (!(std::fabs(std::fabs(cosine) - 1) <= 0.02)) wrong = "its normals are not those of the books";
-        outward = outward && cosine > 0;
-        against = against && cosine * facing < 0 && (its.front != 0) == (facing < 0);
-        if (met_.found != 0 && met_.material != its.material) return false;
-        if (met_.found == 0) met_ = its, met_.front = (its.front != 0) == (facing < 0);
-      }
-      if (wrong) return reason_ = wrong, false;
+    std::vector<Shot> shots;
+    std::vector<std::vector<Crossing>> crossings;
+    for (int k = 0; k < 200; ++k) {
+      Shot shot = candidate.aim(random, k % 4 == 0 ? 1 : k % 4 == 1 ? 0 : random.next());
+      const auto all = candidate.crossings(shot);
+      if (all && set_interval(shot, *all, k)) shots.push_back(shot), crossings.push_back(*all);
     }
+    const std::vector<ShotAnswer> answers = shoot(shape, shots);
+    met_ = {};
+    const char* wrong = nullptr;
+    for (std::size_t k = 0; k < shots.size(); ++k) {
+      const Shot& shot = shots[k];
+      const ShotAnswer& its = answers[k];
+      const auto expected = std::find_if(crossings[k].begin(), crossings[k].end(),
+                                         [&](const Crossing& one) { return one.t > shot.low && one.t < shot.high; });
+      const bool hits = expected != crossings[k].end(), limited = shot.low > 0.001 || shot.high < endless;
+      const double scale = std::fmax(candidate.piece.size, largest(candidate.piece.centre)) / length(shot.to);
+      if ((its.found != 0) != hits ||
+          (hits && !(std::fabs(its.t - expected->t) <= 10 * r_.precision * std::fmax(scale, expected->t)))) {
+        if (!limited) return false;
+        wrong = "its hit() does not keep the interval of t";
+      }
+      if (!hits || wrong) continue;
+      const double cosine = dot(its.normal, expected->normal), facing = dot(shot.to, expected->normal);
+      if (!(std::fabs(std::fabs(cosine) - 1) <= 0.02)) wrong = "its normals are not those of the books";
+      outward = outward && cosine > 0;
+      against = against && cosine * facing < 0 && (its.front != 0) == (facing < 0);
+      if (met_.found != 0 && met_.material != its.material) return false;
+      if (met_.found == 0) met_ = its, met_.front = (its.front != 0) == (facing < 0);
+    }
+    if (wrong) return reason_ = wrong, false;
     if (met_.found == 0 || (candidate.piece.is_solid && !outward && !against)) return false;
     if (!at.boundary && met_.material == 0) o.refuse("it has no material: there is no light to trace in this chapter");
     Piece piece = candidate.piece;
@@ -122,13 +121,11 @@ class WorldReader {
 
   bool flat(double shape, const Described& o, const Placing& at) {
     for (const Plane& plane : planes_of(o)) {
-      const double begin = length(plane.normal()) > 0 ? first_met(shape, plane) : endless;
-      if (begin == endless) continue;
-      reason_ = "its hit() is not that of a quad, a triangle, a disk or a ring";
+      if (!(length(plane.normal()) > 0)) continue;
       for (Flat flat : {Flat{plane, "quad"}, Flat{plane, "triangle"}, Flat{plane, "disk"}}) {
-        if (flat.is_disk() && !measure(shape, begin, flat)) continue;
+        if (flat.is_disk() && !measure(shape, flat)) continue;
         if (!take(shape, o, flat_of(flat, r_.precision), at)) continue;
-        if (!at.boundary && shines_on_one_side(r_, met_.material)) add_back(flat, (met_.front != 0) != at.flipped, at);
+        if (!at.boundary && r_.one_sided.contains(met_.material)) add_back(flat, (met_.front != 0) != at.flipped, at);
         return true;
       }
     }
@@ -142,16 +139,14 @@ class WorldReader {
     for (const ShotAnswer& its : shoot(shape, shots)) all.push_back(its.found != 0 && std::fabs(its.t - 1) < allowed);
     return all;
   }
-  /// How far from the plane's corner, along u, the shape begins; endless: nowhere.
-  double first_met(double shape, const Plane& plane) {
-    std::vector<double> radii;
-    for (int k = 0; k < 150; ++k) radii.push_back(0.01 * k);
-    const std::vector<bool> all = meets(shape, plane, radii, 1e-3);
-    const auto first = std::find(all.begin(), all.end(), true);
-    return first == all.end() ? endless : radii[static_cast<std::size_t>(first - all.begin())];
-  }
-  /// Measures the radii of a disk or ring; begin: where it is met.
-  bool measure(double shape, double begin, Flat& disk) {
+  /// Measures the radii of a disk or ring; false: its plane is not met, or everywhere.
+  bool measure(double shape, Flat& disk) {
+    std::vector<double> radii{100};
+    for (int k = 0; k < 150; ++k) radii.push_back(0.01 * k + 0.005);
+    const std::vector<bool> met = meets(shape, disk.plane, radii, 1e-3);
+    const auto first = std::find(met.begin() + 1, met.end(), true);
+    if (first == met.end()) return false;
+    reason_ = "its hit() is not that of a quad, a triangle, a disk or a ring";
     const auto holds = [&](double radius) -> bool { return meets(shape, disk.plane, {radius}, 0)[0]; };
     const auto edge = [&](double low, double high) {
       const bool beyond = holds(high);
@@ -161,9 +156,9 @@ class WorldReader {
       }
       return std::round(1e6 * high) / 1e6;
     };
-    if (holds(100)) return false;
-    disk.inner = begin > 0 ? edge(begin - 0.01, begin) : 0, disk.outer = edge(begin, 100);
-    return true;
+    const double begin = radii[static_cast<std::size_t>(first - met.begin())];
+    disk.inner = begin > 0.01 ? edge(begin - 0.01, begin) : 0, disk.outer = edge(begin, 100);
+    return !met[0];
   }
   /// Black, close behind a light: Tyndall's lights shine on both sides, those of the third book on one.
   void add_back(Flat flat, bool is_front, const Placing& at) {
@@ -183,6 +178,7 @@ class WorldReader {
     std::vector<double> parts;
     for (const double part : o.all('s'))
       if (part != 0 && std::find(parts.begin(), parts.end(), part) == parts.end()) parts.push_back(part);
+    r_.describe('s', parts);
     if (parts.size() != 1) return is_group(shape, parts, {}, at);
     for (const Move& move : moves_of(o))
       if (is_group(shape, parts, move, at)) return true;
@@ -211,17 +207,18 @@ class WorldReader {
   /// turned: whether it turns the sides of all that is hit, as the third edition's flip_face does.
   bool agrees_with_nearest(double shape, const std::vector<double>& parts, const Move& move, std::size_t begin,
                            bool& turned) {
-    std::vector<Shot> outer, inner;
-    for (int k = 0; k < 60; ++k) outer.push_back(aimed(begin)), inner.push_back(move.in(outer.back()));
-    std::vector<ShotAnswer> nearest(outer.size());
-    for (const double part : parts) {
-      const std::vector<ShotAnswer> its = shoot(part, inner);
-      for (std::size_t k = 0; k < its.size(); ++k)
-        if (its[k].found != 0 && (nearest[k].found == 0 || its[k].t < nearest[k].t)) nearest[k] = its[k];
-    }
-    const std::vector<ShotAnswer> its = shoot(shape, outer);
+    constexpr std::size_t rounds = 60;
+    std::vector<Shot> shots;
+    for (std::size_t k = 0; k < rounds; ++k) shots.push_back(aimed(begin)), shots.back().shape = shape;
+    for (const double part : parts)
+      for (std::size_t k = 0; k < rounds; ++k) shots.push_back(move.in(shots[k])), shots.back().shape = part;
+    const std::vector<ShotAnswer> its = r_.program.ask<ShotAnswer>('h', 0, shots);
+    std::vector<ShotAnswer> nearest(rounds);
+    for (std::size_t k = rounds; k < its.size(); ++k)
+      if (ShotAnswer& known = nearest[k % rounds]; its[k].found != 0 && (known.found == 0 || its[k].t < known.t))
+        known = its[k];
     bool is_same = false, is_turned = false;
-    for (std::size_t k = 0; k < its.size(); ++k) {
+    for (std::size_t k = 0; k < rounds; ++k) {
       if (its[k].found != nearest[k].found || (its[k].found != 0 && !is_near(its[k].t, nearest[k].t, 0.01)))
         return false;
       if (its[k].found != 0) (its[k].front == nearest[k].front ? is_same : is_turned) = true;

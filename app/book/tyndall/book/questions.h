@@ -32,10 +32,10 @@ struct question {
   double count = 1, different = 1;  ///< how many answers are wanted; after so many the questions begin again
 };
 
-/// h: a ray that a shape is asked for, between two ends of t.
+/// h: a ray that a shape is asked for, between two ends of t. One question can be put to many shapes.
 struct shot {
   vector from, to;
-  double time = 0, low = 0.001, high = HUGE_VAL;
+  double time = 0, low = 0.001, high = HUGE_VAL, shape = 0;
 };
 struct shot_answer {
   double found = 0, front = 1, t = 0, material = 0;

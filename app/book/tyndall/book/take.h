@@ -125,10 +125,11 @@ class replies {
     if (kind == 'm') return described_object(*static_cast<const material*>(object));
     return described_object(*static_cast<const texture*>(object));
   }
-  static shot_answer hit(const session&, const void* of, const shot& one) {
+  static shot_answer hit(const session&, const void*, const shot& one) {
     record r{};
     shot_answer made;
-    made.found = N::hit(*static_cast<const shape*>(of), rays::make(one.from, one.to, one.time), one.low, one.high, r);
+    made.found = N::hit(*static_cast<const shape*>(address_of(one.shape)), rays::make(one.from, one.to, one.time),
+                        one.low, one.high, r);
     if (made.found == 0) return made;
     bool timed = false, sided = false;
     members<record>::each(r, [&](const char*, char role, auto& member) {
@@ -249,7 +250,7 @@ constexpr reply reply_to(char letter) {
 inline vector sample(const session& s, const void*, const pixel_place& at) { return s.colour(s.ray_at(at.x, at.y)); }
 
 /// Answers for as long as questions come, by numbers that are none (NaN) where the reader's function throws. described:
-/// answers all other letters by a text.
+/// answers all other letters by texts, whose questions are addresses.
 [[noreturn]] inline void serve(const session& s, const reply* replies,
                                std::string (*described)(const session&, char, const void*)) {
   for (question asked;;) {
@@ -258,7 +259,13 @@ inline vector sample(const session& s, const void*, const pixel_place& at) { ret
     const reply* its = replies;
     while (its->letter != 0 && its->letter != static_cast<char>(asked.letter)) ++its;
     if (its->letter == 0) {
-      tell('D', described(s, static_cast<char>(asked.letter), object));
+      std::string text;
+      for (double left = asked.count; left > 0; --left) {
+        double address = 0;
+        receive_bytes(&address, sizeof address);
+        text += described(s, static_cast<char>(asked.letter), address_of(address)) + '\f';
+      }
+      tell('D', text);
       continue;
     }
     const auto count = static_cast<std::size_t>(asked.count), different = static_cast<std::size_t>(asked.different);
