@@ -154,7 +154,7 @@ ProgramScene load_program(const ProgramRequest& request) {
   const SignalWatch signals(request.watch_signals ? WatchedSignals::end : WatchedSignals::none);
   const auto go_on = [&] { return signals.received() == 0 && (!request.go_on || request.go_on()); };
   ProgramScene scene;
-  for (const bool again : {false, true}) {
+  for (std::string failed;;) {
     scene = ProgramScene{};
     scene.files = program.sources, scene.draws_by_pdf = program.draws_by_pdf;
     const auto remove = [scratch](OwnProgram* own) { delete own; };  // the folder lives as long as the program
@@ -162,7 +162,7 @@ ProgramScene load_program(const ProgramRequest& request) {
     Reading reading{scene, *scene.own};
     bool told = read_messages(task, reading);
     scene.own->set_deadline(seconds_for_world);
-    if (told && again) scene.reason = "it crashes while its world is looked at";
+    if (told && !failed.empty()) scene.reason = failed;
     try {
       if (told && scene.reason.empty()) scene.json = read_scene(reading);
     } catch (const NotTaken& why) {
@@ -174,7 +174,8 @@ ProgramScene load_program(const ProgramRequest& request) {
     const ChildEnd& end = scene.own->end();
     if (signals.received() != 0) throw ProgramInterrupted(task.name + ": interrupted while it ran", signals.received());
     if (!go_on()) throw ProgramInterrupted(task.name + ": given up while it ran", signal_terminate);
-    if (scene.width == 0 || again) fail(task, end);
+    if (scene.width == 0 || !failed.empty()) fail(task, end);
+    failed = end.given_up ? "its world takes more than 20 s to be read" : "it crashes while its world is looked at";
   }
   if (scene.has_images && !program.decodes_images)
     scene.notes.push_back(task.name +

@@ -61,14 +61,14 @@ class WorldReader {
     for (Shot& shot : shots) shot.shape = shape;
     return r_.program.ask<ShotAnswer>('h', 0, shots, count);
   }
-  /// Whether hit() answers 200 shots from all sides, in different intervals of t, as the candidate would; then it is
+  /// Whether hit() answers 300 shots from all sides, in different intervals of t, as the candidate would; then it is
   /// taken over, and met_ is one of the hits, in front if its normal is.
   bool take(double shape, const Described& o, const Candidate& candidate, const Placing& at) {
     RandomNumbers random;
     bool outward = true, against = true;
     std::vector<Shot> shots;
     std::vector<std::vector<Crossing>> crossings;
-    for (int k = 0; k < 200; ++k) {
+    for (int k = 0; k < 300; ++k) {
       Shot shot = candidate.aim(random, k % 4 == 0 ? 1 : k % 4 == 1 ? 0 : random.next());
       const auto all = candidate.crossings(shot);
       if (all && set_interval(shot, *all, k)) shots.push_back(shot), crossings.push_back(*all);
@@ -107,7 +107,7 @@ class WorldReader {
 
   bool sphere(double shape, const Described& o, const Placing& at) {
     const std::vector<Motion> motions = motions_of(o);
-    const double* radius = o.named("rad");
+    const double* radius = o.named("radius");
     if (radius && *radius == 0 && !motions.empty()) return true;
     if (radius && !motions.empty()) reason_ = "its hit() is not that of the books' sphere";
     for (const double size : o.all('n'))
