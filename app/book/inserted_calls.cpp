@@ -5,7 +5,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 
 namespace tyndall {
@@ -78,17 +77,14 @@ void take_over(session& s) { take_samples(s); }
   }
 
  private:
-  void insert(const char* at, const std::string& call) { insertions_.emplace(at - text_.data(), call); }
+  void insert(const char* at, const std::string& call) {
+    insertions_.emplace(static_cast<std::size_t>(at - text_.data()), call);
+  }
   void insert(const Function& function, const std::string& call) { insert(function.body.data() + 1, call); }
   std::string with_insertions() const {
-    std::string made;
-    std::size_t from = 0;
-    for (const auto& [at, call] : insertions_) {
-      const auto end = static_cast<std::size_t>(at);
-      made += text_.substr(from, end - from) + call;
-      from = end;
-    }
-    return made + text_.substr(from);
+    std::string made = text_;
+    for (auto one = insertions_.rbegin(); one != insertions_.rend(); ++one) made.insert(one->first, one->second);
+    return made;
   }
   const OutlinedClass* class_named(const std::string& name) const {
     for (const OutlinedClass& one : outline_.classes)
@@ -193,10 +189,11 @@ void take_over(session& s) { take_samples(s); }
         high = fmt::format("::tyndall_book::end_of({}, true)", parameter.name);
     }
     if (!ray.empty() && !record.empty())
-      insert(function,
-             fmt::format(" if (::tyndall_book::asked_world && ::tyndall_book::asked_world == static_cast<const {}*>"
-                         "(this)) return ::tyndall_book::answer_of_world(&{}, {}, {}, &{});",
-                         qualified(shape_), ray, low, high, record));
+      insert(
+          function,
+          fmt::format(" if (::tyndall_book::replaced_world && ::tyndall_book::replaced_world == static_cast<const {}*>"
+                      "(this)) return ::tyndall_book::answer_of_world(&{}, {}, {}, &{});",
+                      qualified(shape_), ray, low, high, record));
   }
   void hook_colour(const Function& function, const std::string& world) {
     has_colour_ = true;
@@ -218,10 +215,8 @@ void take_over(session& s) { take_samples(s); }
     for (const std::string dot : {".", "->"}) {
       const std::size_t at = function.body.find(dot + hit_->name + "(");
       if (at == std::string_view::npos) continue;
-      std::size_t from = at;
-      while (from > 0 && (std::isalnum(static_cast<unsigned char>(function.body[from - 1])) ||
-                          contains("_.>-", function.body.substr(from - 1, 1))))
-        --from;
+      const std::size_t from = 1 + function.body.substr(0, at).find_last_not_of(
+                                       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.>-");
       if (from < at) return hook_colour(function, std::string(function.body.substr(from, at - from)));
     }
   }
@@ -343,7 +338,7 @@ void take_over(session& s) { take_over_world<names>(s); }
   /// Classes that play these roles, whatever their names are; "": there is none. Then their functions.
   std::string shape_, ray_, record_, material_, texture_;
   const Function *hit_ = nullptr, *scatter_ = nullptr, *emitted_ = nullptr, *value_ = nullptr;
-  std::multimap<std::ptrdiff_t, std::string> insertions_;
+  std::multimap<std::size_t, std::string> insertions_;
   bool has_camera_ = false, has_colour_ = false, draws_by_pdf_ = false;
 };
 

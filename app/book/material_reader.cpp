@@ -177,8 +177,8 @@ class MaterialReader {
         o_.refuse("it refracts otherwise than the books' glass");
     }
     const double fraction = reflected / double(rounds);
-    for (const double share : {schlick(cosine, ratio), fresnel(cosine, ratio), schlick(cosine, 1 / ratio)})
-      if (std::fabs(fraction - share) < 5 * std::sqrt(share * (1 - share) / rounds) + 0.004) return;
+    for (const double known : {schlick(cosine, ratio), fresnel(cosine, ratio), schlick(cosine, 1 / ratio)})
+      if (std::fabs(fraction - known) < 5 * std::sqrt(known * (1 - known) / rounds) + 0.004) return;
     o_.refuse(fmt::format("at a cosine of {} it reflects {:.3f}, the books' glass {:.3f}", cosine, fraction,
                           schlick(cosine, ratio)));
   }

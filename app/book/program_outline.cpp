@@ -19,11 +19,6 @@ bool is_identifier(std::string_view token) {
 bool is_one_of(std::string_view token, std::initializer_list<std::string_view> all) {
   return std::find(all.begin(), all.end(), token) != all.end();
 }
-bool is_built_in(std::string_view token) {
-  return is_one_of(token,
-                   {"int", "double", "float", "bool", "char", "unsigned", "signed", "long", "short", "void", "auto"});
-}
-
 /// The end of a string or character that begins at `at`.
 std::size_t end_of_literal(const std::string& text, std::size_t at) {
   if (text[at] == '"' && at > 0 && text[at - 1] == 'R') {
@@ -40,8 +35,7 @@ std::size_t end_of_literal(const std::string& text, std::size_t at) {
   return text.size();
 }
 
-/// Follows a line marker, # 12 "file.h" 3: whether the lines behind it are the
-/// reader's.
+/// Follows a line marker, # 12 "file.h" 3: whether the lines behind it are the reader's.
 bool enters_own_file(const std::string& line, const std::vector<fs::path>& ours, std::vector<fs::path>& files) {
   const std::size_t open = line.find('"'), close = line.rfind('"');
   if (open == close) return false;
@@ -248,7 +242,9 @@ class Outliner {
     const std::string_view last = tokens_[end - 1], before = end - begin > 1 ? tokens_[end - 2] : "const";
     const bool has_type = is_one_of(before, {"&", "*", ">", "&&"}) ||
                           (is_identifier(before) && !is_one_of(before, {"const", "struct", "class"}));
-    if (is_identifier(last) && has_type && !is_built_in(last) && last != "const") one.name = last, --end;
+    const bool is_type = is_one_of(last, {"int", "double", "float", "bool", "char", "unsigned", "signed", "long",
+                                          "short", "void", "auto", "const"});
+    if (is_identifier(last) && has_type && !is_type) one.name = last, --end;
     one.type = text_of(begin, end, {});
     for (std::size_t i = begin; i < end; ++i)
       if (is_identifier(tokens_[i]) && tokens_[i] != "const") one.identifiers.emplace_back(tokens_[i]);

@@ -189,13 +189,13 @@ class WorldReader {
     const std::size_t begin = r_.objects.size();
     if (const std::string text = move.text(); !text.empty()) at.moves = text + (at.moves.empty() ? "" : "," + at.moves);
     const bool had_media = std::exchange(has_media_, false);
-    bool turned = false, agrees = true;
+    bool flips = false, agrees = true;
     for (int round = 0; round < 2; ++round) {
       for (const double part : parts) add(part, at);
       join_box(begin);
       for (std::size_t k = begin; k < pieces_.size(); ++k) pieces_[k].centre = move.out(pieces_[k].centre);
-      agrees = has_media_ || agrees_with_nearest(shape, parts, move, begin, turned);
-      if (agrees && (!turned || round == 1)) break;
+      agrees = has_media_ || agrees_with_nearest(shape, parts, move, begin, flips);
+      if (agrees && (!flips || round == 1)) break;
       drop(begin);
       if (!agrees) break;
       at.flipped = !at.flipped;
@@ -204,9 +204,9 @@ class WorldReader {
     if (!agrees) reason_ = "its hit() is not that of the nearest of its parts";
     return agrees;
   }
-  /// turned: whether it turns the sides of all that is hit, as the third edition's flip_face does.
+  /// flips: whether it turns the sides of all that is hit, as the third edition's flip_face does.
   bool agrees_with_nearest(double shape, const std::vector<double>& parts, const Move& move, std::size_t begin,
-                           bool& turned) {
+                           bool& flips) {
     constexpr std::size_t rounds = 60;
     std::vector<Shot> shots;
     for (std::size_t k = 0; k < rounds; ++k) shots.push_back(aimed(begin)), shots.back().shape = shape;
@@ -217,13 +217,13 @@ class WorldReader {
     for (std::size_t k = rounds; k < its.size(); ++k)
       if (ShotAnswer& known = nearest[k % rounds]; its[k].found != 0 && (known.found == 0 || its[k].t < known.t))
         known = its[k];
-    bool is_same = false, is_turned = false;
+    bool is_same = false, is_flipped = false;
     for (std::size_t k = 0; k < rounds; ++k) {
       if (its[k].found != nearest[k].found || (its[k].found != 0 && !is_near(its[k].t, nearest[k].t, 0.01)))
         return false;
-      if (its[k].found != 0) (its[k].front == nearest[k].front ? is_same : is_turned) = true;
+      if (its[k].found != 0) (its[k].front == nearest[k].front ? is_same : is_flipped) = true;
     }
-    turned = is_turned && !is_same;
+    flips = is_flipped && !is_same;
     return true;
   }
 

@@ -67,7 +67,7 @@ struct ray_source {
 /// Whether this thread is asked by us, which the inserted calls look at: then his functions do what they always do.
 static thread_local bool is_ours = false;
 /// A world that does not answer by itself what a ray meets, and who does in its place. The record is the reader's.
-static thread_local const void* asked_world = nullptr;
+static thread_local const void* replaced_world = nullptr;
 static thread_local bool (*answer_of_world)(const void* ray, double low, double high, void* record) = nullptr;
 
 /// Where rays lie in the picture, and all that is needed to ask for them.
@@ -104,7 +104,7 @@ class watcher {
     if (seen_.empty()) {
       thread_ = pthread_self(), begin_ = seconds(), size_ = rays.size();
       read_head(size_);
-      is_turned_ = !rays.by_pixels && rays.side(0, 1).y > 0;
+      rows_rise_ = !rays.by_pixels && rays.side(0, 1).y > 0;
     }
     if (!pthread_equal(thread_, pthread_self())) return false;
     seen_.push_back({rays.first, rays.second});
@@ -112,7 +112,7 @@ class watcher {
     s.rays = rays, s.by_pixels = rays.by_pixels;
     const bool high = seen_[0].second >= 0.5;
     s.less = rays.by_pixels || (high && seen_[0].second < 1) ? 0 : 1;
-    s.from_top = !rays.by_pixels && !high && !is_turned_;
+    s.from_top = !rays.by_pixels && !high && !rows_rise_;
     if (s.width > 0 && s.height > 0) return s.samples > 0 || count_samples(s);
     return take_size(s);
   }
@@ -158,7 +158,7 @@ class watcher {
 
   inline static pthread_t thread_{};
   inline static double begin_ = 0;
-  inline static bool is_turned_ = false;  ///< rows go up in the world: the picture is turned when it is written
+  inline static bool rows_rise_ = false;  ///< rows go up in the world: the picture is turned when it is written
   inline static picture_told size_;
   inline static std::vector<place> seen_;
 };

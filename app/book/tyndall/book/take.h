@@ -167,14 +167,14 @@ class replies {
   static light_answer light(const session& s, const void*, const light_question& one) {
     light_answer made;
     wanted_ = &one, told_ = &made;
-    asked_world = address_of(s.world), answer_of_world = answer;
+    replaced_world = address_of(s.world), answer_of_world = answer;
     const ray query = rays::make(one.from, one.to, 0.5);
     made.colour = s.colour(&query);
     if (made.high == 0) {  // it does not ask its world by a hit() that is known: far outside it meets nothing
       const ray far = rays::make(one.from + (1e7 / length(one.to)) * one.to, one.to, 0.5);
       made.colour = s.colour(&far);
     }
-    asked_world = nullptr;
+    replaced_world = nullptr;
     return made;
   }
   static vector sky(const session& s, const void* of, const ray_answer& seen) {
@@ -253,29 +253,29 @@ inline vector sample(const session& s, const void*, const pixel_place& at) { ret
 /// answers all other letters by texts, whose questions are addresses.
 [[noreturn]] inline void serve(const session& s, const reply* replies,
                                std::string (*described)(const session&, char, const void*)) {
-  for (question asked;;) {
-    receive_bytes(&asked, sizeof asked);
-    const void* object = address_of(asked.object);
+  for (question query;;) {
+    receive_bytes(&query, sizeof query);
+    const void* object = address_of(query.object);
     const reply* its = replies;
-    while (its->letter != 0 && its->letter != static_cast<char>(asked.letter)) ++its;
+    while (its->letter != 0 && its->letter != static_cast<char>(query.letter)) ++its;
     if (its->letter == 0) {
       std::string text;
-      for (double left = asked.count; left > 0; --left) {
+      for (double left = query.count; left > 0; --left) {
         double address = 0;
         receive_bytes(&address, sizeof address);
-        text += described(s, static_cast<char>(asked.letter), address_of(address)) + '\f';
+        text += described(s, static_cast<char>(query.letter), address_of(address)) + '\f';
       }
       tell('D', text);
       continue;
     }
-    const auto count = static_cast<std::size_t>(asked.count), different = static_cast<std::size_t>(asked.different);
+    const auto count = static_cast<std::size_t>(query.count), different = static_cast<std::size_t>(query.different);
     std::string given(different * its->in, 0), made(count * its->out, 0);
     receive_bytes(&given[0], given.size());
     for (std::size_t k = 0; k < count; ++k) try {
         its->make(s, object, &given[k % different * its->in], &made[k * its->out]);
       } catch (...) {
         for (std::size_t n = 0; n < its->out; n += sizeof(double)) new (&made[k * its->out + n]) double(NAN);
-        asked_world = nullptr;
+        replaced_world = nullptr;
       }
     send_bytes(made.data(), made.size());
   }
