@@ -25,35 +25,30 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t max_file = std::size_t(1) << 30;
-constexpr double seconds_for_world = 20;
 
 /// An empty folder among the temporary files ($TMPDIR, else /tmp), only for this user; removed with all that is in it.
-class ScratchFolder {
- public:
+struct ScratchFolder {
   ScratchFolder() {
     int problem = 0;
-    const fs::path made = make_temporary_folder("tyndall-book-", &problem);
-    if (made.empty())
+    std::error_code error;
+    path = make_temporary_folder("tyndall-book-", &problem);
+    if (path.empty())
       throw IoError(printable(temporary_folder().string()) +
                     ": cannot make a temporary folder: " + error_text(problem));
-    std::error_code error;
-    path_ = fs::canonical(made, error);
-    if (error) path_ = made;
+    if (const fs::path whole = fs::canonical(path, error); !error) path = whole;
   }
   ~ScratchFolder() {
     std::error_code error;
-    fs::remove_all(path_, error);
+    fs::remove_all(path, error);
     if (!error) return;
-    for (fs::recursive_directory_iterator at(path_, error), end; !error && at != end; at.increment(error))
+    for (fs::recursive_directory_iterator at(path, error), end; !error && at != end; at.increment(error))
       fs::permissions(at->path(), fs::perms::owner_all, fs::perm_options::add, error);  // a program took them away
-    fs::remove_all(path_, error);
+    fs::remove_all(path, error);
   }
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const fs::path& path() const { return path_; }
 
- private:
-  fs::path path_;
+  fs::path path;
 };
 
 /// The last line of text, for a message; "": there is none.
@@ -149,7 +144,7 @@ ProgramScene load_program(const ProgramRequest& request) {
                      ": is not run: builds for Windows run no programs, which need a compiler");
   const auto scratch = std::make_shared<ScratchFolder>();
   ProgramRequest task = request;
-  task.name = printable(main.string()), task.folder = scratch->path();
+  task.name = printable(main.string()), task.folder = scratch->path;
   const CompiledProgram program = compile_program(task);
   const SignalWatch signals(request.watch_signals ? WatchedSignals::end : WatchedSignals::none);
   const auto go_on = [&] { return signals.received() == 0 && (!request.go_on || request.go_on()); };
@@ -161,7 +156,7 @@ ProgramScene load_program(const ProgramRequest& request) {
     scene.own = {new OwnProgram(task.name, plan_of(task, program, main), request.seconds, go_on), remove};
     Reading reading{scene, *scene.own};
     bool told = read_messages(task, reading);
-    scene.own->set_deadline(seconds_for_world);
+    scene.own->set_deadline(20);  // for its world
     if (told && !failed.empty()) scene.reason = failed;
     try {
       if (told && scene.reason.empty()) scene.json = read_scene(reading);

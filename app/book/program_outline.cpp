@@ -40,8 +40,7 @@ bool enters_own_file(const std::string& line, const std::vector<fs::path>& ours,
   const std::size_t open = line.find('"'), close = line.rfind('"');
   if (open == close) return false;
   const fs::path file = fs::path(line.substr(open + 1, close - open - 1)).lexically_normal();
-  const bool of_system = line.find(" 3", close) != std::string::npos || file.string()[0] == '<';
-  if (of_system) return false;
+  if (line.find(" 3", close) != std::string::npos || file.string()[0] == '<') return false;  // the system's
   for (const fs::path& folder : ours)
     if (file.string().rfind(folder.string(), 0) == 0) return false;
   if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
@@ -53,12 +52,10 @@ TokenList tokens_of(const std::string& text, const std::vector<fs::path>& ours, 
   TokenList tokens;
   bool own = false;
   for (std::size_t at = 0; at < text.size();) {
-    const bool begins_line = at == 0 || text[at - 1] == '\n';
+    const bool is_marker = text[at] == '#' && (at == 0 || text[at - 1] == '\n');
     const std::size_t line_end = std::min(text.find('\n', at), text.size());
-    if (begins_line && text[at] == '#') {
-      if (text.compare(at, 2, "# ") == 0) own = enters_own_file(text.substr(at, line_end - at), ours, files);
-      at = line_end + 1;
-    } else if (!own) {
+    if (is_marker && text.compare(at, 2, "# ") == 0) own = enters_own_file(text.substr(at, line_end - at), ours, files);
+    if (is_marker || !own) {
       at = line_end + 1;
     } else if (std::isspace(static_cast<unsigned char>(text[at]))) {
       ++at;

@@ -5,7 +5,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <sstream>
 
 namespace tyndall {
@@ -19,9 +18,6 @@ bool is_near(Vector a, Vector b, double precision) {
 }
 std::string triple(Vector a) { return fmt::format("[{},{},{}]", a.x, a.y, a.z); }
 
-bool Described::has(char kind) const {
-  return std::any_of(members.begin(), members.end(), [&](const Member& one) { return one.kind == kind; });
-}
 std::vector<double> Described::all(char kind) const {
   std::vector<double> found;
   for (const Member& one : members)
@@ -70,10 +66,14 @@ void Reading::describe(char kind, std::vector<double> wanted) {
     if (std::getline(texts, text, '\f')) described_ones[one] = described_by(text);
 }
 
-std::string Reading::add(const std::string& kind, std::string& list, const std::string& made) {
-  std::string name = in_quotes(kind + " " + std::to_string(++counts[kind]));
-  list += (list.empty() ? "" : ",\n") + name + ":" + made;
-  return name;
+std::string Reading::name_of(double object, const std::string& kind, std::string& list,
+                             const std::function<std::string()>& text) {
+  if (const auto known = names.find(object); known != names.end()) return known->second;
+  const std::string made = text();
+  if (made[0] != '{') return names[object] = made;
+  names[object] = in_quotes(kind + " " + std::to_string(++counts[kind]));
+  list += (list.empty() ? "" : ",\n") + names[object] + ":" + made;
+  return names[object];
 }
 
 }  // namespace tyndall

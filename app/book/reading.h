@@ -1,6 +1,7 @@
 #pragma once
 #include "app/book/own_program.h"
 
+#include <functional>
 #include <map>
 #include <random>
 #include <set>
@@ -64,7 +65,6 @@ struct Described {
   std::string class_name, file;  ///< file: that was read before it was made; "": none
   std::vector<Member> members;
 
-  bool has(char kind) const;
   std::vector<double> all(char kind) const;  ///< the numbers of all members of the kind
   /// Those whose names have the part, in lower case and without underscores.
   std::vector<Vector> vectors(const std::string& part = "") const;
@@ -94,13 +94,8 @@ struct Reading {
   void describe(char kind, std::vector<double> wanted);
   /// The quoted name of a texture or material, which is added to `list` when it is asked for first. text: makes it; a
   /// colour needs no name.
-  template <class Text>
-  std::string name_of(double object, const std::string& kind, std::string& list, const Text& text) {
-    if (const auto known = names.find(object); known != names.end()) return known->second;
-    const std::string made = text();
-    return names[object] = made[0] == '{' ? add(kind, list, made) : made;
-  }
-  std::string add(const std::string& kind, std::string& list, const std::string& made);
+  std::string name_of(double object, const std::string& kind, std::string& list,
+                      const std::function<std::string()>& text);
 };
 
 std::string material_name(Reading& reading, double material);

@@ -174,7 +174,7 @@ class WorldReader {
 
   /// Lists, trees, and what moves or turns another object: the nearest of its parts is hit.
   bool group(double shape, const Described& o, const Placing& at) {
-    if (!o.has('s')) return false;
+    if (std::none_of(o.members.begin(), o.members.end(), [](const auto& one) { return one.kind == 's'; })) return false;
     std::vector<double> parts;
     for (const double part : o.all('s'))
       if (part != 0 && std::find(parts.begin(), parts.end(), part) == parts.end()) parts.push_back(part);
