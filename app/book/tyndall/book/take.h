@@ -289,11 +289,15 @@ inline void tell_picture(const picture_told& told) {
 template <class N>
 [[noreturn]] void take_over_world(session& s) {
   using its = replies<N>;
-  static constexpr reply all[] = {
-      reply_to<shot, shot_answer, its::hit>('h'),          reply_to<surface_point, scatter_answer, its::scatter>('x'),
-      reply_to<surface_point, vector, its::emitted>('e'),  reply_to<texture_place, vector, its::value>('v'),
-      reply_to<pixel_place, ray_answer, its::ray_at>('r'), reply_to<light_question, light_answer, its::light>('c'),
-      reply_to<pixel_place, vector, sample>('p'),          {}};
+  static constexpr reply all[] = {reply_to<shot, shot_answer, its::hit>('h'),
+                                  reply_to<surface_point, scatter_answer, its::scatter>('x'),
+                                  reply_to<surface_point, vector, its::emitted>('e'),
+                                  reply_to<texture_place, vector, its::value>('v'),
+                                  reply_to<pixel_place, ray_answer, its::ray_at>('r'),
+                                  reply_to<light_question, light_answer, its::light>('c'),
+                                  reply_to<ray_answer, vector, its::sky>('y'),
+                                  reply_to<pixel_place, vector, sample>('p'),
+                                  {}};
   s.is_float = its::rays::is_float();
   tell_picture(s);
   serve(s, all, its::described);
