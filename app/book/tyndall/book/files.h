@@ -86,16 +86,17 @@ inline const FILE* const standard_output = std::freopen(place_of("standard outpu
 inline bool read_head(picture_told& picture) {
   std::fflush(nullptr);
   for (const opened_file& file : opened_files::get().written) {
-    char head[256] = {};
+    char text[4096] = {};  // other words may come first
     FILE* in = reinterpret_cast<open_function>(dlsym(RTLD_NEXT, "fopen"))(file.place.c_str(), "r");
     if (!in) continue;
-    std::fread(head, 1, sizeof head - 1, in);
+    std::fread(text, 1, sizeof text - 1, in);
     std::fclose(in);
-    int at = 0;
-    std::sscanf(head, "P%*d %n", &at);
-    while (head[at] == '#') at += static_cast<int>(std::strcspn(head + at, "\n")) + 1;
+    const char *plain = std::strstr(text, "P3"), *at = plain ? plain : std::strstr(text, "P6");
+    if (!at) continue;
+    at += 2 + std::strspn(at + 2, " \r\n");
+    while (*at == '#') at += std::strcspn(at, "\n"), at += std::strspn(at, " \r\n");
     int sides[2] = {};
-    if (at > 0 && std::sscanf(head + at, "%d %d", sides, sides + 1) == 2)
+    if (std::sscanf(at, "%d %d", sides, sides + 1) == 2)
       return picture.width = sides[0], picture.height = sides[1], sides[0] > 1 && sides[1] > 1;
   }
   return false;
