@@ -23,8 +23,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double max_seconds = 120;
-constexpr std::size_t max_output = std::size_t(1) << 20;
 constexpr std::size_t longest_error = 240;  // letters of one message
 
 void write_text(const fs::path& file, const std::string& text) {
@@ -94,8 +92,8 @@ ChildEnd compile_by_any(const ProgramTask& task, const std::vector<std::string>&
     plan.command.insert(plan.command.end(), arguments.begin(), arguments.end());
     plan.folder = task.folder;
     plan.environment = {"LC_ALL=C", "TMPDIR=" + task.folder.string(), "CCACHE_DISABLE=1"};
-    plan.seconds = max_seconds;
-    plan.max_errors = max_output;
+    plan.seconds = 120;
+    plan.max_errors = std::size_t(1) << 20;
     ChildEnd end = run_guarded(task, plan, "it was compiled");
     if (end.start_error == ENOENT || end.start_error == EACCES) continue;
     if (end.start_error != 0) throw IoError(compiler[0] + " cannot be started: " + error_text(end.start_error));

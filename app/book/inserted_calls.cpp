@@ -28,11 +28,9 @@ bool is_real(const Parameter& parameter) {
   const std::string last = last_of(parameter);
   return last == "double" || last == "float" || last == "real" || last == "Real" || last == "Float";
 }
-/// Whether the function is one of those that compute colours.
 bool is_colour(const Function& function) {
-  const std::string& type = function.result;
-  return !type.empty() && type != "bool" && type != "void" && type != "double" && type != "float" && type != "int" &&
-         type != "auto";
+  const auto others = {"", "bool", "void", "double", "float", "int", "auto"};
+  return std::find(others.begin(), others.end(), function.result) == others.end();
 }
 /// What a member is for, by its name; see members in tyndall/book/values.h.
 std::string role_of(const std::string& member) {

@@ -24,8 +24,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t max_file = std::size_t(1) << 30;
-
 /// An empty folder among the temporary files ($TMPDIR, else /tmp), only for this user; removed with all that is in it.
 struct ScratchFolder {
   ScratchFolder() {
@@ -96,7 +94,7 @@ ChildPlan plan_of(const ProgramTask& task, const CompiledProgram& program, const
   plan.environment = {"TYNDALL_BOOK_FOLDERS=" + folders_of(plan.folder), "TYNDALL_BOOK_WRITES=" + written.string(),
                       "TMPDIR=" + written.string()};
   plan.keep_last_errors = true;
-  plan.max_file = max_file;
+  plan.max_file = std::size_t(1) << 30;
   plan.max_memory = free_memory().bytes / 2;
   return guarded(task, plan);
 }
