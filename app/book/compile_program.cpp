@@ -1,17 +1,18 @@
 #include "app/book/compile_program.h"
 
-#include "app/book/book_folder.h"
 #include "app/book/inserted_calls.h"
-#include "app/book/scratch_folder.h"
 #include "app/text/values.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/system/files.h"
 #include "core/system/open_file.h"
 #include "core/system/signals.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <regex>
 #include <sstream>
 #include <system_error>
@@ -22,25 +23,34 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double max_seconds = 120;
-constexpr std::size_t max_output = std::size_t(1) << 20;
 constexpr std::size_t longest_error = 240;  // letters of one message
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
+void write_text(const fs::path& file, const std::string& text) {
+  errno = 0;
+  std::ofstream out(file, std::ios::binary);
+  if (!(out << text << std::flush))
+    throw IoError(printable(file.parent_path().string()) + ": cannot write temporary files: " + error_text(errno));
+}
+std::string read_text(const fs::path& file) {
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(in)), {});
+  if (!in.is_open() || in.bad()) throw IoError(printable(file.string()) + ": cannot be read: " + error_text(errno));
+  return text;
 }
 
-std::string undefined_reference(const std::vector<std::string>& lines) {
-  for (const std::string& line : lines) {
-    const std::size_t at = line.find("undefined reference to ");
-    if (at != std::string::npos)
-      return line.substr(at) +
-             " (if it is in another source file, name that, too: tyndall main.cc other.cc; libraries are not linked)";
-  }
-  return "";
+/// The folder of our headers: book in $TYNDALL_ASSETS, share/tyndall/book of the installation, or book beside the
+/// program.
+fs::path book_folder() {
+  std::error_code error;
+  const fs::path program = own_file().parent_path();
+  const char* assets = std::getenv("TYNDALL_ASSETS");
+  const fs::path chosen = assets && *assets ? fs::path(assets) / "book" : fs::path();
+  for (const fs::path& folder : {chosen, program.parent_path() / "share" / "tyndall" / "book", program / "book"})
+    if (!folder.empty() && fs::is_regular_file(folder / "take.h", error)) return fs::canonical(folder);
+  throw IoError(
+      "the folder of headers for readers' programs was not found: neither share/tyndall/book of the installation nor " +
+      (program / "book").string() + " has take.h");
 }
 
 /// Compilers by their names, each with arguments that the user gave.
@@ -82,8 +92,8 @@ ChildEnd compile_by_any(const ProgramTask& task, const std::vector<std::string>&
     plan.command.insert(plan.command.end(), arguments.begin(), arguments.end());
     plan.folder = task.folder;
     plan.environment = {"LC_ALL=C", "TMPDIR=" + task.folder.string(), "CCACHE_DISABLE=1"};
-    plan.seconds = max_seconds;
-    plan.max_errors = max_output;
+    plan.seconds = 120;
+    plan.max_errors = std::size_t(1) << 20;
     ChildEnd end = run_guarded(task, plan, "it was compiled");
     if (end.start_error == ENOENT || end.start_error == EACCES) continue;
     if (end.start_error != 0) throw IoError(compiler[0] + " cannot be started: " + error_text(end.start_error));
@@ -131,10 +141,10 @@ fs::path folder_with(const std::string& header, const fs::path& program) {
 
 class Compilation {
  public:
-  Compilation(const ProgramTask& task, const ProgramSources& sources)
-      : task_(task), main_(sources.files.front()), headers_(fs::canonical(book_folder())) {
-    for (const fs::path& file : sources.files) sources_.push_back(fs::absolute(file).lexically_normal());
-    for (const fs::path& folder : sources.include_folders)
+  explicit Compilation(const ProgramTask& task)
+      : task_(task), main_(task.sources.files.front()), headers_(book_folder()) {
+    for (const fs::path& file : task.sources.files) sources_.push_back(fs::absolute(file).lexically_normal());
+    for (const fs::path& folder : task.sources.include_folders)
       options_.insert(options_.end(), {"-I", fs::absolute(folder).string()});
   }
 
@@ -150,9 +160,7 @@ class Compilation {
         const InsertedCalls calls = insert_calls(text_, outline_, reads_world);
         if (!calls.problem.empty()) throw UsageError(task_.name + ": " + calls.problem);
         const std::string error = compile(calls.text);
-        if (error.empty())
-          return {task_.folder / "program", outline_.files,
-                  reads_world ? "" : "its classes are not those of the books"};
+        if (error.empty()) return {task_.folder / "program", outline_.files, calls.draws_by_pdf, calls.decodes_images};
         if (!reads_world || !is_in_ours_) errors.push_back(error);
         if (!is_in_ours_) break;
       }
@@ -226,23 +234,26 @@ class Compilation {
 }  // namespace
 
 std::string first_error(const std::string& output, const fs::path& main) {
-  const std::vector<std::string> lines = lines_of(output);
-  for (const std::string& line : lines) {
+  std::istringstream lines(output);
+  std::string first, undefined;
+  for (std::string line; std::getline(lines, line);) {
+    if (first.empty()) first = line;
     const std::size_t fatal = line.find("fatal error: "), at = std::min(fatal, line.find("error: "));
-    const std::size_t place = line.find(':');
-    const bool of_linker = line.rfind("collect2", 0) == 0 || line.find("undefined reference") != std::string::npos;
-    if (at == std::string::npos || place >= at || of_linker) continue;
+    const std::size_t place = line.find(':'), reference = line.find("undefined reference to ");
+    if (reference != std::string::npos && undefined.empty())
+      undefined =
+          line.substr(reference) +
+          " (if it is in another source file, name that, too: tyndall main.cc other.cc; libraries are not linked)";
+    if (at == std::string::npos || place >= at || reference != std::string::npos || line.rfind("collect2", 0) == 0)
+      continue;
     return shown(line.substr(0, place), main) + line.substr(place, at - place) +
            shortened(line.substr(at + (at == fatal ? 13 : 7)), longest_error);
   }
-  const std::string undefined = undefined_reference(lines);
   if (!undefined.empty()) return main.string() + ": " + shortened(undefined, longest_error);
-  return main.string() + ": cannot be compiled: " +
-         shortened(lines.empty() ? "the compiler does not say why" : lines.front(), longest_error);
+  if (first.empty()) first = "the compiler does not say why";
+  return main.string() + ": cannot be compiled: " + shortened(first, longest_error);
 }
 
-CompiledProgram compile_program(const ProgramTask& task, const ProgramSources& sources) {
-  return Compilation(task, sources).run();
-}
+CompiledProgram compile_program(const ProgramTask& task) { return Compilation(task).run(); }
 
 }  // namespace tyndall

@@ -9,7 +9,9 @@ namespace tyndall {
 /// his classes. Nothing else of it changes.
 struct InsertedCalls {
   std::string text;
-  std::string problem;  ///< why there is nothing to be asked; "": there is
+  std::string problem;          ///< why there is nothing to be asked; "": there is
+  bool draws_by_pdf = false;    ///< scatter() answers by densities, as the third book's does
+  bool decodes_images = false;  ///< it lets its library decode images
 };
 
 /// text: preprocessed, its outline; see there. reads_world: whether the reader's world is looked at, which needs to

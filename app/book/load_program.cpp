@@ -1,10 +1,12 @@
 #include "app/book/load_program.h"
 
-#include "app/book/scratch_folder.h"
+#include "app/book/compile_program.h"
+#include "app/book/reading.h"
 #include "app/text/values.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/system/child.h"
+#include "core/system/files.h"
 #include "core/system/open_file.h"
 #include "core/system/processors.h"
 #include "core/system/signals.h"
@@ -13,7 +15,7 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <sstream>
+#include <cstring>
 #include <system_error>
 
 namespace tyndall {
@@ -22,8 +24,30 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t max_file = std::size_t(1) << 30;
-constexpr const char* crashed = "it crashes while its world is looked at";
+/// An empty folder among the temporary files ($TMPDIR, else /tmp), only for this user; removed with all that is in it.
+struct ScratchFolder {
+  ScratchFolder() {
+    int problem = 0;
+    std::error_code error;
+    path = make_temporary_folder("tyndall-book-", &problem);
+    if (path.empty())
+      throw IoError(printable(temporary_folder().string()) +
+                    ": cannot make a temporary folder: " + error_text(problem));
+    if (const fs::path whole = fs::canonical(path, error); !error) path = whole;
+  }
+  ~ScratchFolder() {
+    std::error_code error;
+    fs::remove_all(path, error);
+    if (!error) return;
+    for (fs::recursive_directory_iterator at(path, error), end; !error && at != end; at.increment(error))
+      fs::permissions(at->path(), fs::perms::owner_all, fs::perm_options::add, error);  // a program took them away
+    fs::remove_all(path, error);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  fs::path path;
+};
 
 /// The last line of text, for a message; "": there is none.
 std::string last_line(std::string text) {
@@ -32,14 +56,14 @@ std::string last_line(std::string text) {
 }
 
 /// Why the program has ended before its first ray.
-[[noreturn]] void fail(const ProgramRequest& request, const ProgramTask& task, const ChildEnd& end) {
+[[noreturn]] void fail(const ProgramRequest& task, const ChildEnd& end) {
   const std::string& name = task.name;
   if (end.start_error == EACCES)
     throw IoError(printable(task.folder.parent_path().string()) +
                   ": programs cannot be run in this temporary folder (is it mounted noexec?); TMPDIR names another");
   if (end.start_error != 0) throw IoError(name + ": cannot be started: " + error_text(end.start_error));
   if (end.given_up)
-    throw UsageError(name + ": did not come to the colour of its first ray within " + number_text(request.seconds) +
+    throw UsageError(name + ": did not come to the colour of its first ray within " + number_text(task.seconds) +
                      " s, and was ended");
   if (end.awaited_input) throw UsageError(name + ": main() reads standard input, which tyndall does not pass on");
   const std::string words = last_line(end.errors);
@@ -60,8 +84,7 @@ std::string folders_of(const fs::path& program) {
   return text + (program / "images").string() + "\n";
 }
 
-ChildPlan plan_of(const ProgramTask& task, const CompiledProgram& program, const fs::path& main,
-                  const char* only_samples) {
+ChildPlan plan_of(const ProgramTask& task, const CompiledProgram& program, const fs::path& main) {
   ChildPlan plan;
   plan.command = {program.file.string()};
   plan.folder = fs::absolute(main).parent_path();
@@ -70,34 +93,39 @@ ChildPlan plan_of(const ProgramTask& task, const CompiledProgram& program, const
   fs::create_directories(written, ignored);
   plan.environment = {"TYNDALL_BOOK_FOLDERS=" + folders_of(plan.folder), "TYNDALL_BOOK_WRITES=" + written.string(),
                       "TMPDIR=" + written.string()};
-  if (only_samples) plan.environment.push_back(std::string("TYNDALL_BOOK_ONLY_SAMPLES=") + only_samples);
   plan.keep_last_errors = true;
-  plan.max_file = max_file;
+  plan.max_file = std::size_t(1) << 30;
   plan.max_memory = free_memory().bytes / 2;
   return guarded(task, plan);
 }
 
-/// Reads what the program tells; false: it has ended before it told all.
-bool read_messages(OwnProgram& own, const ProgramTask& task, ProgramScene& scene) {
-  while (const auto message = own.next_message()) {
-    const std::string text = printable(message->text);
-    if (message->kind == 'P') std::istringstream(text) >> scene.width >> scene.height >> scene.samples;
-    if (message->kind == 'F') scene.notes.push_back(task.name + ": cannot open " + in_quotes(text));
-    if (message->kind == 'N') scene.notes.push_back(task.name + ": " + text);
-    if (message->kind == 'R') {
-      scene.fuzz_on_sphere = text.find("sphere") != std::string::npos;
-      scene.matt_in_sphere = text.find("filled") != std::string::npos;
-      scene.short_frame = text.find("frame") != std::string::npos;
-      scene.has_images = text.find("image") != std::string::npos;
-      scene.draws_by_pdf = text.find("pdf") != std::string::npos;
-      scene.has_noise = text.find("noise") != std::string::npos;
-    }
-    if (message->kind == 'E') throw UsageError(task.name + ": " + text);
-    if (message->kind == 'O') scene.reason = text;
-    if (message->kind == 'S') scene.json = message->text;
-    if (message->kind == 'O' || message->kind == 'S') return true;
+/// Reads what the program tells before it is asked; false: it has ended before it told all.
+bool read_messages(const ProgramTask& task, Reading& reading) {
+  ProgramScene& scene = reading.scene;
+  while (const auto message = reading.program.next_message()) {
+    if (message->kind == 'F') scene.notes.push_back(task.name + ": cannot open " + in_quotes(printable(message->text)));
+    if (message->kind == 'E') throw UsageError(task.name + ": " + printable(message->text));
+    if (message->kind != 'P' || message->text.size() != sizeof reading.picture) continue;
+    std::memcpy(&reading.picture, message->text.data(), sizeof reading.picture);
+    scene.width = static_cast<int>(reading.picture.width), scene.height = static_cast<int>(reading.picture.height);
+    scene.samples = static_cast<int>(reading.picture.samples), scene.short_frame = reading.picture.less != 0;
+    if (reading.picture.is_float != 0) reading.precision = 2e-3;
+    if (reading.picture.world == 0) scene.reason = "its classes are not those of the books";
+    return true;
   }
   return false;
+}
+
+/// The scene's text. Throws NotTaken, and IoError where the program has ended.
+std::string read_scene(Reading& reading) {
+  read_world(reading);
+  const std::string camera = read_camera(reading), sky = read_sky(reading);
+  const ProgramScene& scene = reading.scene;
+  return fmt::format(
+      "{{\"tyndall\":1,\"image\":{{\"width\":{},\"height\":{}}},\n{},\n\"background\":{},\n\"render\":{{\"spp\":{},"
+      "\"max_depth\":{}}},\n\"textures\":{{{}}},\n\"materials\":{{{}}},\n\"objects\":[{}]}}\n",
+      scene.width, scene.height, camera, sky, std::max(scene.samples, 1), read_depth(reading), reading.textures,
+      reading.materials, joined(reading.objects, ",\n"));
 }
 
 }  // namespace
@@ -113,24 +141,38 @@ ProgramScene load_program(const ProgramRequest& request) {
     throw UsageError(printable(main.string()) +
                      ": is not run: builds for Windows run no programs, which need a compiler");
   const auto scratch = std::make_shared<ScratchFolder>();
-  const ProgramTask task{printable(main.string()), scratch->path(), request.go_on,
-                         request.watch_signals,    request.trusted, request.compiler};
-  const CompiledProgram program = compile_program(task, request.sources);
+  ProgramRequest task = request;
+  task.name = printable(main.string()), task.folder = scratch->path;
+  const CompiledProgram program = compile_program(task);
   const SignalWatch signals(request.watch_signals ? WatchedSignals::end : WatchedSignals::none);
   const auto go_on = [&] { return signals.received() == 0 && (!request.go_on || request.go_on()); };
   ProgramScene scene;
-  for (const char* only_samples : {static_cast<const char*>(nullptr), crashed}) {
+  for (std::string failed;;) {
     scene = ProgramScene{};
-    scene.files = program.sources;
-    const ChildPlan plan = plan_of(task, program, main, only_samples);
+    scene.files = program.sources, scene.draws_by_pdf = program.draws_by_pdf;
     const auto remove = [scratch](OwnProgram* own) { delete own; };  // the folder lives as long as the program
-    scene.own = {new OwnProgram(task.name, plan, request.seconds, go_on), remove};
-    if (read_messages(*scene.own, task, scene)) break;
+    scene.own = {new OwnProgram(task.name, plan_of(task, program, main), request.seconds, go_on), remove};
+    Reading reading{scene, *scene.own};
+    bool told = read_messages(task, reading);
+    scene.own->set_deadline(20);  // for its world
+    if (told && !failed.empty()) scene.reason = failed;
+    try {
+      if (told && scene.reason.empty()) scene.json = read_scene(reading);
+    } catch (const NotTaken& why) {
+      scene.reason = why.reason;
+    } catch (const IoError&) {
+      told = false;
+    }
+    if (told) break;
     const ChildEnd& end = scene.own->end();
     if (signals.received() != 0) throw ProgramInterrupted(task.name + ": interrupted while it ran", signals.received());
     if (!go_on()) throw ProgramInterrupted(task.name + ": given up while it ran", signal_terminate);
-    if (scene.width == 0 || only_samples) fail(request, task, end);
+    if (scene.width == 0 || !failed.empty()) fail(task, end);
+    failed = end.given_up ? "its world takes more than 20 s to be read" : "it crashes while its world is looked at";
   }
+  if (scene.has_images && !program.decodes_images)
+    scene.notes.push_back(task.name +
+                          ": its program takes the numbers of images as they are, Tyndall takes them as sRGB");
   scene.own->set_lasting();
   return scene;
 }

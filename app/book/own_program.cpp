@@ -2,9 +2,6 @@
 
 #include "core/base/error.h"
 
-#include <cstdint>
-#include <cstdlib>
-#include <cstring>
 #include <utility>
 
 namespace tyndall {
@@ -16,7 +13,7 @@ OwnProgram::OwnProgram(std::string name, ChildPlan plan, double seconds, std::fu
   channel_ = std::move(mine);
   plan.channel = its.descriptor(), plan.channel_variable = "TYNDALL_BOOK_CHANNEL";
   plan.seconds = 1e9;
-  deadline_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(static_cast<long>(1000 * seconds));
+  set_deadline(seconds);
   plan.go_on = [this] { return !stops_ && is_wanted(); };
   thread_ = std::thread([this, plan = std::move(plan), its = std::move(its)]() mutable {
     end_ = run_child(plan);
@@ -27,6 +24,11 @@ OwnProgram::OwnProgram(std::string name, ChildPlan plan, double seconds, std::fu
 OwnProgram::~OwnProgram() {
   stops_ = true;
   if (thread_.joinable()) thread_.join();
+}
+
+void OwnProgram::set_deadline(double seconds) {
+  const std::lock_guard lock(wanted_mutex_);
+  deadline_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(static_cast<long>(1000 * seconds));
 }
 
 void OwnProgram::set_lasting() {
@@ -40,33 +42,45 @@ bool OwnProgram::is_wanted() {
 }
 
 std::optional<OwnProgram::Message> OwnProgram::next_message() {
-  Message message;
-  std::string size;
-  char letter = 0;
-  if (!channel_.receive(&message.kind, 1)) return {};
-  while (channel_.receive(&letter, 1) && letter != '\n' && size.size() < 12) size += letter;
-  constexpr std::size_t largest = std::size_t(300) << 20;  // more than the largest scene
-  const std::size_t bytes = std::strtoull(size.c_str(), nullptr, 10);
-  if (letter != '\n' || bytes > largest) return {};
-  message.text.resize(bytes);
-  if (!channel_.receive(message.text.data(), bytes)) return {};
+  tyndall_book::question head;
+  constexpr double largest = 300.0 * (1 << 20);  // more than any object's or picture's
+  if (!channel_.receive(&head, sizeof head) || !(head.count >= 0 && head.count <= largest)) return {};
+  Message message{static_cast<char>(head.letter), std::string(static_cast<std::size_t>(head.count), 0)};
+  if (!channel_.receive(message.text.data(), message.text.size())) return {};
   return message;
 }
 
-std::vector<double> OwnProgram::samples(const std::vector<double>& places) {
-  const std::lock_guard lock(mutex_);
-  const std::uint64_t count = places.size() / 2;
-  std::vector<double> colours(3 * count);
-  std::string question(sizeof count + places.size() * sizeof(double), 0);
-  std::memcpy(question.data(), &count, sizeof count);
-  std::memcpy(question.data() + sizeof count, places.data(), places.size() * sizeof(double));
-  for (std::size_t done = 0; done < question.size();)
-    if (channel_.send(question.data(), question.size(), done) == Connection::Sent::closed)
+void OwnProgram::send(const void* bytes, std::size_t size) {
+  for (std::size_t done = 0; done < size;)
+    if (channel_.send(static_cast<const char*>(bytes), size, done) == Connection::Sent::closed)
       throw IoError(name_ + ": the program has ended");
+}
+
+void OwnProgram::exchange(const tyndall_book::question& head, const void* question, std::size_t question_size,
+                          void* answer, std::size_t answer_size) {
+  const std::lock_guard lock(mutex_);
+  send(&head, sizeof head), send(question, question_size);
   constexpr int longest = 20000;
-  if (channel_.receive(colours.data(), colours.size() * sizeof(double), longest)) return colours;
+  if (channel_.receive(answer, answer_size, longest)) return;
   stops_ = true;  // it has ended, or hangs
   throw IoError(name_ + ": the program has ended, or needs more than 20 s for a sample");
+}
+
+std::vector<double> OwnProgram::samples(const std::vector<double>& places) {
+  std::vector<double> colours(places.size() / 2 * 3);
+  const double count = static_cast<double>(places.size() / 2);
+  exchange({'p', 0, count, count}, places.data(), places.size() * sizeof(double), colours.data(),
+           colours.size() * sizeof(double));
+  return colours;
+}
+
+std::string OwnProgram::describe(char kind, const std::vector<double>& objects) {
+  const std::lock_guard lock(mutex_);
+  const tyndall_book::question head{double(kind), 0, static_cast<double>(objects.size())};
+  send(&head, sizeof head), send(objects.data(), objects.size() * sizeof(double));
+  const std::optional<Message> message = next_message();
+  if (!message) throw IoError(name_ + ": the program has ended");
+  return message->text;
 }
 
 const ChildEnd& OwnProgram::end() {

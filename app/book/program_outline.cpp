@@ -19,11 +19,6 @@ bool is_identifier(std::string_view token) {
 bool is_one_of(std::string_view token, std::initializer_list<std::string_view> all) {
   return std::find(all.begin(), all.end(), token) != all.end();
 }
-bool is_built_in(std::string_view token) {
-  return is_one_of(token,
-                   {"int", "double", "float", "bool", "char", "unsigned", "signed", "long", "short", "void", "auto"});
-}
-
 /// The end of a string or character that begins at `at`.
 std::size_t end_of_literal(const std::string& text, std::size_t at) {
   if (text[at] == '"' && at > 0 && text[at - 1] == 'R') {
@@ -45,8 +40,7 @@ bool enters_own_file(const std::string& line, const std::vector<fs::path>& ours,
   const std::size_t open = line.find('"'), close = line.rfind('"');
   if (open == close) return false;
   const fs::path file = fs::path(line.substr(open + 1, close - open - 1)).lexically_normal();
-  const bool of_system = line.find(" 3", close) != std::string::npos || file.string()[0] == '<';
-  if (of_system) return false;
+  if (line.find(" 3", close) != std::string::npos || file.string()[0] == '<') return false;  // the system's
   for (const fs::path& folder : ours)
     if (file.string().rfind(folder.string(), 0) == 0) return false;
   if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
@@ -58,12 +52,10 @@ TokenList tokens_of(const std::string& text, const std::vector<fs::path>& ours, 
   TokenList tokens;
   bool own = false;
   for (std::size_t at = 0; at < text.size();) {
-    const bool begins_line = at == 0 || text[at - 1] == '\n';
+    const bool is_marker = text[at] == '#' && (at == 0 || text[at - 1] == '\n');
     const std::size_t line_end = std::min(text.find('\n', at), text.size());
-    if (begins_line && text[at] == '#') {
-      if (text.compare(at, 2, "# ") == 0) own = enters_own_file(text.substr(at, line_end - at), ours, files);
-      at = line_end + 1;
-    } else if (!own) {
+    if (is_marker && text.compare(at, 2, "# ") == 0) own = enters_own_file(text.substr(at, line_end - at), ours, files);
+    if (is_marker || !own) {
       at = line_end + 1;
     } else if (std::isspace(static_cast<unsigned char>(text[at]))) {
       ++at;
@@ -99,13 +91,18 @@ class Outliner {
         if (!scopes_.empty()) scopes_.pop_back();
         start_ = i + 1;
       } else if (token == ";") {
-        if (const std::size_t open = parameters_at(start_, i); open < i) add_function(start_, open, i, {});
+        if (const std::size_t open = parameters_at(start_, i); open < i)
+          add_function(start_, open, {});
+        else if (!scopes_.empty() && scopes_.back().owner >= 0)
+          add_members(outline_.classes[static_cast<std::size_t>(scopes_.back().owner)], i);
         start_ = i + 1;
       } else if (token == ":" && i == start_ + 1 && is_one_of(tokens_[start_], {"public", "private", "protected"})) {
         start_ = i + 1;
       }
     }
-    find_heads();
+    for (std::size_t i = 1; i < tokens_.size(); ++i)
+      if (tokens_[i - 1] == "<<" && is_one_of(tokens_[i].substr(0, 3), {"\"P3", "\"P6"}))
+        outline_.heads.push_back(tokens_[i]);
   }
 
  private:
@@ -114,6 +111,9 @@ class Outliner {
     int owner = -1;  ///< the class; -1: a namespace
   };
 
+  bool has(std::string_view word, std::size_t begin, std::size_t end) const {
+    return std::find(tokens_.data() + begin, tokens_.data() + end, word) != tokens_.data() + end;
+  }
   std::size_t closing(std::size_t open) const {
     int depth = 0;
     for (std::size_t i = open; i < tokens_.size(); ++i) {
@@ -146,43 +146,31 @@ class Outliner {
     return end;
   }
   std::size_t open_brace(std::size_t at) {
-    const auto has = [&](std::string_view word) {
-      return std::find(tokens_.begin() + static_cast<std::ptrdiff_t>(start_),
-                       tokens_.begin() + static_cast<std::ptrdiff_t>(at),
-                       word) != tokens_.begin() + static_cast<std::ptrdiff_t>(at);
-    };
-    if (at > start_ &&
-        (tokens_[start_] == "namespace" || (tokens_[start_] == "inline" && tokens_[start_ + 1] == "namespace"))) {
+    const bool of_language = at > start_ && tokens_[start_] == "extern" && tokens_[at - 1][0] == '"';
+    if (of_language || (at > start_ && has("namespace", start_, std::min(start_ + 2, at)))) {
       std::string name;
-      for (std::size_t i = start_; i < at; ++i)
+      for (std::size_t i = start_; i < at && !of_language; ++i)
         if (!is_one_of(tokens_[i], {"namespace", "inline"})) name += tokens_[i];
       scopes_.push_back({name, -1});
       start_ = at + 1;
       return at;
     }
-    if (at > start_ && tokens_[start_] == "extern" && tokens_[at - 1][0] == '"') {
-      scopes_.push_back({"", -1});
-      start_ = at + 1;
-      return at;
-    }
     const std::size_t open = parameters_at(start_, at), end = closing(at);
     if (open < at) {
-      const bool initialises = std::find(tokens_.begin() + static_cast<std::ptrdiff_t>(closing(open)),
-                                         tokens_.begin() + static_cast<std::ptrdiff_t>(at),
-                                         ":") != tokens_.begin() + static_cast<std::ptrdiff_t>(at);
-      if (initialises && (is_identifier(tokens_[at - 1]) || tokens_[at - 1] == ">"))
+      if (has(":", closing(open), at) && (is_identifier(tokens_[at - 1]) || tokens_[at - 1] == ">"))
         return end;  // a member of a constructor's list
       const char* from = tokens_[at].data();
-      add_function(start_, open, at, std::string_view(from, static_cast<std::size_t>(tokens_[end].data() + 1 - from)));
+      add_function(start_, open, std::string_view(from, static_cast<std::size_t>(tokens_[end].data() + 1 - from)));
       start_ = end + 1;
       return end;
     }
-    if ((has("class") || has("struct")) && !has("enum") && !has("=")) {
+    const bool is_class = has("class", start_, at) || has("struct", start_, at);
+    if (is_class && !has("enum", start_, at) && !has("=", start_, at)) {
       add_class(at);
       start_ = at + 1;
       return at;
     }
-    if (has("operator")) start_ = end + 1;
+    if (has("operator", start_, at)) start_ = end + 1;
     return end;
   }
   std::string space() const {
@@ -191,96 +179,89 @@ class Outliner {
       if (!scope.name.empty()) name += (name.empty() ? "" : "::") + scope.name;
     return name;
   }
+  /// The parts between commas that are in no brackets, by their begin and end.
+  std::vector<std::pair<std::size_t, std::size_t>> parts(std::size_t begin, std::size_t end) const {
+    std::vector<std::pair<std::size_t, std::size_t>> all;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (i > begin && is_identifier(tokens_[i - 1])) i = std::max(i, behind_angles(i, end));
+      if (i < end && is_one_of(tokens_[i], {"(", "[", "{"})) i = closing(i);
+      if (i < end && tokens_[i] != ",") continue;
+      all.emplace_back(begin, i);
+      begin = i + 1;
+    }
+    if (begin < end) all.emplace_back(begin, end);
+    return all;
+  }
+  /// The last name up to what it is set to, or an end.
+  std::string name_in(std::size_t begin, std::size_t end) const {
+    std::string name;
+    for (std::size_t i = begin; i < end && !is_one_of(tokens_[i], {"=", "{", "[", ":", "("});
+         i = std::max(i + 1, behind_angles(i + 1, end)))
+      if (is_identifier(tokens_[i]) && tokens_[i] != "final") name = tokens_[i];
+    return name;
+  }
+  std::string text_of(std::size_t begin, std::size_t end, std::initializer_list<std::string_view> without) const {
+    std::string text;
+    for (std::size_t i = begin; i < end; ++i)
+      if (!is_one_of(tokens_[i], without)) text += (text.empty() ? "" : " ") + std::string(tokens_[i]);
+    return text;
+  }
+
   void add_class(std::size_t end) {
     OutlinedClass one;
     one.space = space();
-    one.is_template = tokens_[start_] == "template";
-    std::size_t i = one.is_template ? behind_angles(start_ + 1, end) : start_;
+    std::size_t i = start_;
+    if (tokens_[i] == "template") i = behind_angles(i + 1, end);
     while (i < end && !is_one_of(tokens_[i], {"class", "struct"})) ++i;
-    for (++i; i < end && tokens_[i] != ":"; ++i)
-      if (is_identifier(tokens_[i]) && tokens_[i] != "final") one.name = tokens_[i];
-    std::string base;
-    for (++i; i <= end; ++i) {
-      const bool ends = i == end || tokens_[i] == ",";
-      if (ends && !base.empty()) one.bases.push_back(base);
-      if (!ends && is_identifier(tokens_[i]) && !is_one_of(tokens_[i], {"public", "private", "protected", "virtual"}))
-        base = tokens_[i];
-      i = ends ? i : std::max(i + 1, behind_angles(i + 1, end)) - 1;
-    }
+    one.name = name_in(i + 1, end);
+    one.can_be_named = tokens_[start_] != "template" && !one.name.empty();
+    for (const Scope& scope : scopes_)
+      if (scope.owner >= 0 && !outline_.classes[static_cast<std::size_t>(scope.owner)].can_be_named)
+        one.can_be_named = false;
+    while (i < end && tokens_[i] != ":") ++i;
+    for (const auto& [from, to] : parts(i + 1, end)) one.bases.push_back(name_in(from, to));
     scopes_.push_back({one.name, static_cast<int>(outline_.classes.size())});
     outline_.classes.push_back(one);
   }
+  /// The names in a declaration like "double radius = 1, weights[3];".
+  void add_members(OutlinedClass& owner, std::size_t end) {
+    if (end < start_ + 2 || has("operator", start_, end) ||
+        is_one_of(tokens_[start_], {"using", "typedef", "friend", "static", "enum", "template", "class", "struct",
+                                    "union", "inline", "constexpr"}))
+      return;
+    for (const auto& [from, to] : parts(start_, end))
+      if (const std::string name = name_in(from, to); !name.empty()) owner.members.push_back(name);
+  }
   Parameter parameter_of(std::size_t begin, std::size_t end) const {
     Parameter one;
-    for (std::size_t i = begin; i < end; ++i)
-      if (tokens_[i] == "=") end = i;
+    end = static_cast<std::size_t>(std::find(&tokens_[begin], tokens_.data() + end, "=") - tokens_.data());
     if (begin >= end) return one;
-    const std::string_view last = tokens_[end - 1];
-    const bool has_type_before =
-        end - begin > 1 &&
-        (tokens_[end - 2] == "&" || tokens_[end - 2] == "*" || tokens_[end - 2] == ">" || tokens_[end - 2] == "&&" ||
-         (is_identifier(tokens_[end - 2]) && !is_one_of(tokens_[end - 2], {"const", "struct", "class"})));
-    if (is_identifier(last) && has_type_before && !is_built_in(last) && last != "const") one.name = last, --end;
-    for (std::size_t i = begin; i < end; ++i) {
-      one.type += (one.type.empty() ? "" : " ") + std::string(tokens_[i]);
-      one.constant = one.constant || tokens_[i] == "const";
+    const std::string_view last = tokens_[end - 1], before = end - begin > 1 ? tokens_[end - 2] : "const";
+    const bool has_type = is_one_of(before, {"&", "*", ">", "&&"}) ||
+                          (is_identifier(before) && !is_one_of(before, {"const", "struct", "class"}));
+    const bool is_type = is_one_of(last, {"int", "double", "float", "bool", "char", "unsigned", "signed", "long",
+                                          "short", "void", "auto", "const"});
+    if (is_identifier(last) && has_type && !is_type) one.name = last, --end;
+    one.type = text_of(begin, end, {});
+    for (std::size_t i = begin; i < end; ++i)
       if (is_identifier(tokens_[i]) && tokens_[i] != "const") one.identifiers.emplace_back(tokens_[i]);
-    }
-    one.reference = tokens_[end - 1] == "&";
-    one.pointer = tokens_[end - 1] == "*";
     return one;
   }
-  void add_function(std::size_t begin, std::size_t open, std::size_t end, std::string_view body) {
+  void add_function(std::size_t begin, std::size_t open, std::string_view body) {
+    if (open >= 2 && tokens_[open - 2] == "~") return;
     Function one;
     one.body = body;
     one.name = tokens_[open - 1];
-    if (open >= 2 && tokens_[open - 2] == "~") return;
     one.owner = scopes_.empty() ? -1 : scopes_.back().owner;
     std::size_t name = open - 1;
-    while (name >= begin + 2 && tokens_[name - 1] == "::") {  // defined outside of its class
+    for (; name >= begin + 2 && tokens_[name - 1] == "::"; name -= 2)  // defined outside of its class
       for (std::size_t k = 0; k < outline_.classes.size(); ++k)
         if (outline_.classes[k].name == tokens_[name - 2]) one.owner = static_cast<int>(k);
-      name -= 2;
-    }
-    if (tokens_[begin] == "template") begin = behind_angles(begin + 1, end);
-    for (std::size_t i = begin; i < name; ++i) {
-      one.is_virtual = one.is_virtual || tokens_[i] == "virtual";
-      one.is_static = one.is_static || tokens_[i] == "static";
-      if (!is_one_of(tokens_[i], {"virtual", "static", "inline", "constexpr", "explicit", "[", "]", "nodiscard"}))
-        one.result += (one.result.empty() ? "" : " ") + std::string(tokens_[i]);
-    }
-    const std::size_t close = closing(open);
-    std::size_t from = open + 1;
-    for (std::size_t i = open + 1; i <= close; ++i) {
-      if (i > open + 1 && is_identifier(tokens_[i - 1])) i = std::min(close, std::max(i, behind_angles(i, close)));
-      if (is_one_of(tokens_[i], {"(", "[", "{"})) i = closing(i);
-      if (i != close && tokens_[i] != ",") continue;
-      if (from < i) one.parameters.push_back(parameter_of(from, i));
-      from = i + 1;
-    }
-    for (std::size_t i = close + 1; i < end && tokens_[i] != ":"; ++i) {
-      one.is_pure = one.is_pure || (tokens_[i] == "=" && i + 1 < end && tokens_[i + 1] == "0");
-      if (tokens_[i] != "=" && tokens_[i] != "0") one.suffix += " " + std::string(tokens_[i]);
-    }
+    if (tokens_[begin] == "template") begin = behind_angles(begin + 1, open);
+    one.is_virtual = has("virtual", begin, name), one.is_static = has("static", begin, name);
+    one.result = text_of(begin, name, {"virtual", "static", "inline", "constexpr", "explicit", "[", "]", "nodiscard"});
+    for (const auto& [from, to] : parts(open + 1, closing(open))) one.parameters.push_back(parameter_of(from, to));
     outline_.functions.push_back(one);
-  }
-  void find_heads() {
-    for (std::size_t i = 1; i + 1 < tokens_.size(); ++i) {
-      if (tokens_[i].rfind("\"P3", 0) != 0 && tokens_[i].rfind("\"P6", 0) != 0) continue;
-      PictureHead head{tokens_[i], tokens_[i - 1] == "<<", {}};
-      if (tokens_[i + 1] == ",")
-        for (std::size_t from = i + 2, k = from; k < tokens_.size() && head.sizes.size() < 2; ++k) {
-          if (tokens_[k] != "," && tokens_[k] != ")") {
-            if (tokens_[k] == "(") k = closing(k);
-            continue;
-          }
-          const char *begin = tokens_[from].data(), *end = tokens_[k - 1].data() + tokens_[k - 1].size();
-          head.sizes.emplace_back(begin, static_cast<std::size_t>(end - begin));
-          if (tokens_[k] == ")") break;
-          from = k + 1;
-        }
-      if (head.is_streamed || head.sizes.size() == 2) outline_.heads.push_back(head);
-    }
   }
 
   TokenList tokens_;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace tyndall {
 
@@ -14,14 +15,20 @@ struct ProgramInterrupted : std::runtime_error {
   int signal;
 };
 
-/// What compiling and running have in common.
+/// The source files of a program, as the user named them.
+struct ProgramSources {
+  std::vector<std::filesystem::path> files;            ///< that with main() first
+  std::vector<std::filesystem::path> include_folders;  ///< -I
+};
+/// A program that is compiled and run.
 struct ProgramTask {
-  std::string name;              ///< what messages call the program
-  std::filesystem::path folder;  ///< of temporary files, that exists; a whole path without links
-  std::function<bool()> go_on;   ///< see ChildPlan
-  bool watch_signals = true;     ///< SIGINT, SIGTERM and SIGHUP end it
-  bool trusted = false;          ///< it is also run where the system has no guard
+  ProgramSources sources;
   std::string compiler{};        ///< "": $CXX, else c++, g++ or clang++
+  std::function<bool()> go_on;   ///< asked now and then; false gives up; may be empty
+  bool watch_signals = true;     ///< SIGINT, SIGTERM and SIGHUP end it; false where a window watches them
+  bool trusted = false;          ///< it is also run where the system has no guard
+  std::string name{};            ///< what messages call it
+  std::filesystem::path folder;  ///< of temporary files, that exists; a whole path without links
 };
 
 /// The plan under guard: what is run can change nothing outside the task's folder. Throws UsageError where the system

@@ -36,6 +36,15 @@ int main() { hittable_list w; auto grey = make_shared<lambertian>(color(0.5, 0.5
 expect 0 "$tyndall" convert shapes.cc -o shapes.json
 same 'shapes' "$(grep -oE '"type": "(triangle|disk)"|"inner": [0-9.]+' shapes.json | tr '\n' ' ')" '"type": "triangle" "type": "disk" "inner": 0.5 '
 
+# Members by any names.
+mkdir named
+program named/main <<<"int main() { hittable_list w; w.add(make_shared<sphere>(point3(0, 0, -1), 0.5, make_shared<metal>(color(0.5, 0.25, 0.5), 0.25))); $render c.render(w); }"
+expect 0 "$tyndall" convert named/main.cc -o named.json
+sed -i 's/\bradius\b/reach/g; s/\bcenter\b/mid/g; s/\bfuzz\b/rough/g; s/\balbedo\b/tint/g; s/range\.min/range.lower/g; s/range\.max/range.upper/g
+  s/double min, max;/double lower, upper;/; s/: min(low), max(high)/: lower(low), upper(high)/' named/books.h
+expect 0 "$tyndall" convert named/main.cc -o again.json
+same 'members of other names' "$(cat again.json)" "$(cat named.json)"
+
 # The same with another compiler and as C++20.
 for compiler in g++ clang++; do
   command -v "$compiler" >/dev/null || continue

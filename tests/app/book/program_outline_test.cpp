@@ -17,7 +17,7 @@ class Ray { public: Ray(int a) : b{a}, c(a) { } int b, c; };
 struct Hit { double t; };
 class Shape { public: virtual ~Shape() = default; virtual bool hit(const Ray& r, double low, double high, Hit& h) const = 0; };
 template <class T> class Many : public Shape { };
-class Ball final : public Shape { bool hit(const Ray&, double, double, Hit&) const override { return true; } };
+class Ball final : public Shape { bool hit(const Ray& a, double low, double high, Hit& b) const override { return true; } };
 inline std::ostream& operator<<(std::ostream& out, const Ray& r) { return out; }
 struct Camera { Ray get_ray(double u, double v) const { return Ray(int(u)); } };
 }
@@ -32,7 +32,7 @@ TEST_CASE("classes and functions of the reader's lines, with namespaces, constru
   const std::string text = preprocessed(program);
   const ProgramOutline outline = outline_of(text, {"/ours"});
   std::vector<std::string> classes, functions;
-  for (const OutlinedClass& one : outline.classes) classes.push_back(one.qualified() + (one.is_template ? "<>" : ""));
+  for (const OutlinedClass& one : outline.classes) classes.push_back(one.qualified() + (one.can_be_named ? "" : "<>"));
   for (const Function& one : outline.functions) functions.push_back(one.name);
   CHECK(classes == std::vector<std::string>{"::rt::Ray", "::rt::Hit", "::rt::Shape", "::rt::Many<>", "::rt::Ball",
                                             "::rt::Camera"});
@@ -47,17 +47,23 @@ TEST_CASE("classes and functions of the reader's lines, with namespaces, constru
   REQUIRE(shade.parameters.size() == 3);
   CHECK(shade.parameters[1].name == "world");
   CHECK(shade.parameters[1].names("Shape"));
-  CHECK(outline.functions[1].is_pure);
+  CHECK(outline.classes[0].members == std::vector<std::string>{"b", "c"});
+  CHECK(outline.classes[1].members == std::vector<std::string>{"t"});
+  REQUIRE(outline.heads.size() == 1);
+  CHECK(outline.heads[0] == "\"P3\\n\"");
 }
 
 TEST_CASE("calls are inserted where rays are made and where their colours are computed; the rest stays") {
   const std::string text = preprocessed(program);
   const InsertedCalls made = insert_calls(text, outline_of(text, {"/ours"}), true);
   CHECK(made.problem.empty());
-  CHECK(made.text.find("get_ray(double u, double v) const { if (::tyndall_book::is_watching())") != std::string::npos);
-  CHECK(made.text.find("return shade(tyndall_ray, tyndall_world, depth); }, r, world, static_cast<int>(depth))") !=
+  CHECK(made.text.find("get_ray(double u, double v) const { if (!::tyndall_book::is_ours)") != std::string::npos);
+  CHECK(made.text.find("return shade(tyndall_ray, world, depth); }, r, world, static_cast<int>(depth))") !=
         std::string::npos);
-  CHECK(made.text.find("<< ::tyndall_book::head_text{\"P3\\n\"} <<") != std::string::npos);
+  CHECK(made.text.find("std::cout << ::std::unitbuf << \"P3\\n\" <<") != std::string::npos);
+  CHECK(made.text.find("return ::tyndall_book::answer_of_world(&a, low, high, &b); return true; }") !=
+        std::string::npos);
+  CHECK(made.text.find("struct members<::rt::Hit>") != std::string::npos);
   CHECK(made.text.find("typeid(o) == typeid(::rt::Ball)") != std::string::npos);
   CHECK(made.text.find("typeid(::rt::Many)") == std::string::npos);
 }

@@ -1,12 +1,11 @@
 #pragma once
+#include "questions.h"
+
 #include <cxxabi.h>
 
-#include <cmath>
-#include <cstdio>
+#include <cstdint>
 #include <cstdlib>
-#include <map>
 #include <memory>
-#include <new>
 #include <string>
 #include <type_traits>
 #include <typeinfo>
@@ -25,38 +24,11 @@ constexpr bool can(F) {
 /// What reads such an expression, for pick().
 #define TYNDALL_GET(...) [](auto& o) -> decltype((__VA_ARGS__)) { return __VA_ARGS__; }
 
-/// A member of the object by the first of these names that its class has; absent: by none.
-#define TYNDALL_ANY(object, ...) pick(object, TYNDALL_EACH(TYNDALL_MEMBER, __VA_ARGS__))
-/// The same, of those that are numbers of that type.
-#define TYNDALL_ANY_AS(type, object, ...) pick(object, TYNDALL_EACH(TYNDALL_MEMBER_##type, __VA_ARGS__))
-#define TYNDALL_MEMBER(name) TYNDALL_GET(o.name)
-#define TYNDALL_MEMBER_double(name) TYNDALL_GET(double(o.name))
-#define TYNDALL_MEMBER_int(name) TYNDALL_GET(int(o.name))
-#define TYNDALL_MEMBER_bool(name) TYNDALL_GET(bool(o.name))
-#define TYNDALL_EACH(m, ...) TYNDALL_PICK(__VA_ARGS__, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1)(m, __VA_ARGS__)
-#define TYNDALL_PICK(a, b, c, d, e, f, g, h, i, j, k, l, m, n, count, ...) TYNDALL_EACH_##count
-#define TYNDALL_EACH_1(m, a) m(a)
-#define TYNDALL_EACH_2(m, a, ...) m(a), TYNDALL_EACH_1(m, __VA_ARGS__)
-#define TYNDALL_EACH_3(m, a, ...) m(a), TYNDALL_EACH_2(m, __VA_ARGS__)
-#define TYNDALL_EACH_4(m, a, ...) m(a), TYNDALL_EACH_3(m, __VA_ARGS__)
-#define TYNDALL_EACH_5(m, a, ...) m(a), TYNDALL_EACH_4(m, __VA_ARGS__)
-#define TYNDALL_EACH_6(m, a, ...) m(a), TYNDALL_EACH_5(m, __VA_ARGS__)
-#define TYNDALL_EACH_7(m, a, ...) m(a), TYNDALL_EACH_6(m, __VA_ARGS__)
-#define TYNDALL_EACH_8(m, a, ...) m(a), TYNDALL_EACH_7(m, __VA_ARGS__)
-#define TYNDALL_EACH_9(m, a, ...) m(a), TYNDALL_EACH_8(m, __VA_ARGS__)
-#define TYNDALL_EACH_10(m, a, ...) m(a), TYNDALL_EACH_9(m, __VA_ARGS__)
-#define TYNDALL_EACH_11(m, a, ...) m(a), TYNDALL_EACH_10(m, __VA_ARGS__)
-#define TYNDALL_EACH_12(m, a, ...) m(a), TYNDALL_EACH_11(m, __VA_ARGS__)
-#define TYNDALL_EACH_13(m, a, ...) m(a), TYNDALL_EACH_12(m, __VA_ARGS__)
-#define TYNDALL_EACH_14(m, a, ...) m(a), TYNDALL_EACH_13(m, __VA_ARGS__)
-
 struct absent {};
 /// In the place of classes that the reader's program does not have.
-struct absent_material {
-  virtual ~absent_material() = default;
-};
-struct absent_texture {
-  virtual ~absent_texture() = default;
+template <char role>
+struct absent_class {
+  virtual ~absent_class() = default;
 };
 
 /// What the first of the readers that can be compiled reads; absent: none can.
@@ -72,62 +44,28 @@ decltype(auto) pick(T& object, F first, G... rest) {
 template <class T>
 constexpr bool is_absent = std::is_same<std::decay_t<T>, absent>::value;
 
+/// The parts of a vector or colour of the reader's; absent: it is none.
 template <class T>
-T larger(T a, T b) {
-  return a < b ? b : a;
+auto parts_of(const T& a) {
+  return pick(a, TYNDALL_GET(vector{double(o.x()), double(o.y()), double(o.z())}),
+              TYNDALL_GET(vector{double(o.x), double(o.y), double(o.z)}),
+              TYNDALL_GET(vector{double(o[0]), double(o[1]), double(o[2])}),
+              TYNDALL_GET(vector{double(o.e[0]), double(o.e[1]), double(o.e[2])}),
+              TYNDALL_GET(vector{double(o.r()), double(o.g()), double(o.b())}),
+              TYNDALL_GET(vector{double(o.r), double(o.g), double(o.b)}));
 }
-
-struct vector {
-  double x = 0, y = 0, z = 0;
-};
-inline vector operator+(vector a, vector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline vector operator-(vector a, vector b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline vector operator*(double s, vector a) { return {s * a.x, s * a.y, s * a.z}; }
-inline double dot(vector a, vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline vector cross(vector a, vector b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline double length(vector a) { return std::sqrt(dot(a, a)); }
-inline vector normalized(vector a) { return (1 / length(a)) * a; }
-inline double largest(vector a) { return std::fmax(std::fabs(a.x), std::fmax(std::fabs(a.y), std::fabs(a.z))); }
-/// Whether two values agree, as far as numbers of the reader's precision can.
-inline bool near(double a, double b, double precision) {
-  return std::fabs(a - b) <= precision * std::fmax(1.0, std::fmax(std::fabs(a), std::fabs(b)));
-}
-inline bool near(vector a, vector b, double precision) {
-  return largest(a - b) <= precision * std::fmax(1.0, std::fmax(largest(a), largest(b)));
-}
-
-/// A vector or colour of the reader's.
 template <class T>
 vector to_vector(const T& a) {
-  const auto x = [](auto n, auto m, auto k) { return vector{double(n), double(m), double(k)}; };
-  if constexpr (TYNDALL_HAS(const T, double(o.x()), double(o.y()), double(o.z())))
-    return x(a.x(), a.y(), a.z());
-  else if constexpr (TYNDALL_HAS(const T, double(o.x), double(o.y), double(o.z)))
-    return x(a.x, a.y, a.z);
-  else if constexpr (TYNDALL_HAS(const T, double(o[0])))
-    return x(a[0], a[1], a[2]);
-  else if constexpr (TYNDALL_HAS(const T, double(o.e[0])))
-    return x(a.e[0], a.e[1], a.e[2]);
-  else if constexpr (TYNDALL_HAS(const T, double(o.r()), double(o.g()), double(o.b())))
-    return x(a.r(), a.g(), a.b());
-  else
-    return x(a.r, a.g, a.b);
+  return parts_of(a);
 }
-template <class T>
-constexpr bool is_vector =
-    !is_absent<T> && !std::is_arithmetic<std::decay_t<T>>::value && !std::is_pointer<std::decay_t<T>>::value &&
-    (TYNDALL_HAS(const std::decay_t<T>, double(o.x()), double(o.z())) ||
-     TYNDALL_HAS(const std::decay_t<T>, double(o.x), double(o.z)) || TYNDALL_HAS(const std::decay_t<T>, double(o[2])) ||
-     TYNDALL_HAS(const std::decay_t<T>, double(o.e[2])) ||
-     TYNDALL_HAS(const std::decay_t<T>, double(o.r()), double(o.b())) ||
-     TYNDALL_HAS(const std::decay_t<T>, double(o.r), double(o.b)));
+template <class T, class D = std::decay_t<T>>
+constexpr bool is_vector = !std::is_pointer<D>::value && !TYNDALL_HAS(D, o.push_back(o[0])) &&
+                           !TYNDALL_HAS(D, o.get()) && !is_absent<decltype(parts_of(std::declval<const D&>()))>;
 
 /// What a pointer of any kind points to; an object is taken for itself.
 template <class P>
 auto* pointer(P& p) {
-  if constexpr (TYNDALL_HAS(P, o.get()))
+  if constexpr (TYNDALL_HAS(P, *o.get()))
     return p.get();
   else if constexpr (std::is_pointer<std::decay_t<P>>::value)
     return p;
@@ -137,10 +75,42 @@ auto* pointer(P& p) {
 /// Whether P is an object of class T, a class derived from it, or a pointer of any kind to one.
 template <class T, class P>
 constexpr bool leads_to() {
-  if constexpr (is_absent<P>)
-    return false;
+  return std::is_convertible<decltype(pointer(std::declval<std::remove_reference_t<P>&>())), const T*>::value;
+}
+/// A vector or colour of the reader's class T.
+template <class T>
+T make_vector(vector a) {
+  if constexpr (std::is_constructible<T, float, float, float>::value)
+    return T(a.x, a.y, a.z);
   else
-    return std::is_base_of<T, std::decay_t<decltype(*pointer(std::declval<std::remove_reference_t<P>&>()))>>::value;
+    return T{decltype(T().x)(a.x), decltype(T().x)(a.y), decltype(T().x)(a.z)};
+}
+/// An address as a number, which is exact.
+inline double number_of(const void* address) { return double(reinterpret_cast<std::uintptr_t>(address)); }
+inline const void* address_of(double number) {
+  return reinterpret_cast<const void*>(static_cast<std::uintptr_t>(number));
+}
+
+/// The members of the reader's class T: each(o, f) calls f(name, role, member) for all of them, those of its bases
+/// first. Made behind his code for his classes; others have none. Roles are told by names. Of what is hit: n, the
+/// normal; f, whether it is in front; u, v. Of cameras: w, h, s, the picture's width, height and samples. 0: none of
+/// these.
+template <class T>
+struct members {
+  template <class O, class F>
+  static void each(O&, const F&) {}
+};
+
+/// An end of an interval of the reader's, the lower one or the other; none (NaN): it has no two numbers.
+template <class T>
+double end_of(const T& interval, bool upper) {
+  double ends[2] = {NAN, NAN};
+  int count = 0;
+  members<T>::each(interval, [&](const char*, char, const auto& member) {
+    if constexpr (std::is_floating_point<std::decay_t<decltype(member)>>::value)
+      if (count < 2) ends[count++] = double(member);
+  });
+  return ends[upper];
 }
 
 /// The rays of a class, by any edition's names.
@@ -159,7 +129,6 @@ struct ray_traits {
   }
   using part = std::decay_t<decltype(direction_of(std::declval<const R&>()))>;
   static_assert(is_vector<part>, "a ray has a direction");
-  using number = std::decay_t<decltype(std::declval<const part&>(), 0.0)>;
 
   static vector origin(const R& ray) { return to_vector(origin_of(ray)); }
   static vector direction(const R& ray) { return to_vector(direction_of(ray)); }
@@ -171,14 +140,8 @@ struct ray_traits {
     else
       return time;
   }
-  static part make_vector(vector a) {
-    if constexpr (std::is_constructible<part, float, float, float>::value)
-      return part(a.x, a.y, a.z);
-    else
-      return part{decltype(part().x)(a.x), decltype(part().x)(a.y), decltype(part().x)(a.z)};
-  }
   static R make(vector from, vector to, double time) {
-    part a = make_vector(from), b = make_vector(to);
+    part a = make_vector<part>(from), b = make_vector<part>(to);
     if constexpr (std::is_constructible<R, part&, part&, double>::value)
       return R(a, b, time);
     else if constexpr (std::is_constructible<R, part&, part&>::value)
@@ -186,107 +149,7 @@ struct ray_traits {
     else
       return R{a, b};
   }
-  /// What two computations of the same number may differ by.
-  static double precision() {
-    const double third = to_vector(make_vector({1.0 / 3, 0, 0})).x;
-    return third == 1.0 / 3 ? 1e-6 : 2e-3;
-  }
-};
-
-/// The name of an object's class.
-template <class T>
-std::string class_of(const T& object) {
-  int failed = 0;
-  char* name = abi::__cxa_demangle(typeid(object).name(), nullptr, nullptr, &failed);
-  const std::string text = name ? name : typeid(object).name();
-  std::free(name);
-  return text;
-}
-
-/// Reads back as the same number, whatever language the program is set to.
-inline std::string number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  for (char& c : text)
-    if (c == ',') c = '.';
-  return text;
-}
-inline std::string triple(vector v) { return "[" + number(v.x) + "," + number(v.y) + "," + number(v.z) + "]"; }
-/// For people.
-inline std::string words(vector v) {
-  char text[120];
-  std::snprintf(text, sizeof text, "(%.4g, %.4g, %.4g)", v.x, v.y, v.z);
-  return text;
-}
-/// A JSON string.
-inline std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    char escape[8];
-    std::snprintf(escape, sizeof escape, "\\u%04x", static_cast<unsigned char>(c));
-    if (static_cast<unsigned char>(c) < 0x20) {
-      out += escape;
-    } else {
-      if (c == '"' || c == '\\') out += '\\';
-      out += c;
-    }
-  }
-  return out + "\"";
-}
-
-/// Numbers of our own: the reader's generator is his.
-struct random_numbers {
-  unsigned long long state = 0x9e3779b97f4a7c15ULL;
-  double next() {
-    state = state * 6364136223846793005ULL + 1442695040888963407ULL;
-    return double(state >> 11) / 9007199254740992.0;
-  }
-  double between(double a, double b) { return a + (b - a) * next(); }
-  vector on_sphere() {
-    const double z = between(-1, 1), angle = between(0, 6.283185307179586), r = std::sqrt(1 - z * z);
-    return {r * std::cos(angle), r * std::sin(angle), z};
-  }
-};
-
-/// Why something cannot be taken over, for the user.
-struct not_taken {
-  std::string reason;
-};
-/// Refuses an object of the reader's.
-template <class T>
-[[noreturn]] void refuse(const T& object, const std::string& why) {
-  throw not_taken{class_of(object) + ": " + why};
-}
-
-/// The scene as it becomes text: Tyndall's JSON.
-struct scene_text {
-  std::string textures, materials;   ///< members of JSON objects
-  std::vector<std::string> objects;  ///< JSON objects
-  std::vector<std::string> notes;    ///< what the user should know
-  bool fuzz_on_sphere = false, matt_in_sphere = false, has_noise = false, has_images = false;
-  const void *matt = nullptr, *shining = nullptr;  ///< a material that scatters one colour, and one that shines
-  vector albedo, light;                            ///< their colours
-
-  /// The quoted name of a texture or material, which is added to `list` when it is asked for first. text: makes it.
-  template <class T, class Text>
-  std::string name_of(const T& thing, std::string& list, const Text& text) {
-    const auto known = names_.find(&thing);
-    if (known != names_.end()) return known->second;
-    const std::string made = text(), kind = class_of(thing);
-    if (made[0] != '{') return names_[&thing] = made;  // a colour needs no name
-    const std::string name = quoted(kind + " " + std::to_string(++counts_[kind]));
-    list += (list.empty() ? "" : ",\n") + name + ":" + made;
-    return names_[&thing] = name;
-  }
-  void note(const std::string& text) {
-    for (const std::string& known : notes)
-      if (known == text) return;
-    notes.push_back(text);
-  }
-
- private:
-  std::map<const void*, std::string> names_;
-  std::map<std::string, int> counts_;
+  static bool is_float() { return to_vector(make_vector<part>({1.0 / 3, 0, 0})).x != 1.0 / 3; }
 };
 
 }  // namespace tyndall_book

@@ -1,0 +1,237 @@
+#include "app/book/reading.h"
+#include "core/base/math.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace tyndall {
+namespace {
+
+struct CameraValues {
+  Vector look_from, look_at, vup;
+  double vfov = 0, defocus_angle = 0, focus_distance = 1;  ///< angles in degrees
+};
+
+/// Without the last digits, which are noise.
+std::string rounded(Vector a) {
+  const double unit = std::pow(10, std::ceil(std::log10(largest(a))) - 10);
+  const auto whole = [&](double value) { return unit > 0 ? std::round(value / unit) * unit : 0; };
+  return fmt::format("[{:.10g},{:.10g},{:.10g}]", whole(a.x), whole(a.y), whole(a.z));
+}
+double degrees(double opposite, double adjacent) { return 360 / pi * std::atan(opposite / adjacent); }
+
+class CameraReader {
+ public:
+  explicit CameraReader(Reading& reading) : r_(reading), picture_(reading.picture), o_(reading.described('k', 1)) {}
+
+  std::string text() {
+    fit();
+    const CameraValues fitted = camera_;
+    take_members();
+    if (!agrees()) camera_ = fitted;
+    if (!agrees()) throw NotTaken{"get_ray(): its rays are not those of the books' camera"};
+    return fmt::format(
+        "\"camera\":{{\"look_from\":{},\"look_at\":{},\"vup\":{},\"vfov\":{:.10g},\"defocus_angle\":{:.10g},"
+        "\"focus_distance\":{:.10g},\"shutter\":{}}}",
+        rounded(camera_.look_from), rounded(camera_.look_at), rounded(camera_.vup), camera_.vfov, camera_.defocus_angle,
+        camera_.focus_distance, shutter());
+  }
+
+ private:
+  std::vector<RayAnswer> rays(const std::vector<PixelPlace>& places, std::size_t count = 0) {
+    return r_.program.ask<RayAnswer>('r', 0, places, count);
+  }
+  /// By the means of many rays at the corners: jitter and lens move single ones.
+  void fit() {
+    const double inset = picture_.less != 0 ? 0 : 0.5, right = picture_.width - 1 + inset,
+                 above = inset + picture_.first_row, below = above + picture_.height - 1;
+    std::vector<RayAnswer> corners[4];
+    Vector forward;
+    bool is_unit = true;  // then directions do not end in the plane of focus
+    for (std::size_t k = 0; k < 4; ++k) {
+      corners[k] = rays({{k % 2 == 0 ? inset : right, k < 2 ? above : below}}, 2000);
+      for (const RayAnswer& ray : corners[k]) {
+        forward = forward + normalized(ray.to);
+        is_unit = is_unit && std::fabs(length(ray.to) - 1) < 1e-3;
+      }
+    }
+    forward = normalized(forward);
+    Vector ends[4], from, middle;
+    for (std::size_t k = 0; k < 4; ++k) {
+      for (RayAnswer& ray : corners[k]) {
+        if (is_unit) ray.to = (1 / dot(ray.to, forward)) * ray.to;
+        from = from + (1.0 / 8000) * ray.from, ends[k] = ends[k] + (1.0 / 2000) * (ray.from + ray.to);
+      }
+      middle = middle + 0.25 * ends[k];
+    }
+    const Vector across = (1 + 2 * inset / (right - inset)) * (ends[1] - ends[0]),
+                 down = (1 + 2 * inset / (below - above)) * (ends[2] - ends[0]), w = normalized(cross(down, across));
+    const double distance = std::fabs(dot(middle - from, w));
+    double lens = 0, jitter = 0;
+    for (const RayAnswer& ray : corners[0]) {
+      lens = std::fmax(lens, length(ray.from - from));
+      jitter = std::fmax(jitter, length(ray.from + ray.to - ends[0]));
+    }
+    noise_ = 1e-3 * r_.precision + 0.1 * jitter / std::fmin(length(across), length(down));
+    if (lens < 1e-3 * r_.precision * std::fmax(1, largest(from))) lens = 0;
+    camera_ = {middle + distance * w,   middle,  -1 * normalized(down), degrees(0.5 * length(down), distance),
+               degrees(lens, distance), distance};
+  }
+
+  /// Takes what the camera's members say in place of what was measured, where it is nearly that.
+  void take_members() {
+    const Vector to = normalized(camera_.look_at - camera_.look_from), up = camera_.vup;
+    const auto take_point = [&](Vector& to_set, const char* name, const auto& is) {
+      const std::vector<Vector> points = o_.vectors(name);
+      if (const auto one = std::find_if(points.begin(), points.end(), is); one != points.end()) to_set = *one;
+    };
+    const auto have_one_direction = [&](Vector a, Vector b) { return length(normalized(a) - normalized(b)) < noise_; };
+    take_point(camera_.look_from, "",
+               [&](Vector one) { return is_near(one, camera_.look_from, noise_ * camera_.focus_distance); });
+    camera_.look_at = camera_.look_from + camera_.focus_distance * to;
+    take_point(camera_.look_at, "at", [&](Vector one) { return have_one_direction(one - camera_.look_from, to); });
+    take_point(camera_.vup, "up", [&](Vector one) { return have_one_direction(cross(to, one), cross(to, up)); });
+    const auto take = [&](double& to_set, double allowed, const auto& value) {
+      const double measured = to_set;
+      double nearest = allowed * measured;
+      for (const double number : o_.all('n'))
+        if (const double one = value(number); std::fabs(one - measured) < nearest)
+          nearest = std::fabs(one - measured), to_set = one;
+      return to_set != measured;
+    };
+    const auto itself = [](double number) { return number; };
+    take(camera_.vfov, noise_, itself), take(camera_.focus_distance, noise_, itself);
+    const auto of_lens = [&](double radius) { return degrees(radius, camera_.focus_distance); };
+    take(camera_.defocus_angle, 0.03, of_lens) || take(camera_.defocus_angle, 0.03, itself) ||
+        take(camera_.defocus_angle, 0.03, [&](double width) { return of_lens(width / 2); });
+  }
+
+  /// Whether 500 rays leave the lens and meet the plane of focus in their pixels.
+  bool agrees() {
+    const Vector w = normalized(camera_.look_from - camera_.look_at), u = normalized(cross(camera_.vup, w)),
+                 v = cross(w, u);
+    if (!(largest(u) <= 1)) return false;
+    const double height = 2 * std::tan(camera_.vfov * pi / 360) * camera_.focus_distance,
+                 size = height / picture_.height;
+    const double lens = camera_.focus_distance * std::tan(camera_.defocus_angle * pi / 360);
+    const double rounding = 0.01 * r_.precision * largest(camera_.look_from) / size;
+    const double wide = (picture_.by_pixels != 0 ? 1.01 : picture_.less != 0 ? 1.52 : 0.02) + rounding;
+    std::vector<PixelPlace> places;
+    RandomNumbers random;
+    for (int k = 0; k < 500; ++k)
+      places.push_back({random.between(0, picture_.width), random.between(0, picture_.height)});
+    const std::vector<RayAnswer> all = rays(places);
+    double widest = 0;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const Vector from = all[k].from - camera_.look_from, to = all[k].to;
+      const double forward = -dot(to, w);
+      if (!(forward > 0)) return false;
+      const Vector point = from + ((camera_.focus_distance + dot(from, w)) / forward) * to;
+      const auto place = [&](double at) { return picture_.by_pixels != 0 ? std::floor(at) + 0.5 : at; };
+      const double column = place(places[k].x) - 0.5 * picture_.width, row = 0.5 * picture_.height - place(places[k].y);
+      if (!(std::fabs(dot(point, u) / size - column) <= wide && std::fabs(dot(point, v) / size - row) <= wide))
+        return false;
+      widest = std::fmax(widest, length(from));
+    }
+    return std::fabs(widest - lens) <= 0.1 * lens + r_.precision * std::fmax(1, largest(camera_.look_from));
+  }
+
+  /// By the times of 2,000 rays, and two numbers of the members between which they lie.
+  std::string shutter() {
+    double low = endless, high = -endless;
+    for (const RayAnswer& ray : rays({{0.5, 0.5}}, 2000))
+      low = std::fmin(low, ray.time), high = std::fmax(high, ray.time);
+    if (high - low < 1e-9) return fmt::format("[{},{}]", low, low);
+    const std::vector<double> numbers = o_.all('n');
+    for (std::size_t k = 0; k + 1 < numbers.size(); ++k) {
+      const double open = numbers[k], close = numbers[k + 1], span = close - open;
+      if (low >= open && high <= close && high - low > 0.98 * span) return fmt::format("[{},{}]", open, close);
+    }
+    return fmt::format("[{},{}]", std::round(low * 50) / 50, std::round(high * 50) / 50);
+  }
+
+  Reading& r_;
+  const tyndall_book::picture_told& picture_;
+  const Described& o_;
+  CameraValues camera_;
+  double noise_ = 0;  ///< of what was measured, as a part of it
+};
+
+std::vector<LightAnswer> light(Reading& reading, const std::vector<LightQuestion>& questions) {
+  return reading.program.ask<LightAnswer>('c', 0, questions);
+}
+void expect(Vector wanted, Vector found, double precision, const char* of) {
+  if (!is_near(wanted, found, 100 * precision))
+    throw NotTaken{
+        fmt::format("ray_color(): of {} it makes {}, the books' would make {}", of, triple(found), triple(wanted))};
+}
+Vector product(Vector a, Vector b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+
+}  // namespace
+
+std::string read_camera(Reading& reading) { return CameraReader(reading).text(); }
+
+std::string read_sky(Reading& reading) {
+  const auto colours = [&](const std::vector<RayAnswer>& rays) { return reading.program.ask<Vector>('y', 0, rays); };
+  const std::vector<Vector> ends = colours({{{}, {0, -1, 0}}, {{}, {0, 1, 0}}});
+  const Vector bottom = ends[0], top = ends[1];
+  const auto check = [&](const std::vector<RayAnswer>& rays) {
+    const std::vector<Vector> found = colours(rays);
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+      const double a = 0.5 * (normalized(rays[k].to).y + 1);
+      if (!(largest(found[k] - ((1 - a) * bottom + a * top)) <= reading.precision * std::fmax(1, largest(top))))
+        throw NotTaken{"the sky of ray_color() is neither one colour nor a gradient from top to bottom"};
+      if (!(found[k].x >= 0 && found[k].y >= 0 && found[k].z >= 0))
+        throw NotTaken{"the sky of ray_color() is darker than black"};
+    }
+  };
+  RandomNumbers random;
+  std::vector<PixelPlace> places;
+  for (int k = 0; k < 20000; ++k)  // what the camera sees
+    places.push_back({random.between(0, reading.picture.width), random.between(0, reading.picture.height)});
+  std::vector<RayAnswer> rays = reading.program.ask<RayAnswer>('r', 0, places);
+  check(rays);
+  const Vector eye = rays[0].from;
+  constexpr int rows = 1024, columns = 2048;
+  for (int row = 0; row < rows; ++row) {
+    rays.clear();
+    for (int column = 0; column < columns; ++column) {
+      const double y = 1 - 2 * (row + 0.5) / rows, angle = 2 * pi * (column + 0.5) / columns, r = std::sqrt(1 - y * y);
+      rays.push_back({column % 2 ? eye : Vector{30.0 * row, -40, 7.0 * column},
+                      (1.0 + column % 3) * Vector{r * std::cos(angle), y, r * std::sin(angle)}});
+    }
+    check(rays);
+  }
+  return is_near(top, bottom, 1e-9)
+             ? triple(top)
+             : "{\"type\":\"gradient\",\"bottom\":" + triple(bottom) + ",\"top\":" + triple(top) + "}";
+}
+
+int read_depth(Reading& reading) {
+  const int told = std::max(static_cast<int>(reading.picture.depth) - 1, 0);
+  const double matt = reading.matt, shining = reading.shining, matts = matt != 0 ? 1 : 0, lights = shining != 0 ? 1 : 0;
+  const Vector from = LightQuestion().from, to = LightQuestion().to;
+  const std::vector<LightAnswer> its = light(
+      reading, {{}, {from, to, shining, lights}, {from, to, matt, matts}, {from, to, matt, matts, shining, lights}});
+  if (its[0].high == 0 || (matt == 0 && shining == 0)) return told;  // its world cannot be replaced, or has neither
+  if (its[0].low <= 0)
+    throw NotTaken{"ray_color() takes hits at t = 0, so that half of the light meets the surface that it leaves"};
+  if (!(its[0].low <= 0.05 && its[0].high >= 1e4))
+    throw NotTaken{fmt::format("ray_color() looks for hits at t from {} to {} only", its[0].low, its[0].high)};
+  if (shining != 0) expect(reading.light, its[1].colour, reading.precision, "a light");
+  if (matt == 0) return told;
+  if (!reading.scene.draws_by_pdf) {
+    const Vector sky = reading.program.ask<Vector>('y', 0, std::vector{RayAnswer{{}, its[2].second}})[0];
+    expect(product(reading.albedo, sky), its[2].colour, reading.precision, "one hit");
+    if (shining != 0)
+      expect(product(reading.albedo, reading.light), its[3].colour, reading.precision, "a hit and a light");
+  }
+  constexpr double limit = 3000;
+  double hits = 0;
+  for (const LightAnswer& one : light(reading, std::vector<LightQuestion>(10, {from, to, matt, limit})))
+    hits = std::fmax(hits, one.hits);
+  return hits >= limit ? 100000 : static_cast<int>(hits) - 1;
+}
+
+}  // namespace tyndall
