@@ -1,5 +1,5 @@
 #include "core/compile/overlap.h"
-#include "tests/support/lit_floor.h"
+#include "tests/support/probe.h"
 
 #include <doctest/doctest.h>
 

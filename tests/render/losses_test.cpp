@@ -2,6 +2,7 @@
 #include "core/render/progression.h"
 #include "tests/support/merged.h"
 #include "tests/support/probe.h"
+#include "tests/support/thorough.h"
 #include "tests/support/watched_renderer.h"
 
 #include <doctest/doctest.h>
@@ -176,6 +177,23 @@ TEST_CASE("cut paths: an edit starts the sum anew; frames tell its share") {
   const Film film = result_of(compile(room), "", 1, 0, 0, 8).film;
   CHECK(renderer->film() == film);
   CHECK(last->cut_throughput == doctest::Approx(totals(film).cut_throughput));
+}
+
+TEST_CASE(
+    "built-in scenes: of 1024 samples a pixel none is rejected, and what limits of 200 and more cut is not seen") {
+  if (!thorough()) return;
+  for (const BuiltIn& built_in : built_in_scenes()) {
+    const Scene scene = small_scene(built_in.name, 48, 36, 1024);
+    const RenderScene compiled = compile(scene);
+    for (const Kernels& kernels : {available_kernels().back(), scalar_kernels()}) {
+      const FilmTotals sum = totals(render(compiled, {.isa = kernels.isa, .spp = kernels.lanes == 1 ? 64 : 1024}).film);
+      CAPTURE(built_in.name);
+      CAPTURE(std::string(kernels.isa));
+      CHECK(sum.rejected == 0);
+      if (scene.render.max_depth >= 200) CHECK(sum.cut_throughput < 1e-3);
+      if (scene.render.max_depth >= 1000) CHECK(sum.truncated == 0);
+    }
+  }
 }
 
 }  // namespace tyndall::test::losses_test

@@ -1,6 +1,5 @@
 #include "tests/support/same_picture.h"
 #include "core/render/pass.h"
-#include "tests/support/merged.h"
 #include "tests/support/stopping.h"
 #include "tests/support/thorough.h"
 
@@ -47,6 +46,10 @@ TEST_CASE("same picture: shards added in any order, whatever their sizes and til
         REQUIRE(merged(parts) == whole);
       }
     }
+}
+
+TEST_CASE("same picture: the parts of four random scenes of glass, mirrors and slabs are those of the whole") {
+  check_cuts(1, 4);
 }
 
 TEST_CASE("same picture: by long and short passes, and continued from a film") {
