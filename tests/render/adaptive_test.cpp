@@ -1,7 +1,6 @@
 #include "core/render/pass.h"
 #include "core/render/plan.h"
 #include "tests/support/statistics.h"
-#include "tests/support/stopping.h"
 #include "tests/support/thorough.h"
 #include "tests/support/watched_renderer.h"
 

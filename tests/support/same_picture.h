@@ -1,5 +1,4 @@
 #pragma once
-#include "tests/support/merged.h"
 #include "tests/support/pictures.h"
 #include "tests/support/random_glass.h"
 
