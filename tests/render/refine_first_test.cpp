@@ -88,11 +88,16 @@ TEST_CASE("the renderer refines a part first, and reports on a pixel after each 
   CHECK(renderer->reply().pixel->samples == 64);
 }
 
-TEST_CASE("the standard error of a pixel is half of the difference of its halves") {
+TEST_CASE("the standard error of a pixel is half of the difference of its halves, as the pixels around tell it") {
+  // The pixels around have four times the samples, whose means differ half as much.
   Film film = make_film(9, 9, {0, 0, 9, 9}, 0, 4);
   for (FilmPixel& pixel : film.pixels) {
-    add_sample(pixel, 0, {1, 1, 1}, 1 / film.quantum), add_sample(pixel, 1, {3, 3, 3}, 1 / film.quantum);
-    pixel.taken = 2;
+    const bool middle = &pixel == &film.at(4, 4);
+    pixel.taken = middle ? 2 : 8;
+    for (std::uint32_t i = 0; i < pixel.taken; ++i) {
+      const float value = 2 + (i % 2 ? 1.0f : -1.0f) * (middle ? 1.0f : 0.5f);
+      add_sample(pixel, i % 2, {value, value, value}, 1 / film.quantum);
+    }
   }
   PixelReport report{.x = 4, .y = 4}, outside{.x = 9, .y = 0};
   look_at_pixel(film, report), look_at_pixel(film, outside);

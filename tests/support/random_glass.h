@@ -1,9 +1,9 @@
 #pragma once
 #include "core/scene/scene.h"
-#include "tests/support/random_draws.h"
 
 #include <cmath>
 #include <memory>
+#include <random>
 #include <string>
 
 /// Random scenes in which most light takes specular paths, for statements that must hold for every picture.
@@ -12,9 +12,9 @@ namespace tyndall::test {
 /// A floor, sometimes walls, and 3 to 7 things: solid and hollow glass, some of it filled with media or with a light,
 /// mirrors (spheres, quads, boxes), slabs of glass, matt and brushed spheres with textures, moving spheres; one to
 /// three lights of all sizes; sometimes media around all of it. A pure function of the seed.
-class RandomGlass : RandomDraws {
+class RandomGlass {
  public:
-  explicit RandomGlass(unsigned seed) : RandomDraws(seed) {}
+  explicit RandomGlass(unsigned seed) : engine_(seed) {}
 
   Scene scene(int width, int height) {
     scene_.width = width, scene_.height = height;
@@ -36,6 +36,18 @@ class RandomGlass : RandomDraws {
 
  private:
   Scene scene_;
+  std::mt19937 engine_;  ///< the same with every standard library
+
+  /// In [low, high).
+  double between(double low, double high) { return low + (high - low) * static_cast<double>(engine_()) * 0x1p-32; }
+  bool chance(double probability) { return between(0, 1) < probability; }
+  /// 0 ... count - 1.
+  int below(int count) { return static_cast<int>(engine_() % static_cast<unsigned>(count)); }
+  /// A colour of a surface, in [0.1, 0.95).
+  Vec3d colour() {
+    const double red = between(0.1, 0.95), green = between(0.1, 0.95);
+    return {red, green, between(0.1, 0.95)};
+  }
 
   double an_index() {
     constexpr double some[] = {1.5, 1.33, 2.4, 1.05, 1 / 1.5, 1 / 1.33, 0.9};
