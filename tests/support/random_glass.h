@@ -118,11 +118,10 @@ class RandomGlass {
     if (!end && chance(0.2)) add_light(at, 0.3 * inner);
   }
   void add_mirror(Vec3d at, double size) {
-    const double kind = between(0, 1), degrees = between(-180, 180);
+    const double kind = between(0, 1), turn = between(-180, 180);
     if (kind < 0.4) return add(Sphere<>{at, size, moved(at)}, mirror());
-    if (kind < 0.8)
-      return add(Quad<>{{-size, 0, 0}, {2 * size, 0, 0}, {0, 2 * size, 0}}, mirror(), placed(degrees, at));
-    add(Box<>{{-size, 0, -size}, {size, size, size}}, mirror(), placed(degrees, at));
+    if (kind < 0.8) return add(Quad<>{{-size, 0, 0}, {2 * size, 0, 0}, {0, 2 * size, 0}}, mirror(), placed(turn, at));
+    add(Box<>{{-size, 0, -size}, {size, size, size}}, mirror(), placed(turn, at));
   }
   void add_slab(Vec3d at, double size) {
     const Box<> slab{{-size, 0, -between(0.02, 0.5) * size}, {size, between(0.5, 3) * size, size * between(0.02, 0.5)}};
@@ -130,7 +129,7 @@ class RandomGlass {
     add(slab, glass(between(1.3, 2)), place);
     if (chance(0.3)) add_medium(slab, place, between(0.1, 5));
   }
-  static Transform placed(double degrees, Vec3d at) { return {RotateY{degrees}, Translate{at}}; }
+  static Transform placed(double turn, Vec3d at) { return {RotateY{turn}, Translate{at}}; }
 
   /// All lights have about the same power, however small they are.
   void add_light(Vec3d at) { add_light(at, std::exp(between(std::log(0.01), std::log(0.8)))); }
