@@ -60,7 +60,7 @@ TEST_CASE("known answers: every picture has its known mean, and standard errors 
 // sampler's mean and variance.
 TEST_CASE("samplers: over a thousand randomisations neither is off, and sobol scatters no more than random") {
   ZScores scores;
-  for (const char* name : {"sky/floor", "square-lamp/corner-h1", "fog-ball/depth2-albedo0.9-b0.6",
+  for (const char* name : {"sky/two-colours", "square-lamp/corner-h1", "fog-ball/depth2-albedo0.9-b0.6",
                            "smoke-ball/density1-b0", "motion/y0.3"})
     for (const int spp : {16, 64}) {
       const VerifyCase& answer = known_answer(name);
