@@ -65,7 +65,7 @@ Scene focused(double defocus_angle, std::optional<double> distance) {
 TEST_CASE("equal scenes: the same picture, bit for bit, on every instruction set") {
   const double looked_at = length(Vec3d{0.5, 0.7, 4});
   const struct {
-    const char* name;
+    std::string name;
     Scene one, other;
   } pairs[] = {
       {"hollow glass by negative radius and by relative index", hollow_ball(-0.9, 1.5), hollow_ball(0.9, 1 / 1.5)},

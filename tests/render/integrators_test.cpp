@@ -95,7 +95,7 @@ Scene many_lamps() {
 
 TEST_CASE("lights: the same light by every integrator and sampler") {
   struct Row {
-    const char* name;
+    std::string name;
     Scene scene;
     double precision = 5e-3;  ///< standard errors, as a fraction of the mean
     int by_chance = 4096, spp = 512;
