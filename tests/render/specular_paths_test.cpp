@@ -95,7 +95,7 @@ TEST_CASE("specular paths: what scattering finds, with less noise, off and throu
        0.5,
        all_of(with(Sphere<>{center, 1, center + Vec3d{0.1, 0.1, 0.1}}, silver), open_shutter)},
       {"bulb", 0.2, within, {1, 0, 1.5}, 0.5, shell(0.85)},
-      {"moving bulb", 0.2, within, {1, 0, 1.5}, 0.5, shell(0.85, {0.1, 0.1, 0})},
+      {"moving bulb", 0.1, within, {1, 0, 1.5}, 0.5, shell(0.85, {0.1, 0.1, 0})},
       {"lamp in glass", 0.2, within, {1, 0, 1.5}, 0.5, with(ball, glass(1.5))},
       {"sunk", 0.3, above, {-1.2, 0, 0.2}, 1, with(sphere({0, 0.6, 0}, 1), glass(1.5))},
       {"fog in the ball", 0.3, above, {-0.6, 0, 0.5}, 1, all_of(with(ball, glass(1.5)), fog(ball, {0.5, 0.3}))},
