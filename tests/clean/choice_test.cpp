@@ -64,6 +64,24 @@ double error_at(const CleanPicture& picture, const Picture& p, int x, int y) {
   return relative_mse(pixel(picture.rgb), pixel(p.truth));
 }
 
+/// Sum of the errors of the pixels at(x, y) that are meant.
+double errors_where(const CleanPicture& picture, const Picture& p, const auto& at) {
+  double sum = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      if (at(x, y)) sum += error_at(picture, p, x, y);
+  return sum;
+}
+
+/// Calls f(x, y) for the pixels of a group of the block at (bx, by).
+void each_of_group(int bx, int by, int group, const auto& f) {
+  for (int member = 0; member < group_size; ++member)
+    f(bx + group % group_spacing + member % group_columns * group_spacing,
+      by + group / group_spacing + member / group_columns * group_spacing);
+}
+
+Vec3f grey(float value) { return {value, value, value}; }
+
 FirstSeen grey_floor(int, int) { return {{0.5f, 0.5f, 0.5f}, {0, 1, 0}, 0.5f}; }
 
 FirstSeen grey_glass(int x, int y) {
@@ -83,31 +101,25 @@ TEST_CASE("choice: errors in dark channels count as much as those in bright ones
     return FirstSeen{x < 32 ? Vec3f{0.9f, 0.05f, 0.05f} : Vec3f{1, 1, 1}, {0, 0, 1}, 0.5f};
   };
   const Picture p = picture(truth, seen, [](int x, int) { return x == 32 ? 0.0f : 0.3f; });
-  const CleanPicture picture = clean(p);
-  double column = 0;
-  for (int y = 8; y < 40; ++y) column += error_at(picture, p, 32, y) / 32;
-  CHECK(column < 0.3);
+  CHECK(errors_where(clean(p), p, [](int x, int y) { return x == 32 && y >= 8 && y < 40; }) < 0.3 * 32);
 }
 
 TEST_CASE("choice: a rare bright path does not decide for the pixels around it") {
-  const auto truth = [](int x, int) { return x < 32 ? Vec3f{0.02f, 0.02f, 0.02f} : Vec3f{0.8f, 0.8f, 0.8f}; };
+  const auto truth = [](int x, int) { return grey(x < 32 ? 0.02f : 0.8f); };
   Picture p = picture(truth, grey_floor, [](int, int) { return 0.1f; });
   for (int c = 0; c < 3; ++c) p.half(0, c, 24, 24) = 200;
-  const CleanPicture picture = clean(p);
-  double around = 0;
-  int pixels = 0;
-  for (int y = 18; y <= 30; ++y)
-    for (int x = 18; x <= 30; ++x)
-      if (std::abs(x - 24) > 2 || std::abs(y - 24) > 2) around += error_at(picture, p, x, y), ++pixels;
-  CHECK(around / pixels < 1);
+  const auto around = [](int x, int y) {
+    const int away = std::max(std::abs(x - 24), std::abs(y - 24));
+    return away > 2 && away <= 6;
+  };
+  CHECK(errors_where(clean(p), p, around) < 13 * 13 - 5 * 5);
 }
 
 TEST_CASE("choice: a tiny lamp behind glass hardly shines on the dark pixels beside it") {
   const auto truth = [](int x, int y) {
     const float ripple =
         0.03f + 0.02f * std::sin(0.6f * static_cast<float>(x)) * std::sin(0.6f * static_cast<float>(y));
-    const float value = x == 32 && y == 24 ? 400.0f : ripple;
-    return Vec3f{value, value, value};
+    return grey(x == 32 && y == 24 ? 400.0f : ripple);
   };
   Picture p = picture(truth, grey_glass, [](int, int) { return 0.3f; });
   p.input.emission.resize(width, height, 6);
@@ -124,7 +136,7 @@ TEST_CASE("choice: a tiny lamp behind glass hardly shines on the dark pixels bes
 }
 
 TEST_CASE("choice: a dark line in glass counts for its own darkness where there are samples enough") {
-  const auto truth = [](int x, int) { return x == 32 ? Vec3f{0.25f, 0.25f, 0.25f} : Vec3f{0.9f, 0.9f, 0.9f}; };
+  const auto truth = [](int x, int) { return grey(x == 32 ? 0.25f : 0.9f); };
   Picture p = picture(truth, grey_glass, [](int, int) { return 0.2f; });
   p.input.spp = 4;
   const double few = clean(p).relative_error;
@@ -137,22 +149,14 @@ TEST_CASE("choice: a dark line in glass counts for its own darkness where there 
 
 TEST_CASE("choice: a bright spot does not glow into the dark beside it, which the halves agree about") {
   const auto lit = [](int x, int y) { return std::abs(x - 32) <= 5 && std::abs(y - 24) <= 5; };
-  const auto truth = [&](int x, int y) { return lit(x, y) ? Vec3f{2, 2, 2} : Vec3f{0.03f, 0.03f, 0.03f}; };
+  const auto truth = [&](int x, int y) { return grey(lit(x, y) ? 2 : 0.03f); };
   Picture p = picture(truth, grey_floor, [&](int x, int y) { return lit(x, y) ? 0.3f : 0.2f; });
   p.input.spp = 64;
-  const CleanPicture picture = clean(p);
-  double beside = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      if (!lit(x, y)) beside += error_at(picture, p, x, y);
-  CHECK(beside < 5);
+  CHECK(errors_where(clean(p), p, [&](int x, int y) { return !lit(x, y); }) < 5);
 }
 
 TEST_CASE("choice: a rare bright path does not glow along a dark row that many samples agree about") {
-  const auto truth = [](int, int y) {
-    const float value = y == 24 ? 0.003f : 0.06f;
-    return Vec3f{value, value, value};
-  };
+  const auto truth = [](int, int y) { return grey(y == 24 ? 0.003f : 0.06f); };
   const auto seen = [](int x, int y) {
     FirstSeen pixel = grey_floor(x, y);
     if (y == 24) pixel.albedo = {0.8f, 0.8f, 0.8f};
@@ -161,15 +165,11 @@ TEST_CASE("choice: a rare bright path does not glow along a dark row that many s
   Picture p = picture(truth, seen, [](int, int) { return 0.03f; });
   for (int c = 0; c < 3; ++c) p.half(0, c, 30, 24) = 3;
   p.input.spp = 1024;
-  const CleanPicture picture = clean(p);
-  double beside = 0;
-  for (int x = 0; x < width; ++x)
-    if (x != 30) beside += error_at(picture, p, x, 24);
-  CHECK(beside < 0.1);
+  CHECK(errors_where(clean(p), p, [](int x, int y) { return x != 30 && y == 24; }) < 0.1);
 }
 
 TEST_CASE("choice: pixels of a floor that are dark by chance do not make the error seem larger") {
-  const auto truth = [](int, int) { return Vec3f{0.9f, 0.9f, 0.9f}; };
+  const auto truth = [](int, int) { return grey(0.9f); };
   Picture p = picture(truth, grey_floor, [](int, int) { return 0.4f; });
   p.input.spp = 16;
   const CleanPicture picture = clean(p);
@@ -180,8 +180,7 @@ TEST_CASE("choice: pixels of a floor that are dark by chance do not make the err
 TEST_CASE("choice: the error is known where groups of pixels share their noise") {
   // A bright floor with texture that no feature tells; a group's pixels, every fourth of a block, all have one noise.
   const auto truth = [](int x, int y) {
-    const float wave = 1 + 0.3f * std::sin(0.7f * static_cast<float>(x)) * std::cos(0.5f * static_cast<float>(y));
-    return Vec3f{wave, wave, wave};
+    return grey(1 + 0.3f * std::sin(0.7f * static_cast<float>(x)) * std::cos(0.5f * static_cast<float>(y)));
   };
   double estimated = 0, real = 0;
   std::mt19937 engine(3);
@@ -194,11 +193,9 @@ TEST_CASE("choice: the error is known where groups of pixels share their noise")
         for (int bx = 0; bx < width; bx += block_width)
           for (int group = 0; group < group_spacing * group_spacing; ++group) {
             const float noise = 0.2f * normal(engine);
-            for (int member = 0; member < group_size; ++member) {
-              const int x = bx + group % group_spacing + member % group_columns * group_spacing;
-              const int y = by + group / group_spacing + member / group_columns * group_spacing;
+            each_of_group(bx, by, group, [&](int x, int y) {
               for (int channel = 0; channel < 3; ++channel) p.half(half, channel, x, y) *= 1 + noise;
-            }
+            });
           }
     const CleanPicture picture = clean(p);
     estimated += picture.relative_error * picture.relative_error;
@@ -211,25 +208,24 @@ TEST_CASE("choice: the error is known where groups of pixels share their noise")
 
 TEST_CASE("choice: a group of pixels that met one bright path does not show as a grid of dots") {
   // The second group of a block in the middle is six times as bright as the floor in half A; the floor is quiet.
-  const auto truth = [](int, int) { return Vec3f{0.5f, 0.5f, 0.5f}; };
+  const auto truth = [](int, int) { return grey(0.5f); };
   Picture p = picture(truth, grey_floor, [](int, int) { return 0.05f; });
   p.input.grouped = true;
   double added = 0, shown = 0;
-  for (int member = 0; member < group_size; ++member) {
-    const int x = 2 * block_width + 1 + member % group_columns * group_spacing;
-    const int y = 3 * block_height + 1 + member / group_columns * group_spacing;
+  const auto each_of_second = [](const auto& f) {
+    each_of_group(2 * block_width, 3 * block_height, 1 + group_spacing, f);
+  };
+  each_of_second([&](int x, int y) {
     for (int channel = 0; channel < 3; ++channel) p.half(0, channel, x, y) = 3;
     added += 0.5 * (3 - 0.5);  // the picture is the mean of both halves
-  }
+  });
   const CleanPicture picture = clean(p);
   const auto red = [&](int x, int y) {
     return static_cast<double>(picture.rgb[3 * (static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x))]);
   };
-  for (int member = 0; member < group_size; ++member) {
-    const int x = 2 * block_width + 1 + member % group_columns * group_spacing;
-    const int y = 3 * block_height + 1 + member / group_columns * group_spacing;
+  each_of_second([&](int x, int y) {
     shown += red(x, y) - 0.25 * (red(x - 2, y) + red(x + 2, y) + red(x, y - 2) + red(x, y + 2));
-  }
+  });
   CHECK(shown < 0.15 * added);
 }
 

@@ -46,40 +46,6 @@ struct Draws {
 
 }  // namespace
 
-TEST_CASE("guide: the pdf of a sequence of events integrates to the probability of the sequence") {
-  for (const char* name : {"stress-small-fuzz", "stress-two-balls"}) {
-    CAPTURE(name);
-    const Guided g(name);
-    int tested = 0;
-    for (const double x : {-2.0, 0.5, 1.5})
-      for (const GuidedSequence<float>& sequence : sequences_at(g.view(), on_floor(g, x, 1))) {
-        const Vec3f point = on_floor(g, x, 1);
-        const GuidedDirections<float> directions = guided_directions(g.view(), sequence, point);
-        const SeenLobe<float>& seen = directions.lobe;
-        if (!seen.exists) continue;
-        const Basis<float> b = basis_around(seen.center);
-        // Angles from the first lobe's centre in equal ratios: 2e-6 to pi.
-        constexpr int rings = 1600, spokes = 512;
-        const double ratio = std::exp(std::log(pi / 2e-6) / rings);
-        double sum = 0;
-        for (int i = 0; i < rings; ++i) {
-          const double inner = 2e-6 * std::pow(ratio, i), angle = inner * std::sqrt(ratio);
-          const double width = inner * (ratio - 1) * std::sin(angle) * 2 * pi / spokes;
-          for (int k = 0; k < spokes; ++k) {
-            const double phi = 2 * pi * (k + 0.5) / spokes;
-            const auto s = static_cast<float>(std::sin(angle) * std::cos(phi)),
-                       t = static_cast<float>(std::sin(angle) * std::sin(phi));
-            const Vec3f direction = static_cast<float>(std::cos(angle)) * seen.center + s * b.s + t * b.t;
-            sum += width * static_cast<double>(guided_pdf(directions, direction));
-          }
-        }
-        CHECK(sum == doctest::Approx(sequence.probability).epsilon(0.03));
-        ++tested;
-      }
-    CHECK(tested > 3);
-  }
-}
-
 TEST_CASE("guide: directions are drawn with the pdf that is stated") {
   for (const char* name : {"stress-small-fuzz", "stress-two-balls"}) {
     CAPTURE(name);

@@ -73,6 +73,12 @@ int wrong_values(const Scene& scene, float expected) {
   return wrong;
 }
 
+FirstHit middle_of(const Scene& scene) {
+  FirstHit middle;
+  scalar_kernels().first_hits(SceneViewOf(compile(scene)).view(), {12, 12, 13, 13}, &middle);
+  return middle;
+}
+
 constexpr double scales[] = {1e-4, 0.5, 1, 1000, 1e6};
 
 }  // namespace
@@ -136,10 +142,7 @@ TEST_CASE("camera on a surface: whoever stands on the wall of a room in a ball o
     for (const Place& at : {on_sphere(engine, scale, -1), on_box(engine, scale)}) {
       const Scene scene = scene_at(at, 0, -scale * at.normal, lamp);
       CHECK(wrong_values(scene, 2) == 0);
-      const RenderScene compiled = compile(scene);
-      const SceneViewOf view(compiled);
-      FirstHit middle;
-      scalar_kernels().first_hits(view.view(), {12, 12, 13, 13}, &middle);
+      const FirstHit middle = middle_of(scene);
       CHECK(middle.element >= 0);
       CHECK(static_cast<double>(middle.depth) > 0.1 * scale);
     }
@@ -152,10 +155,7 @@ TEST_CASE("camera on a surface: a little farther away than rounding, whoever loo
     for (int round = 0; round < 20; ++round) {
       const Place at = on_sphere(engine, scale, 1);
       const double height = 1e-5 * scale;
-      const RenderScene compiled = compile(scene_at(at, height, -scale * at.normal, black));
-      const SceneViewOf view(compiled);
-      FirstHit middle;
-      scalar_kernels().first_hits(view.view(), {12, 12, 13, 13}, &middle);
+      const FirstHit middle = middle_of(scene_at(at, height, -scale * at.normal, black));
       CHECK(static_cast<double>(middle.depth) == doctest::Approx(height).epsilon(0.1));
     }
 }

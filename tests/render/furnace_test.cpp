@@ -2,22 +2,18 @@
 
 #include <doctest/doctest.h>
 
+#include <functional>
+
 /// White furnaces: in a white room things that absorb nothing are invisible, and things that absorb a fifth of the
 /// light have a radiance of 0.8. This holds exactly and in every sample.
 namespace tyndall::test::furnace_test {
 
 namespace {
 
-/// A sphere of radius `scale` at the origin fills a good part of the picture.
-Scene sphere_room(double scale) {
-  Scene scene = white_room();
-  scene.width = scene.height = 64;
-  scene.camera = {.look_from = {0.3 * scale, 0.4 * scale, 5 * scale}, .look_at = {0, 0, 0}, .vfov = 25};
-  scene.render.max_depth = 1000000;
-  return scene;
-}
+/// What is put into a room where all lengths are `scale` times as long.
+using Things = std::function<void(Scene&, double scale)>;
 
-/// Samples of a picture are 1 beside the sphere and `expected` on it, and a good part are on it.
+/// Samples of a picture are 1 beside the things and `expected` on them, and a good part are on them.
 void check_all(const Scene& scene, float expected, const std::string& isa) {
   const Film film = film_of(scene, 1, isa);
   CHECK(totals(film).rejected == 0);
@@ -32,121 +28,116 @@ void check_all(const Scene& scene, float expected, const std::string& isa) {
   CHECK(on > static_cast<int>(film.pixels.size()) / 2);
 }
 
-void check_sphere(const Material& material, double radius, float expected) {
+/// A sphere of radius `scale` at the origin would fill a good part of the picture.
+Scene sphere_room(double scale) {
+  Scene scene = white_room();
+  scene.camera = {.look_from = {0.3 * scale, 0.4 * scale, 5 * scale}, .look_at = {0, 0, 0}, .vfov = 25};
+  scene.render.max_depth = 1000000;
+  return scene;
+}
+
+void check(const std::string& name, float expected, const Things& add_things) {
   for (const double scale : {1e-3, 1.0, 1e3})
     for (const char* isa : {"", "scalar"}) {
+      CAPTURE(name);
       CAPTURE(scale);
       CAPTURE(isa);
       Scene scene = sphere_room(scale);
-      add(scene, sphere({0, 0, 0}, radius * scale), material);
+      add_things(scene, scale);
       check_all(scene, expected, isa);
     }
 }
 
+Things ball(const Material& material, double radius = 1) {
+  return [=](Scene& s, double scale) { add(s, sphere({0, 0, 0}, radius * scale), material); };
+}
+Things both(const Things& a, const Things& b) {
+  return [=](Scene& s, double scale) { a(s, scale), b(s, scale); };
+}
+Things fog(double density, double g) {
+  return [=](Scene& s, double scale) { add_medium(s, sphere({0, 0, 0}, scale), {density / scale, g}, 1); };
+}
+/// Three shapes in one place, of which the first is seen.
+Things copies(const auto& shape_of, const Transform& transform = {}) {
+  return [=](Scene& s, double scale) {
+    Transform placed = transform;
+    for (auto& part : placed)
+      if (auto* shift = std::get_if<Translate>(&part)) shift->offset = scale * shift->offset;
+    for (const double albedo : {0.8, 0.3, 0.5}) add(s, shape_of(scale), lambertian(albedo), placed);
+  };
+}
+
 }  // namespace
 
-TEST_CASE("white furnace: lambertian and mirror balls reflect their albedo") {
+TEST_CASE("white furnace: balls reflect their albedo; glass of any index is invisible, also hollow") {
   for (const double radius : {1.0, -1.0}) {
-    check_sphere(lambertian(0.8), radius, 0.8f);
-    check_sphere(metal(0.8, 0), radius, 0.8f);
+    check("lambertian", 0.8f, ball(lambertian(0.8), radius));
+    check("mirror", 0.8f, ball(metal(0.8, 0), radius));
+    for (const double index : {1.0, 1.000001, 1.5, 2.417, 1 / 1.5, 100.0}) {
+      CAPTURE(index);
+      check("glass", 1, ball(glass(index), radius));
+    }
+  }
+  for (const double thickness : {0.1, 1e-3, 1e-6}) {
+    CAPTURE(thickness);
+    check("hollow, by negative radius", 1, both(ball(glass(1.5)), ball(glass(1.5), thickness - 1)));
+    check("hollow, by relative index", 1, both(ball(glass(1.5)), ball(glass(1 / 1.5), 1 - thickness)));
   }
 }
 
-TEST_CASE("white furnace: glass of any index is invisible") {
-  for (const double radius : {1.0, -1.0})
-    for (const double index : {1.0, 1.000001, 1.5, 2.417, 1 / 1.5, 100.0}) {
-      CAPTURE(index);
-      check_sphere(glass(index), radius, 1.0f);
-    }
-}
-
-TEST_CASE("white furnace: hollow glass is invisible, by negative radius and by relative index") {
-  for (const double scale : {1e-3, 1.0, 1e3})
-    for (const double thickness : {0.1, 1e-3, 1e-6}) {
-      CAPTURE(scale);
-      CAPTURE(thickness);
-      Scene bubble = sphere_room(scale), relative = sphere_room(scale);
-      add(bubble, sphere({0, 0, 0}, scale), glass(1.5));
-      add(bubble, sphere({0, 0, 0}, -(1 - thickness) * scale), glass(1.5));
-      check_all(bubble, 1.0f, "");
-      add(relative, sphere({0, 0, 0}, scale), glass(1.5));
-      add(relative, sphere({0, 0, 0}, (1 - thickness) * scale), glass(1 / 1.5));
-      check_all(relative, 1.0f, "");
-    }
-}
-
 TEST_CASE("white furnace: boxes and quads of glass, also turned, far away and touching") {
-  Scene scene = sphere_room(1);
-  add(scene, Box<>{{-1, -1, -1}, {1, 0, 1}}, glass(1.5));
-  add(scene, Box<>{{-1, 0, -1}, {1, 1, 1}}, glass(1.7));  // shares a face
-  check_all(scene, 1.0f, "");
-  Scene rotated = sphere_room(1);
-  rotated.camera.look_from = rotated.camera.look_from + Vec3d{1e6, 0, -1e6};
-  rotated.camera.look_at = Vec3d{1e6, 0, -1e6};
-  add(rotated, Box<>{{-1, -1, -1}, {1, 1, 1}}, glass(2), {RotateY{37}, Translate{{1e6, 0, -1e6}}});
-  add(rotated, Quad<>{{-2, -2, 2}, {4, 0, 0}, {0, 4, 0}}, glass(1.5), {RotateY{10}, Translate{{1e6, 0, -1e6}}});
-  check_all(rotated, 1.0f, "");
+  check("boxes that share a face", 1, [](Scene& s, double a) {
+    add(s, Box<>{{-a, -a, -a}, {a, 0, a}}, glass(1.5));
+    add(s, Box<>{{-a, 0, -a}, {a, a, a}}, glass(1.7));
+  });
+  check("far away", 1, [](Scene& s, double a) {
+    const Vec3d away = 1e6 * a * Vec3d{1, 0, -1};
+    s.camera.look_from = s.camera.look_from + away, s.camera.look_at = away;
+    add(s, Box<>{{-a, -a, -a}, {a, a, a}}, glass(2), {RotateY{37}, Translate{away}});
+    add(s, Quad<>{{-2 * a, -2 * a, 2 * a}, {4 * a, 0, 0}, {0, 4 * a, 0}}, glass(1.5), {RotateY{10}, Translate{away}});
+  });
 }
 
 TEST_CASE("white furnace: of surfaces in one place the first is seen, and does not shade itself with the others") {
-  for (const double scale : {1e-3, 1.0, 1e3})
-    for (const char* isa : {"", "scalar"}) {
-      CAPTURE(scale);
-      CAPTURE(isa);
-      const auto check = [&](const auto& shape, const Transform& transform) {
-        Scene scene = sphere_room(scale);
-        for (const double albedo : {0.8, 0.3, 0.5}) add(scene, shape, lambertian(albedo), transform);
-        check_all(scene, 0.8f, isa);
-      };
-      const double s = scale;
-      check(sphere({0, 0, 0}, s), {});
-      check(Box<>{{-s, -s, -s}, {s, s, s}}, {RotateY{33}});
-      check(Quad<>{{-s, -s, -0.2 * s}, {2 * s, 0, 0.3 * s}, {0.1 * s, 2 * s, 0}}, {RotateY{10}, Translate{{0, 0, s}}});
+  check("balls", 0.8f, copies([](double s) { return sphere({0, 0, 0}, s); }));
+  check("boxes", 0.8f, copies([](double s) { return Box<>{{-s, -s, -s}, {s, s, s}}; }, {RotateY{33}}));
+  check("quads", 0.8f,
+        copies(
+            [](double s) {
+              return Quad<>{{-s, -s, -0.2 * s}, {2 * s, 0, 0.3 * s}, {0.1 * s, 2 * s, 0}};
+            },
+            {RotateY{10}, Translate{{0, 0, 1}}}));
+}
+
+TEST_CASE("white furnace: media that only scatter are invisible at any density, also as milk in balls and boxes") {
+  for (const double density : {0.01, 1.0, 10.0, 100.0})
+    for (const double g : {0.0, 0.8, -0.5}) {
+      CAPTURE(density);
+      CAPTURE(g);
+      check("fog", 1, fog(density, g));
     }
-}
-
-TEST_CASE("white furnace: a medium that only scatters is invisible at any density") {
-  for (const double scale : {1e-3, 1.0, 1e3})
-    for (const double density : {0.01, 1.0, 10.0, 100.0})
-      for (const double g : {0.0, 0.8, -0.5}) {
-        CAPTURE(scale);
-        CAPTURE(density);
-        CAPTURE(g);
-        Scene fog = sphere_room(scale);
-        fog.width = fog.height = 32;
-        add_medium(fog, sphere({0, 0, 0}, scale), {density / scale, g}, 1);
-        check_all(fog, 1.0f, "");
-      }
-  Scene scalar = sphere_room(1);
-  add_medium(scalar, sphere({0, 0, 0}, 1), {5, 0.3}, 1);
-  check_all(scalar, 1.0f, "scalar");
-}
-
-TEST_CASE("white furnace: milk in glass, in balls and boxes") {
   for (const double index : {1.0, 1.5, 1 / 1.5})
     for (const double density : {0.1, 3.0, 30.0}) {
       CAPTURE(index);
       CAPTURE(density);
-      Scene ball = sphere_room(1), box = sphere_room(1);
-      add(ball, sphere({0, 0, 0}, 1), glass(index));
-      add_medium(ball, sphere({0, 0, 0}, 1), {density, 0.2}, 1);
-      check_all(ball, 1.0f, "");
-      const Transform transform{RotateY{25}, Translate{{0.1, 0, 0}}};
-      add(box, Box<>{{-1, -1, -1}, {1, 1, 1}}, glass(index), transform);
-      add_medium(box, Box<>{{-1, -1, -1}, {1, 1, 1}}, {density, 0}, 1, transform);
-      check_all(box, 1.0f, "");
+      check("milk", 1, both(ball(glass(index)), fog(density, 0.2)));
+      check("box of milk", 1, [&](Scene& s, double a) {
+        const Transform transform{RotateY{25}, Translate{{0.1 * a, 0, 0}}};
+        const Box<> box{{-a, -a, -a}, {a, a, a}};
+        add(s, box, glass(index), transform);
+        add_medium(s, box, {density / a, 0}, 1, transform);
+      });
     }
 }
 
 TEST_CASE("white furnace: the camera inside glass, fog and milk") {
-  for (const bool shell : {false, true})
-    for (const bool fog : {false, true}) {
-      Scene scene = sphere_room(1);
-      scene.camera = {.look_from = {0.2, -0.3, 0.1}, .look_at = {0, 5, 0.3}, .vfov = 25};
-      if (shell) add(scene, sphere({0, 0, 0}, 1), glass(1.5));
-      if (fog) add_medium(scene, sphere({0, 0, 0}, 1), {4, 0}, 1);
-      check_all(scene, 1.0f, "");
-    }
+  const auto inside = [](Scene& s, double a) {
+    s.camera = {.look_from = a * Vec3d{0.2, -0.3, 0.1}, .look_at = a * Vec3d{0, 5, 0.3}, .vfov = 25};
+  };
+  check("nothing", 1, inside);
+  check("glass", 1, both(inside, ball(glass(1.5))));
+  check("fog", 1, both(inside, fog(4, 0)));
+  check("milk", 1, both(inside, both(ball(glass(1.5)), fog(4, 0))));
 }
 
 TEST_CASE("light: seen directly, through glass of index 1 and from inside it shows its radiance") {

@@ -59,19 +59,6 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("preview: speeds that flicker by a fifth never make the step flicker") {
-  for (double wanted = 0.3; wanted < 12; wanted *= 1.07) {
-    int step = preview_step(full_hd, speed_for(wanted), 1, 0);
-    int changes = 0;
-    for (int i = 0; i < 20; ++i) {
-      const int next = preview_step(full_hd, speed_for(wanted * (i % 2 ? 1.1 : 0.9)), 1, step);
-      changes += next != step ? 1 : 0;
-      step = next;
-    }
-    CHECK(changes <= 1);
-  }
-}
-
 TEST_CASE("preview: no more pixels are sampled than are shown") {
   CHECK(step_of_shown(full_hd, 0) == 1);
   CHECK(step_of_shown(full_hd, full_hd) == 1);

@@ -45,19 +45,6 @@ TEST_CASE("edits: of 300 quick ones the newest is shown, each frame whole and of
   CHECK(before == 300);
 }
 
-TEST_CASE("edits: of 1000 cameras in the middle of passes nothing is left in the last one's picture") {
-  WatchedRenderer renderer;
-  Scene scene = small_scene("showroom", 48, 36, 3);
-  std::uint64_t edit = 0;
-  for (int i = 0; i < 1000; ++i) {
-    scene.camera.look_from.x += 0.01 * (i % 7 - 3);
-    edit = renderer.submit(scene);
-    if (i % 9 == 0) let_it_work(std::chrono::milliseconds(i % 4));
-  }
-  renderer.wait_finished(edit);
-  CHECK(rgb_of(*renderer->latest()) == reference_picture(scene));
-}
-
 TEST_CASE("edits: a coarse first picture has samples of the final one, and what lies between them") {
   Scene scene = small_scene("showroom", 200, 150, 1);
   WatchedRenderer renderer(1);

@@ -1,7 +1,5 @@
 #include "tests/support/same_picture.h"
 #include "core/render/pass.h"
-#include "tests/support/merged.h"
-#include "tests/support/stopping.h"
 #include "tests/support/thorough.h"
 
 #include <doctest/doctest.h>
@@ -47,6 +45,10 @@ TEST_CASE("same picture: shards added in any order, whatever their sizes and til
         REQUIRE(merged(parts) == whole);
       }
     }
+}
+
+TEST_CASE("same picture: the parts of four random scenes of glass, mirrors and slabs are those of the whole") {
+  check_cuts(1, 4);
 }
 
 TEST_CASE("same picture: by long and short passes, and continued from a film") {
@@ -122,6 +124,44 @@ TEST_CASE("same picture: coarse passes and the rest of the first sample are the 
       CHECK(film == whole);
     }
   }
+}
+
+TEST_CASE("breaks: films and results that are taken in between change no bit, also with adaptive sampling") {
+  const RenderScene scene = compile(small_scene("showroom", 100, 60, 1));
+  for (const bool adaptive : {false, true}) {
+    CAPTURE(adaptive);
+    RenderOptions options{.threads = 2, .spp = 200, .adaptive = adaptive};
+    const RenderResult plain = render(scene, options);
+    int films = 0, results = 0;
+    std::uint64_t last = 0;
+    options.breaks.film_due = options.breaks.result_due = [] { return true; };
+    options.breaks.take_film = [&](const Film& film, ThreadPool&) {
+      const FilmTotals sum = totals(film);
+      CHECK(sum.samples >= last);
+      last = sum.samples;
+      ++films;
+    };
+    options.breaks.take_result = [&](const RenderResult& result) {
+      CHECK(totals(result.film).samples == last);
+      CHECK_FALSE(result.interrupted);
+      ++results;
+    };
+    const RenderResult error = render(scene, options);
+    CHECK(films > 3);
+    CHECK(results == films);
+    CHECK(error.film == plain.film);
+    CHECK(error.rays == plain.rays);
+  }
+}
+
+TEST_CASE("breaks: a time limit still ends a render between passes, so that all pixels have as many samples") {
+  const RenderScene scene = compile(small_scene("showroom", 100, 60, 1));
+  RenderOptions options{.threads = 2, .time_limit = 0.3};
+  options.breaks.film_due = [] { return true; };
+  options.breaks.take_film = [](const Film&, ThreadPool&) {};
+  const FilmTotals sum = totals(render(scene, options).film);
+  CHECK(sum.min_taken > 0);
+  CHECK(sum.min_taken == sum.max_taken);
 }
 
 TEST_CASE("render: stops where it is told to and says so") {

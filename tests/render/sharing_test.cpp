@@ -216,20 +216,4 @@ TEST_CASE("sharing: pixels that lack different numbers of samples get the sample
   }
 }
 
-TEST_CASE("sharing: the wall of an integrating sphere, where all pixels see the same point") {
-  Scene scene = dark_room();
-  scene.render.integrator = Integrator::mis;
-  const double rho = 0.8, light = 0.3;
-  add(scene, sphere({0, 0, 0}, 1), lambertian(rho));
-  add(scene, sphere({0, 0, 0}, light), lamp(1));
-  aim(scene, {0, 0.2, 0.5}, {0, 0.5, 1});
-  const RenderScene compiled = compile(scene);
-  REQUIRE(SceneViewOf(compiled).view().reuses_paths);
-  // A wall point sees the light under the share light² of its cosine-weighted sky, and the wall itself under the rest.
-  const double f = light * light;
-  ZScores scores;
-  scores.add("wall", radiance(scene, 1024), rho * f / (1 - rho * (1 - f)), 2e-3);
-  scores.add("scalar", radiance(scene, 64, "scalar"), rho * f / (1 - rho * (1 - f)), 1e-2);
-}
-
 }  // namespace tyndall::test::sharing_test

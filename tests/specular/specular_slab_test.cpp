@@ -146,27 +146,6 @@ TEST_CASE("specular paths: a ray that starts along the one through a slab arrive
   CHECK(reflected > 200);
 }
 
-TEST_CASE("specular paths: floats find the same ones through slabs as doubles, at grazing angles, too") {
-  const SlabScene scene({2, 1.5, 0.1});
-  const SpecularFlat<float> in_floats = load_flat<float>(scene.view.view().specular, 0);
-  Engine engine(6);
-  int found = 0;
-  for (int i = 0; i < 20000; ++i) {
-    const Vec3d near = scene.middle() + in_cube(engine, 2.5), far = scene.middle() + in_cube(engine, 2.5);
-    const SlabFrame<double> frame = slab_frame(scene.slab, near, far, 2);
-    if (frame.near_gap < 0.002 || frame.far_gap < 0.002 || frame.same) continue;
-    const SpecularPath<double> in_doubles = slab_path(scene.slab, frame, {2, 3, {0, 0}});
-    const SpecularPath<float> path =
-        slab_path(in_floats, slab_frame(in_floats, rounded(near), rounded(far), 2), {2, 3, {0, 0}});
-    if (!in_doubles.found || !path.found) continue;
-    ++found;
-    CHECK(length(exact(path.direction) - in_doubles.direction) < 2e-4);
-    CHECK(static_cast<double>(path.spread) == doctest::Approx(in_doubles.spread).epsilon(2e-3).scale(0));
-    CHECK(static_cast<double>(path.throughput) == doctest::Approx(in_doubles.throughput).epsilon(2e-3).scale(0));
-  }
-  CHECK(found > 300);
-}
-
 TEST_CASE("specular paths: the area that a small solid angle fills through a slab") {
   const SlabScene scene({0.8, 0.8, 0.8});
   Engine engine(7);

@@ -50,4 +50,11 @@ inline std::uint64_t hash_of(const Film& film) {
   return image_hash(film.region.width(), film.region.height(), resolve(film));
 }
 
+/// Merging of films that are in memory.
+inline Film merged(const std::vector<FilmPart>& parts) {
+  std::vector<FilmPart> frames = parts;
+  for (FilmPart& frame : frames) frame.film.pixels.clear(), frame.film.emission.clear();
+  return merge(frames, [&](std::size_t index) { return parts[index].film; });
+}
+
 }  // namespace tyndall::test

@@ -5,6 +5,7 @@
 #include "core/render/render.h"
 #include "core/trace/camera.h"
 
+#include <atomic>
 #include <memory>
 #include <utility>
 
@@ -60,6 +61,20 @@ inline ErrorEstimate estimate_error(const RenderScene& columns, const Kernels& k
 
 inline CleanPicture clean_film(const Film& film, const RenderScene& columns, int threads, const std::string& isa) {
   return tyndall::clean_film(film, SceneViewOf(columns).prepared(), threads, isa);
+}
+
+/// For tests of interrupted passes: lets a pass be given up after a chosen number of tile jobs.
+struct Stop {
+  Kernels real{};
+  std::atomic<int> tiles_left = 0;
+  std::atomic<bool> give_up = false;
+};
+inline Stop stop;
+
+inline void stopping_tile(const SceneView& scene, const TileJob& job, double film_quantum, FilmPixel* pixels,
+                          EmissionSums* emission, TileCounts& counts) {
+  stop.real.render_tile(scene, job, film_quantum, pixels, counts, emission);
+  if (--stop.tiles_left == 0) stop.give_up = true;
 }
 
 }  // namespace tyndall::test

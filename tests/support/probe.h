@@ -45,6 +45,15 @@ Object& add_medium(Scene& scene, const Boundary& boundary, Medium<> medium, doub
   return scene.objects.back();
 }
 
+/// A floor, and a light above it.
+inline Scene lit_floor(double light_radius, Vec3d light_center, double radiance) {
+  Scene scene = dark_room();
+  scene.render.integrator = Integrator::mis;
+  add(scene, Quad<>{{-6, 0, -6}, {12, 0, 0}, {0, 0, 12}}, lambertian(0.73));
+  add(scene, sphere(light_center, light_radius), lamp(radiance));
+  return scene;
+}
+
 /// A dark room of lights of radiance 3, as mis sees them; made by light_object.
 inline RenderScene lit(const std::vector<Object>& lamps) {
   Scene scene = dark_room();

@@ -1,9 +1,9 @@
 #pragma once
 #include "core/scene/scene.h"
-#include "tests/support/random_draws.h"
 
 #include <cmath>
 #include <memory>
+#include <random>
 #include <string>
 
 /// Random scenes in which most light takes specular paths, for statements that must hold for every picture.
@@ -12,9 +12,9 @@ namespace tyndall::test {
 /// A floor, sometimes walls, and 3 to 7 things: solid and hollow glass, some of it filled with media or with a light,
 /// mirrors (spheres, quads, boxes), slabs of glass, matt and brushed spheres with textures, moving spheres; one to
 /// three lights of all sizes; sometimes media around all of it. A pure function of the seed.
-class RandomGlass : RandomDraws {
+class RandomGlass {
  public:
-  explicit RandomGlass(unsigned seed) : RandomDraws(seed) {}
+  explicit RandomGlass(unsigned seed) : engine_(seed) {}
 
   Scene scene(int width, int height) {
     scene_.width = width, scene_.height = height;
@@ -36,6 +36,18 @@ class RandomGlass : RandomDraws {
 
  private:
   Scene scene_;
+  std::mt19937 engine_;  ///< the same with every standard library
+
+  /// In [low, high).
+  double between(double low, double high) { return low + (high - low) * static_cast<double>(engine_()) * 0x1p-32; }
+  bool chance(double probability) { return between(0, 1) < probability; }
+  /// 0 ... count - 1.
+  int below(int count) { return static_cast<int>(engine_() % static_cast<unsigned>(count)); }
+  /// A colour of a surface, in [0.1, 0.95).
+  Vec3d colour() {
+    const double red = between(0.1, 0.95), green = between(0.1, 0.95);
+    return {red, green, between(0.1, 0.95)};
+  }
 
   double an_index() {
     constexpr double some[] = {1.5, 1.33, 2.4, 1.05, 1 / 1.5, 1 / 1.33, 0.9};
@@ -106,11 +118,10 @@ class RandomGlass : RandomDraws {
     if (!end && chance(0.2)) add_light(at, 0.3 * inner);
   }
   void add_mirror(Vec3d at, double size) {
-    const double kind = between(0, 1), degrees = between(-180, 180);
+    const double kind = between(0, 1), turn = between(-180, 180);
     if (kind < 0.4) return add(Sphere<>{at, size, moved(at)}, mirror());
-    if (kind < 0.8)
-      return add(Quad<>{{-size, 0, 0}, {2 * size, 0, 0}, {0, 2 * size, 0}}, mirror(), placed(degrees, at));
-    add(Box<>{{-size, 0, -size}, {size, size, size}}, mirror(), placed(degrees, at));
+    if (kind < 0.8) return add(Quad<>{{-size, 0, 0}, {2 * size, 0, 0}, {0, 2 * size, 0}}, mirror(), placed(turn, at));
+    add(Box<>{{-size, 0, -size}, {size, size, size}}, mirror(), placed(turn, at));
   }
   void add_slab(Vec3d at, double size) {
     const Box<> slab{{-size, 0, -between(0.02, 0.5) * size}, {size, between(0.5, 3) * size, size * between(0.02, 0.5)}};
@@ -118,7 +129,7 @@ class RandomGlass : RandomDraws {
     add(slab, glass(between(1.3, 2)), place);
     if (chance(0.3)) add_medium(slab, place, between(0.1, 5));
   }
-  static Transform placed(double degrees, Vec3d at) { return {RotateY{degrees}, Translate{at}}; }
+  static Transform placed(double turn, Vec3d at) { return {RotateY{turn}, Translate{at}}; }
 
   /// All lights have about the same power, however small they are.
   void add_light(Vec3d at) { add_light(at, std::exp(between(std::log(0.01), std::log(0.8)))); }

@@ -93,32 +93,4 @@ TEST_CASE("first_hits: ignores the lens and stands in the middle of the shutter"
   }
 }
 
-TEST_CASE("first_hits: a box names the face that is seen, whichever way it is turned") {
-  struct View {
-    Vec3d from;
-    int face;
-  };
-  const View views[] = {{{-9, 0.1, 0.2}, 0}, {{9, 0.1, 0.2}, 1},  {{0.1, -9, 0.2}, 2},
-                        {{0.1, 9, 0.2}, 3},  {{0.1, 0.2, -9}, 4}, {{0.1, 0.2, 9}, 5}};
-  for (const double degrees : {0.0, 90.0, 33.0})
-    for (const View& view : views) {
-      Scene scene;
-      scene.width = scene.height = 1;
-      scene.materials = {{"white", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}};
-      scene.objects = {{"", Solid3d{Box<>{{-1, -2, -3}, {1, 2, 3}}, 0}, {RotateY{degrees}}}};
-      // The camera turns with the box: x' = cos x + sin z, z' = cos z - sin x.
-      const double c = std::cos(degrees * 3.141592653589793 / 180), s = std::sin(degrees * 3.141592653589793 / 180);
-      scene.camera.look_from = {c * view.from.x + s * view.from.z, view.from.y, c * view.from.z - s * view.from.x};
-      scene.camera.look_at = {0, 0, 0};
-      scene.camera.vup = {0.3, 0.5, 0.7};
-      scene.camera.vfov = 1;
-      for (const Kernels& kernels : available_kernels()) {
-        const FirstHit hit = seen(kernels, compile(scene), {0, 0, 1, 1})[0];
-        CHECK(hit.element == view.face);
-        const Vec3d towards = normalize(scene.camera.look_from);
-        CHECK(dot(Vec3d{hit.normal.x, hit.normal.y, hit.normal.z}, towards) > 0.99);
-      }
-    }
-}
-
 }  // namespace tyndall::test::first_hits_test

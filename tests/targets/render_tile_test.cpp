@@ -67,25 +67,6 @@ Result run(const Kernels& kernels, const RenderScene& scene, const TileJob& job)
   return run(kernels, SceneViewOf(scene), scene.film_quantum, job);
 }
 
-/// A whole image from units of the given edge and number of samples.
-std::vector<FilmPixel> image(const Kernels& kernels, const RenderScene& scene, int tile, std::uint32_t samples,
-                             std::uint32_t at_once) {
-  std::vector<FilmPixel> all(static_cast<std::size_t>(scene.width * scene.height));
-  const SceneViewOf view(scene);  // prepared once
-  for (std::uint32_t first = 0; first < samples; first += at_once)
-    for (int y = 0; y < scene.height; y += tile)
-      for (int x = 0; x < scene.width; x += tile) {
-        const Region where{x, y, std::min(x + tile, scene.width), std::min(y + tile, scene.height)};
-        const TileJob job{where, 1, 0, first, std::min(first + at_once, samples)};
-        const Result part = run(kernels, view, scene.film_quantum, job);
-        for (int row = where.y0; row < where.y1; ++row)
-          for (int column = where.x0; column < where.x1; ++column)
-            add_pixel(all[static_cast<std::size_t>(row * scene.width + column)],
-                      part.pixels[static_cast<std::size_t>((row - y) * where.width() + column - x)]);
-      }
-  return all;
-}
-
 FilmTotals totals_of(const std::vector<FilmPixel>& pixels) {
   Film film;
   film.pixels = pixels;
@@ -126,70 +107,6 @@ TEST_CASE("render_unit: even samples go to one half, odd ones to the other") {
           CHECK(pixel.sum[1][1].value() * scene.film_quantum == 2.0 * odd);
         }
       }
-}
-
-TEST_CASE("render_unit: no samples, and the largest tile") {
-  Scene big = wall_and_light();
-  const RenderScene scene = compile(big);
-  for (const Kernels& kernels : available_kernels()) {
-    const Result none = run(kernels, scene, {{0, 0, 64, 64}, 1, 0, 5, 5});
-    CHECK(none.counts.rays == 0);
-    for (const FilmPixel& pixel : none.pixels) CHECK(pixel == FilmPixel{});
-    const Result all = run(kernels, scene, {{0, 0, 64, 64}, 1, 0, 0, 1});
-    CHECK(totals_of(all.pixels).samples == 64 * 64);
-    CHECK(totals_of(all.pixels).min_taken == 1);
-  }
-}
-
-TEST_CASE("render_unit: coarse passes and the finer ones that skip them partition the pixels") {
-  const RenderScene scene = compile(busy_scene());
-  for (const Kernels& kernels : available_kernels()) {
-    const Region tile{5, 3, 59, 46};
-    const Result whole = run(kernels, scene, {tile, 1, 0, 0, 1});
-    std::vector<FilmPixel> sum(whole.pixels.size());
-    for (const TileJob& job :
-         {TileJob{tile, 8, 0, 0, 1}, TileJob{tile, 4, 8, 0, 1}, TileJob{tile, 2, 4, 0, 1}, TileJob{tile, 1, 2, 0, 1}}) {
-      const Result part = run(kernels, scene, job);
-      for (std::size_t i = 0; i < sum.size(); ++i) {
-        const int x = tile.x0 + static_cast<int>(i) % tile.width(), y = tile.y0 + static_cast<int>(i) / tile.width();
-        const bool meant = x % job.step == 0 && y % job.step == 0 &&
-                           !(job.skip_step && x % job.skip_step == 0 && y % job.skip_step == 0);
-        CHECK(part.pixels[i].taken == (meant ? 1 : 0));
-        add_pixel(sum[i], part.pixels[i]);
-      }
-    }
-    CHECK(sum == whole.pixels);
-  }
-}
-
-TEST_CASE("render_unit: tiles and the order of samples change no bit") {
-  const RenderScene scene = compile(busy_scene());
-  for (const Kernels& kernels : available_kernels()) {
-    CAPTURE(std::string(kernels.isa));
-    const std::vector<FilmPixel> whole = image(kernels, scene, 61, 6, 6);
-    CHECK(image(kernels, scene, 8, 6, 1) == whole);
-    CHECK(image(kernels, scene, 13, 6, 4) == whole);
-    CHECK(totals_of(whole).samples == 61 * 47 * 6);
-  }
-}
-
-TEST_CASE("render_unit: depth 0 shows lamps and counts every path that would have gone on") {
-  Scene settings = wall_and_light();
-  settings.render.max_depth = 0;
-  const RenderScene scene = compile(settings);
-  for (const Kernels& kernels : available_kernels()) {
-    const Result result = run(kernels, scene, {{0, 0, 64, 64}, 1, 0, 0, 4});
-    Film film = make_film(64, 64, {0, 0, 64, 64}, 0, scene.film_quantum);
-    film.pixels = result.pixels;
-    for (int y = 0; y < 64; ++y)
-      for (int x = 0; x < 64; ++x) {
-        if (x == 31 || x == 32) continue;  // these pixels see both the wall and the light
-        const bool lamp = x > 31;
-        CHECK(mean(film, film.at(x, y)) == (lamp ? Vec3f{3, 2, 1} : Vec3f{0, 0, 0}));
-        CHECK(film.at(x, y).truncated == (lamp ? 0 : 4));
-      }
-    CHECK(result.counts.rays == 64 * 64 * 4);
-  }
 }
 
 TEST_CASE("render_unit: a path that carries nothing has ended, not been cut") {

@@ -1,6 +1,7 @@
 #include "core/trace/camera.h"
 
 #include "tests/support/mixed_scene.h"
+#include "tests/support/probe.h"
 
 #include <doctest/doctest.h>
 
@@ -122,6 +123,16 @@ TEST_CASE("camera: without a lens all samples start at the centre, without a shu
   CHECK(std::abs(x - 0.5) < 4 * sigma);
   CHECK(std::abs(y - 0.5) < 4 * sigma);
   CHECK((minimum > -1e-3 && minimum < 1e-3 && maximum > 0.999 && maximum < 1.001));
+}
+
+TEST_CASE("camera: pixel (0, 0) of the rendered picture is the top left one") {
+  Scene scene = dark_room();
+  scene.camera = {.look_from = {0, 0, 5}, .look_at = {0, 0, 0}, .vfov = 40};
+  add(scene, sphere({-1.6, 1.6, 0}, 0.2), lamp(1));  // up and to the left
+  const Film film = film_of(scene, 16);
+  CHECK(mean(film, film.at(2, 2)).x > 0.5f);
+  CHECK(mean(film, film.at(29, 2)).x == 0.0f);
+  CHECK(mean(film, film.at(2, 29)).x == 0.0f);
 }
 
 }  // namespace tyndall::test::camera_test
