@@ -196,7 +196,7 @@ class Commands:
                 if not re.search(rf"add_(executable|library)\({word}\b", lists):
                     yield f"{word} is no target"
         elif program == "build/release/tyndall_bench":
-            bench = "".join((self.root / "tests/bench" / name).read_text() for name in ("options.cpp", "main.cpp"))
+            bench = (self.root / "tests/bench/main.cpp").read_text()
             for word in words:
                 if "." not in word and f'"{word}"' not in bench:
                     yield f"{word} is neither a part nor an option of tyndall_bench"
@@ -204,7 +204,7 @@ class Commands:
             yield f"{program} is neither known to tests/check_commands.py nor a program of the repository"
 
     def unknown_options(self, text):
-        bench = (self.root / "tests/bench/options.cpp").read_text()
+        bench = (self.root / "tests/bench/main.cpp").read_text()
         known = options_of("".join(self.help.values()) + bench + self.overview) | set(OTHER_OPTIONS)
         for option in sorted(options_of(" ".join(CODE.findall(FENCE.sub("", text)))) - known):
             yield f"{option} is no option of any command"

@@ -1,8 +1,6 @@
 #include "tests/bench/bench.h"
 #include "tests/bench/embree.h"
-#include "tests/bench/measure.h"
-#include "tests/bench/rays.h"
-#include "tests/bench/scenes.h"
+#include "tests/bench/field.h"
 #include "tests/support/prepared.h"
 
 #include <algorithm>
@@ -14,8 +12,6 @@ using namespace test;
 namespace {
 
 constexpr Embree::Width widths[] = {Embree::Width::one, Embree::Width::sixteen, Embree::Width::sixteen_coherent};
-constexpr const char* width_keys[] = {"embree_1_mrays_per_s", "embree_16_mrays_per_s",
-                                      "embree_16_coherent_mrays_per_s"};
 
 /// Whether both miss, or both hit at the same distance, to a thousandth or to the rounding of single precision for a
 /// sphere of that radius, in which both compute.
@@ -59,62 +55,47 @@ void check(Duel& duel, const RenderScene& scene) {
 }
 
 /// Interleaved; the ratio is the median of the ratios of neighbouring runs, against the best of Embree's widths.
-void run(Duel& duel, int repeat, Json& row) {
+std::vector<std::string> run(Duel& duel, int repeat) {
   const bool paired = *embree_version() != '\0';
-  std::vector<double> ours, theirs[std::size(widths)], ratios;
+  std::vector<double> ours, theirs, ratios;
   for (int i = 0; i < repeat; ++i) {
     ours.push_back(duel.mrays(seconds_of([&] { duel.ours(); })));
     if (!paired) continue;
     double best = 0;
-    for (std::size_t k = 0; k < std::size(widths); ++k) {
-      theirs[k].push_back(duel.mrays(seconds_of([&] { duel.theirs(widths[k]); })));
-      best = std::max(best, theirs[k].back());
-    }
-    ratios.push_back(ours.back() / best);
+    for (const Embree::Width width : widths) best = std::max(best, duel.mrays(seconds_of([&] { duel.theirs(width); })));
+    theirs.push_back(best), ratios.push_back(ours.back() / best);
   }
-  row["mrays_per_s"] = median(ours);
-  for (std::size_t k = 0; k < std::size(widths); ++k)
-    row[width_keys[k]] = paired ? Json(median(theirs[k])) : Json(nullptr);
-  row["ratio"] = paired ? Json(median(ratios)) : Json(nullptr);
+  return {cell(median(ours), 2), cell(median(theirs), 2), cell(median(ratios), 2)};
 }
 
-void add_rows(Table& table, int spheres, const Settings& settings) {
-  const int repeat = settings.repeat > 0 ? settings.repeat : settings.quick ? 3 : 9;
-  const std::size_t count = settings.quick ? 1u << 17 : 1u << 19;
+void add_rows(const Table& table, int spheres, bool quick) {
+  const int repeat = quick ? 3 : 9;
   const Kernels kernels = *choose_kernels("");
-  const RenderScene scene = compile(field_of_spheres(spheres));
+  RenderScene scene;
+  std::vector<double> build_ms;
+  for (int i = 0; i < repeat; ++i)
+    build_ms.push_back(1000 * seconds_of([&] { scene = compile(field_of_spheres(spheres)); }));
   const SceneViewOf view(scene);
   const Embree embree(scene.spheres);
-  const std::vector<TraceRay> in_order = rays_in_path_order(scene, kernels, count), mixed = shuffled(in_order);
+  const std::vector<TraceRay> in_order = rays_in_path_order(scene, kernels, quick ? 1u << 17 : 1u << 19);
   for (const bool shuffle : {false, true}) {
-    Duel duel{kernels, view.view(), embree, shuffle ? mixed : in_order};
+    const std::vector<TraceRay> rays = shuffle ? shuffled(in_order) : in_order;
+    Duel duel{kernels, view.view(), embree, rays};
     if (*embree_version()) check(duel, scene);
-    Json row;
-    row["spheres"] = spheres;
-    row["order"] = shuffle ? "shuffled" : "path";
-    row["isa"] = kernels.isa, row["lanes"] = kernels.lanes;
-    row["rays"] = count;
-    row["embree"] = embree_version();
-    run(duel, repeat, row);
-    table.add(row);
+    std::vector<std::string> cells{std::to_string(spheres), cell(median(build_ms), 1), shuffle ? "shuffled" : "path"};
+    for (const std::string& figure : run(duel, repeat)) cells.push_back(figure);
+    table.add(cells);
   }
 }
 
 }  // namespace
 
-Json measure_closest(const Settings& settings) {
+void measure_closest(const Settings& settings) {
   const std::string version = embree_version();
-  const std::string rival = version.empty() ? "built without Embree" : "beside Embree " + version;
-  Table table("Closest hits: one thread, Mrays/s, the same rays, " + rival,
-              {{"spheres", "spheres", 0},
-               {"order", "order", -1, 8},
-               {"mrays_per_s", "Tyndall", 2},
-               {"embree_1_mrays_per_s", "Embree 1", 2},
-               {"embree_16_mrays_per_s", "Embree 16", 2},
-               {"embree_16_coherent_mrays_per_s", "16 coherent", 2},
-               {"ratio", "Tyndall / best", 2}});
-  for (const int spheres : {486, 6402, 90001}) add_rows(table, spheres, settings);
-  return table.rows();
+  const std::string rival = version.empty() ? "built without Embree" : "beside the best of Embree " + version;
+  const Table table("Closest hits: one thread, Mrays/s, the same rays, " + rival,
+                    {"spheres", "built in ms", "order", "Tyndall", "Embree", "Tyndall / Embree"});
+  for (const int spheres : {486, 6402, 90001}) add_rows(table, spheres, settings.quick);
 }
 
 }  // namespace tyndall::bench

@@ -1,8 +1,5 @@
 #include "core/render/renderer.h"
 #include "tests/bench/bench.h"
-#include "tests/bench/give_way.h"
-#include "tests/bench/measure.h"
-#include "tests/bench/scenes.h"
 
 #include <cmath>
 #include <condition_variable>
@@ -100,51 +97,29 @@ std::vector<Arrivals> show_series(const Scene& scene, Series series, int count) 
   return arrivals;
 }
 
-Json row_of(const NamedScene& named, const char* what, Series series, int count) {
+void add_row(const Table& table, const NamedScene& named, const char* what, Series series, int count) {
   std::vector<double> first, full, steps;
   for (const Arrivals& arrivals : show_series(named.scene, series, count)) {
     first.push_back(arrivals.first_ms), full.push_back(arrivals.full_ms);
     steps.push_back(arrivals.step);
   }
-  Json row;
-  row["scene"] = named.name;
-  row["edit"] = what;
-  row["width"] = width, row["height"] = height;
-  row["edits"] = count;
-  row["first_p50_ms"] = quantile(first, 0.5), row["first_p95_ms"] = quantile(first, 0.95);
-  row["step"] = median(steps);
-  row["full_p50_ms"] = quantile(full, 0.5), row["full_p95_ms"] = quantile(full, 0.95);
-  const std::vector<double> compiles = compile_times(series(named.scene, 0), series(named.scene, 1), 21);
-  row["compile_p50_ms"] = 1000 * quantile(compiles, 0.5);
-  const std::vector<double> times = give_way_times(named.scene, count / 3);
-  row["give_way_p50_ms"] = 1000 * quantile(times, 0.5), row["give_way_p95_ms"] = 1000 * quantile(times, 0.95);
-  row["first_ms"] = first, row["full_ms"] = full;
-  return row;
+  table.add({named.name, what, cell(median(first), 1), cell(quantile(first, 0.95), 1), cell(median(steps), 0),
+             cell(median(full), 1), cell(quantile(full, 0.95), 1)});
 }
 
 }  // namespace
 
-Json measure_edits(const Settings& settings) {
+void measure_edits(const Settings& settings) {
   const int count = settings.quick ? 15 : 60;
-  Table table("Edits: interactive renderer, 1280x720, all cores, " + std::to_string(count) +
-                  " of each kind; ms from request to the first and to the first full frame",
-              {{"scene", "scene", -1, 13},
-               {"edit", "edit", -1, 8},
-               {"first_p50_ms", "first p50", 1},
-               {"first_p95_ms", "p95", 1, 6},
-               {"step", "step", 0},
-               {"full_p50_ms", "full p50", 1},
-               {"full_p95_ms", "p95", 1, 6},
-               {"compile_p50_ms", "compile", 3},
-               {"give_way_p50_ms", "give way p50", 2},
-               {"give_way_p95_ms", "p95", 2, 6}});
+  const Table table("Edits: interactive renderer, 1280x720, all cores, " + std::to_string(count) +
+                        " of each kind; ms from request to the first and to the first full frame",
+                    {"scene", "edit", "first p50", "p95", "step", "full p50", "p95"});
   for (const char* name : {"showroom", "cornell-smoke", "cover"}) {
     NamedScene named{name, built_in(name, width, height)};
     named.scene.render.spp = 65536;  // so many that the picture is never finished
-    table.add(row_of(named, "material", drag_material, count));
-    table.add(row_of(named, "camera", orbit, count));
+    add_row(table, named, "material", drag_material, count);
+    add_row(table, named, "camera", orbit, count);
   }
-  return table.rows();
 }
 
 }  // namespace tyndall::bench

@@ -1,11 +1,15 @@
 #pragma once
+#include "core/scene/scene.h"
 #include "core/targets/kernels.h"
 
-#include <cstddef>
 #include <vector>
 
-/// Rays to trace, as a path tracer meets them.
+/// A scene of many spheres, and rays to trace in it as a path tracer meets them.
 namespace tyndall::bench {
+
+/// A field of `count` >= 500 or so lambertian spheres like that of the books' cover: a ground, three large ones, small
+/// ones strewn around them, all apart, under the sky. A pure function of the count.
+Scene field_of_spheres(int count);
 
 /// `count` rays in the order in which the kernels would trace them: groups of `kernels.lanes` paths that start at the
 /// camera, tile by tile, and bounce as if all surfaces were lambertian; a path that leaves is followed by the next one.

@@ -1,8 +1,9 @@
-#include "tests/bench/rays.h"
+#include "tests/bench/field.h"
 
 #include "core/base/sampling.h"
 #include "tests/support/prepared.h"
 
+#include <cmath>
 #include <random>
 #include <utility>
 
@@ -10,6 +11,28 @@ namespace tyndall::bench {
 
 using namespace test;
 namespace {
+
+Object sphere(Vec3d center, double radius) {
+  Object object;
+  object.kind = Solid3d{Sphere<>{center, radius, std::nullopt}, 0};
+  return object;
+}
+
+/// In [0, 1); the standard distributions differ between libraries.
+double uniform(std::mt19937& random) { return static_cast<double>(random()) * 0x1p-32; }
+
+/// Small spheres, one in each cell of a square of edge² cells, as far as they keep clear of the large ones.
+std::vector<Object> small_spheres(int edge, std::size_t maximum) {
+  std::mt19937 random(7);
+  std::vector<Object> spheres;
+  for (int i = 0; i < edge; ++i)
+    for (int j = 0; j < edge; ++j) {
+      const double x = i - edge / 2 + 0.9 * uniform(random), z = j - edge / 2 + 0.9 * uniform(random);
+      const bool clear = std::abs(z) > 1.3 || std::abs(x) > 5.3;
+      if (clear && spheres.size() < maximum) spheres.push_back(sphere({x, 0.2, z}, 0.2));
+    }
+  return spheres;
+}
 
 constexpr int tile = 32, samples_of_pixel = 2, max_bounces = 50;
 
@@ -62,6 +85,22 @@ class Walk {
 };
 
 }  // namespace
+
+Scene field_of_spheres(int count) {
+  Scene scene;
+  scene.width = 400, scene.height = 225;
+  scene.camera = {.look_from = {13, 2, 3}, .look_at = {0, 0, 0}, .vfov = 20};
+  scene.background = Gradient{};
+  scene.render.max_depth = 50;
+  scene.materials = {Material{"grey", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}};
+  scene.objects = {sphere({0, -1000, 0}, 1000), sphere({0, 1, 0}, 1), sphere({-4, 1, 0}, 1), sphere({4, 1, 0}, 1)};
+  const auto small = static_cast<std::size_t>(count) - scene.objects.size();
+  std::vector<Object> strewn;
+  for (int edge = static_cast<int>(std::sqrt(static_cast<double>(small))); strewn.size() < small; ++edge)
+    strewn = small_spheres(edge, small);
+  scene.objects.insert(scene.objects.end(), strewn.begin(), strewn.end());
+  return scene;
+}
 
 std::vector<TraceRay> rays_in_path_order(const RenderScene& scene, const Kernels& kernels, std::size_t count) {
   const SceneViewOf view(scene);
