@@ -228,6 +228,7 @@ REFUSED_FILMS = [
         ("0.exr texture.png -o a.png", "texture.png", "film"),
         ("chains.exr scatter.exr -o a.png", "scatter.exr", "other settings"),
         ("adaptive.exr adaptive.exr -o a.exr", "adaptive.exr", "adaptive"),
+        ("adaptive.exr -o a.pfm", "adaptive"),
         ("lean.exr -o a.png", "lean.exr", "no film"),
     ]),
     ("denoise", 2, [

@@ -249,6 +249,23 @@ def test_denoised_films(exr):
     assert read("merged.pfm") == read("clean.pfm")
 
 
+def test_dither():
+    """PNG is dithered, unless that is switched off; nothing else is."""
+    for name, options in ("on", ""), ("off", "--dither off"):
+        run(f"render quads --size 32x24 --spp 2 -q -o {name}.png -o {name}.pfm {options}")
+    assert read("on.pfm") == read("off.pfm") and read("on.png") != read("off.png")
+    run("render off.png -o again.png -q")
+    same_picture("again.png", "off.png")
+
+
+def test_lean_films(exr):
+    """The same picture in a smaller file."""
+    run("render quads --size 128x96 --spp 2 -q -o lean.exr --exr-film no")
+    run("render quads --size 128x96 --spp 2 -q -o full.exr -o full.pfm")
+    same_picture("lean.exr", "full.pfm")
+    assert len(read("lean.exr")) < len(read("full.exr")) * 2 / 3
+
+
 def scene_of(picture, shape):
     """A white sky over an object that fills the picture."""
     return json.dumps({

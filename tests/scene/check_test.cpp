@@ -73,22 +73,17 @@ TEST_CASE("check: numbers that are not finite, wherever an edit may put them") {
         }) == "/objects/2/objects/0/u/0");
 }
 
-TEST_CASE("check: ranges hold for edits as they do for files") {
-  CHECK(where_after([](Scene& s) { s.width = 0; }) == "/image/width");
-  CHECK(where_after([](Scene& s) { s.height = 65537; }) == "/image/height");
+// What files may not hold either is in bad_scenes.txt: reading ends with the same check.
+TEST_CASE("check: what is just valid passes, and so does a colour that nobody looks at") {
   CHECK(where_after([](Scene& s) { s.height = 65536; }) == "");
-  CHECK(where_after([](Scene& s) { s.render.max_depth = -1; }) == "/render/max_depth");
   CHECK(where_after([](Scene& s) { s.render.max_depth = 0; }) == "");
-  CHECK(where_after([](Scene& s) { s.render.spp = 0; }) == "/render/spp");
-  CHECK(where_after([](Scene& s) { s.materials[0].colour = Vec3d{0, 0, 1.001}; }) == "/materials/white/albedo/2");
   CHECK(where_after([](Scene& s) { s.materials[0].kind = Light<>(), s.materials[0].colour = Vec3d{0, 0, 100}; }) == "");
-  CHECK(where_after([](Scene& s) {
-          s.materials[0].kind = Light<>(), s.materials[0].colour = Vec3d{0, 0, -1};
-        }) == "/materials/white/radiance/2");
   CHECK(where_after([](Scene& s) {
           s.materials[0].kind = Dielectric<>(), s.materials[0].colour = Vec3d{9, 9, 9};
         }) == "");
-  CHECK(where_after([](Scene& s) { fog(s).medium.g = -1; }) == "/objects/1/g");
+  CHECK(where_after([](Scene& s) { s.camera.shutter_open = 1, s.camera.shutter_close = 1; }) == "");
+  CHECK(where_after([](Scene& s) { fog(s).medium.g = 1 - 1e-6; }) == "");
+  CHECK(where_after([](Scene& s) { fog(s).albedo = TextureIndex{0}; }) == "");
 }
 
 TEST_CASE("check: indices must be in range, names unique, and textures must have their pictures") {
@@ -100,14 +95,6 @@ TEST_CASE("check: indices must be in range, names unique, and textures must have
   CHECK(where_after([](Scene& s) { s.materials[1].name = "white"; }) == "/materials/white");
   CHECK(where_after([](Scene& s) { s.textures[1].name = "tiles"; }) == "/textures/tiles");
   CHECK(where_after([](Scene& s) { s.textures[1].kind = Image{"planet.png", nullptr}; }) == "/textures/planet/file");
-}
-
-TEST_CASE("check: what a medium's boundary and colour may be") {
-  CHECK(where_after([](Scene& s) { fog(s).boundary = Sphere<>{{}, -1, {}}; }) == "/objects/1/boundary/radius");
-  CHECK(where_after([](Scene& s) { fog(s).boundary = Sphere<>{{}, 1, Vec3d{}}; }) == "/objects/1/boundary/center_end");
-  CHECK(where_after([](Scene& s) { fog(s).boundary = Box<>{{0, 0, 0}, {1, 0, 1}}; }) == "/objects/1/boundary/max/1");
-  CHECK(where_after([](Scene& s) { fog(s).albedo = TextureIndex{1}; }) == "/objects/1/albedo");
-  CHECK(where_after([](Scene& s) { fog(s).albedo = TextureIndex{0}; }) == "");
 }
 
 TEST_CASE("check: quads without area are refused, judged by their own size") {
@@ -127,20 +114,8 @@ TEST_CASE("check: the camera needs a direction, and an up vector that is not par
   const auto where = [](Vec3d from, Vec3d at, Vec3d up) {
     return where_after([&](Scene& s) { s.camera.look_from = from, s.camera.look_at = at, s.camera.vup = up; });
   };
-  CHECK(where({1, 2, 3}, {1, 2, 3}, {0, 1, 0}) == "/camera/look_at");
-  CHECK(where({0, 0, 0}, {0, 5, 0}, {0, 1, 0}) == "/camera/vup");
   CHECK(where({0, 0, 0}, {0, -1e-20, 0}, {0, 1e20, 0}) == "/camera/vup");
   CHECK(where({0, 0, 0}, {0, 5, 0.01}, {0, 1, 0}) == "");
-  CHECK(where({0, 0, 0}, {0, 0, -1}, {0, 0, 0}) == "/camera/vup");
-  CHECK(where_after([](Scene& s) { s.camera.shutter_open = 1, s.camera.shutter_close = 0.5; }) == "/camera/shutter");
-  CHECK(where_after([](Scene& s) { s.camera.shutter_open = 1, s.camera.shutter_close = 1; }) == "");
-}
-
-TEST_CASE("check: values that single precision cannot hold are refused") {
-  CHECK(where_after([](Scene& s) { solid(s).shape = Sphere<>{{1e39, 0, 0}, 1, {}}; }) == "/objects/0/center/0");
-  CHECK(where_after([](Scene& s) { solid(s).shape = Sphere<>{{}, 1e-50, {}}; }) == "/objects/0/radius");
-  CHECK(where_after([](Scene& s) { fog(s).medium.g = 1 - 1e-12; }) == "/objects/1/g");
-  CHECK(where_after([](Scene& s) { fog(s).medium.g = 1 - 1e-6; }) == "");
 }
 
 }  // namespace tyndall::test::check_test

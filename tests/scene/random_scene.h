@@ -88,25 +88,29 @@ class SceneGenerator {
     return out;
   }
 
+  /// One of the first `count` kinds of a list, with all of its values.
+  template <class... Kinds>
+  void fill_kind(std::variant<Kinds...>& out, int count) {
+    int left = below(count);
+    const auto take = [&]<class Kind>(const Kind*) {
+      if constexpr (requires { fields(static_cast<const Kind*>(nullptr)); })
+        if (left-- == 0) fill(out.template emplace<Kind>());
+    };
+    (take(static_cast<const Kinds*>(nullptr)), ...);
+  }
+
   Background background() {
     Background out;
     if (chance())
       fill(at_least(0), out.emplace<Vec3d>());
-    else if (chance())
-      fill(out.emplace<Gradient>());
     else
-      fill(out.emplace<Hemispheres>());
+      fill_kind(out, 2);  // without pictures of the sky
     return out;
   }
 
   Texture texture(std::size_t i) {
     Texture out{unique_name(i), {}};
-    if (below(3) == 0)
-      fill(out.kind.emplace<Solid<>>());
-    else if (chance())
-      fill(out.kind.emplace<Checker<>>());
-    else
-      fill(out.kind.emplace<Noise<>>());
+    fill_kind(out.kind, 3);  // without pictures
     return out;
   }
 
@@ -120,31 +124,15 @@ class SceneGenerator {
   Material material(std::size_t i) {
     Material out;
     out.name = unique_name(i);
-    switch (below(4)) {
-      case 0:
-        out.kind = Lambertian<>();
-        break;
-      case 1:
-        fill(out.kind.emplace<Metal<>>());
-        break;
-      case 2:
-        fill(out.kind.emplace<Dielectric<>>());
-        return out;  // without colour
-      default:
-        out.kind = Light<>();
-    }
-    out.colour = colour(std::holds_alternative<Light<>>(out.kind) ? at_least(0) : between(0, 1));
+    fill_kind(out.kind, 4);
+    if (!std::holds_alternative<Dielectric<>>(out.kind))
+      out.colour = colour(std::holds_alternative<Light<>>(out.kind) ? at_least(0) : between(0, 1));
     return out;
   }
 
   Transform transform() {
     Transform out;
-    for (int i = below(3); i > 0; --i) {
-      if (chance())
-        out.emplace_back(RotateY{number(any_number())});
-      else
-        fill(any_number(), std::get<Translate>(out.emplace_back(Translate())).offset);
-    }
+    for (int i = below(3); i > 0; --i) fill_kind(out.emplace_back(RotateY()), 2);
     return out;
   }
 

@@ -104,7 +104,7 @@ void renew_kind(Json& object, std::vector<std::string> no_fields = {}) {
   no_fields.insert(no_fields.begin(), "type");
   object["description"] = Kind::about;
   object["properties"]["type"] = {{"const", Kind::type}};
-  if constexpr (requires { fields_of<Kind>(); })
+  if constexpr (requires { fields(static_cast<const Kind*>(nullptr)); })
     renew(object, fields_of<Kind>(), no_fields);
   else
     renew(object, std::tuple(), no_fields);
