@@ -192,12 +192,12 @@ APP = [
     ("a picture that cannot be read passes", "app/comparison/baseline.cpp", "«picture.failures.emplace_back(problem.what()); → »", "app/baseline.sh"),
     ("variances pass as errors", "app/comparison/pair.cpp", "if («squared → false»)\n", "app/max_z.sh"),
 
-    ("failed samples are no failure", "app/watch/watch.cpp", "return tell_failures(*order.function) ? «1 → 0» : 0;", "app/watch.sh"),
-    ("the caller's rounding is lost", "app/watch/watch.cpp", "Host::~Host() {\n  «std::fesetenv(&arithmetic_); → »", "app/watch.sh"),
-    ("a seed is not handed on", "app/watch/watch.cpp", "«scene.render.seed = options.seed; → »", "app/watch.sh"),
+    ("failed samples are no failure", "app/watch/watch.cpp", "return tell_failures(*order.function) ? «1 → 0» : 0;", "commands/installed"),
+    ("the caller's rounding is lost", "app/watch/watch.cpp", "Host::~Host() {\n  «std::fesetenv(&arithmetic_); → »", "commands/installed"),
+    ("a seed is not handed on", "app/watch/watch.cpp", "«scene.render.seed = options.seed; → »", "commands/installed"),
     ("more samples than there can be are taken", "app/watch/watch.cpp",
-     "«if (options.spp > max_samples) refuse(fmt::format(\"spp: found {}, expected at most {}\", options.spp, max_samples)); → »", "app/watch.sh"),
-    ("options of an older header are read behind their end", "app/watch/watch.cpp", "std::memcpy(&options, given, «std::min(given->size, sizeof options) → sizeof options»);", "app/watch.sh"),
+     "«if (options.spp > max_samples) refuse(fmt::format(\"spp: found {}, expected at most {}\", options.spp, max_samples)); → »", "commands/installed"),
+    ("options of an older header are read behind their end", "app/watch/watch.cpp", "std::memcpy(&options, given, «std::min(given->size, sizeof options) → sizeof options»);", "commands/installed"),
 
     ("swapped red and blue are not tried", "app/check/reading.cpp", "picture.numbers[at + («reading.swapped ? 2 - c : c → c»)];", "app/check/statistics"),
     ("a mean product in place of a covariance", "app/check/statistics.cpp", "(products - «a * b / count → 0.0») / (count - 1)", "app/check/statistics"),
