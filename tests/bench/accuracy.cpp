@@ -78,11 +78,24 @@ class Task {
   }
 
   Run render(const fs::path& program, std::uint32_t spp, int seed = 0) const {
-    const ChildEnd end = run_child(
-        {.command = {program.string(), "render", "scene.json", "-q", "-o", "image.pfm", "--spp", std::to_string(spp),
-                     "--seed", std::to_string(seed), "-t", std::to_string(two_threads()), "--stats", "stats.json"},
-         .folder = folder_,
-         .seconds = 3600});
+    ChildPlan plan;
+    plan.command = {program.string(),
+                    "render",
+                    "scene.json",
+                    "-q",
+                    "-o",
+                    "image.pfm",
+                    "--stats",
+                    "stats.json",
+                    "--spp",
+                    std::to_string(spp),
+                    "--seed",
+                    std::to_string(seed),
+                    "-t",
+                    std::to_string(two_threads())};
+    plan.folder = folder_;
+    plan.seconds = 3600;
+    const ChildEnd end = run_child(plan);
     if (!end.succeeded()) throw WrongResult(program.string() + " render failed: " + end.errors);
     const auto stats = nlohmann::json::parse(std::ifstream(folder_ / "stats.json"));
     return {stats["seconds_render"], test::true_relative_mse(read_image(folder_ / "image.pfm").rgb, reference_)};

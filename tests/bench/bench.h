@@ -26,7 +26,6 @@ struct WrongResult : std::runtime_error {
 // Each part prints its table while it measures. Throws WrongResult.
 void measure_accuracy(const Settings& settings);
 void measure_closest(const Settings& settings);
-void measure_edits(const Settings& settings);
 void measure_clean(const Settings& settings);
 void measure_approximations(const Settings& settings);
 

@@ -3,6 +3,7 @@
 #include "core/base/sampling.h"
 #include "tests/support/prepared.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <utility>
@@ -34,55 +35,45 @@ std::vector<Object> small_spheres(int edge, std::size_t maximum) {
   return spheres;
 }
 
-constexpr int tile = 32, samples_of_pixel = 2, max_bounces = 50;
+/// In [0, 1), in single precision.
+float uniform_single(std::mt19937& random) { return static_cast<float>(random() >> 8) * 0x1p-24f; }
 
-/// Follows paths; knows which comes next.
-class Walk {
+/// Rays from the camera, two a pixel, tile by tile; then again.
+class CameraRays {
  public:
-  explicit Walk(const RenderScene& scene) : scene_(scene) {}
-
-  /// The next ray from the camera.
-  TraceRay start() {
-    const CameraColumns& c = scene_.camera;
-    const float x = static_cast<float>(left_ + column_) + uniform(), y = static_cast<float>(top_ + row_) + uniform();
-    advance();
-    return {c.center, normalize(c.corner + x * c.du + y * c.dv), 0, from_nowhere};
+  explicit CameraRays(const RenderScene& scene) : camera_(scene.camera) {
+    constexpr int tile = 32;
+    for (int top = 0; top < scene.height; top += tile)
+      for (int left = 0; left < scene.width; left += tile)
+        for (int y = top; y < std::min(top + tile, scene.height); ++y)
+          for (int x = left; x < std::min(left + tile, scene.width); ++x) pixels_.insert(pixels_.end(), 2, {x, y});
   }
 
-  /// The ray that leaves the surface which `ray` hit, in a cosine-weighted direction. It starts a few roundings above
-  /// the surface, so that Embree, which does not know where rays start, does not meet that surface again.
-  TraceRay bounce(const TraceRay& ray, const TraceHit& hit) {
-    const Elements& e = scene_.elements;
-    const std::int32_t i = hit.element;
-    const Vec3f center = e.center_or_normal[i];
-    const Vec3f normal = normalize(e.inverse_radius[i] * (point_at(ray.origin, hit.t, ray.direction) - center));
-    const float radius = 1 / e.inverse_radius[i], lift = 4e-7f * (length(center) + radius);
-    const float u = uniform(), v = uniform();
-    const Vec3f direction = normal + 0.9999f * on_sphere(Pair<float>{u, v});  // never zero
-    return {point_at(center, radius + lift, normal), normalize(direction), 0,
-            4 * hit.element + static_cast<std::int32_t>(Side::outward)};
+  TraceRay next(std::mt19937& random) {
+    const auto [column, row] = pixels_[next_++ % pixels_.size()];
+    const float x = static_cast<float>(column) + uniform_single(random);
+    const float y = static_cast<float>(row) + uniform_single(random);
+    return {camera_.center, normalize(camera_.corner + x * camera_.du + y * camera_.dv), 0, from_nowhere};
   }
 
  private:
-  float uniform() { return static_cast<float>(random_() >> 8) * 0x1p-24f; }
-
-  /// Samples of a pixel, pixels of a tile, tiles of the image; then again.
-  void advance() {
-    if (++sample_ < samples_of_pixel) return;
-    sample_ = 0;
-    if (++column_ < tile && left_ + column_ < scene_.width) return;
-    column_ = 0;
-    if (++row_ < tile && top_ + row_ < scene_.height) return;
-    row_ = 0;
-    if ((left_ += tile) < scene_.width) return;
-    left_ = 0;
-    if ((top_ += tile) >= scene_.height) top_ = 0;
-  }
-
-  const RenderScene& scene_;
-  std::mt19937 random_{1};
-  int sample_ = 0, column_ = 0, row_ = 0, left_ = 0, top_ = 0;
+  const CameraColumns& camera_;
+  std::vector<std::pair<int, int>> pixels_;
+  std::size_t next_ = 0;
 };
+
+/// The ray that leaves the surface which `ray` hit, in a cosine-weighted direction. It starts a few roundings above the
+/// surface, so that Embree, which does not know where rays start, does not meet that surface again.
+TraceRay bounce(const Elements& elements, const TraceRay& ray, const TraceHit& hit, std::mt19937& random) {
+  const std::int32_t i = hit.element;
+  const Vec3f center = elements.center_or_normal[i];
+  const Vec3f normal = normalize(elements.inverse_radius[i] * (point_at(ray.origin, hit.t, ray.direction) - center));
+  const float radius = 1 / elements.inverse_radius[i], lift = 4e-7f * (length(center) + radius);
+  const float u = uniform_single(random), v = uniform_single(random);
+  const Vec3f direction = normal + 0.9999f * on_sphere(Pair<float>{u, v});  // never zero
+  return {point_at(center, radius + lift, normal), normalize(direction), 0,
+          4 * hit.element + static_cast<std::int32_t>(Side::outward)};
+}
 
 }  // namespace
 
@@ -105,18 +96,20 @@ Scene field_of_spheres(int count) {
 std::vector<TraceRay> rays_in_path_order(const RenderScene& scene, const Kernels& kernels, std::size_t count) {
   const SceneViewOf view(scene);
   const auto lanes = static_cast<std::size_t>(kernels.lanes);
-  Walk walk(scene);
+  constexpr int max_bounces = 50;
+  std::mt19937 random(1);
+  CameraRays camera(scene);
   std::vector<TraceRay> group(lanes), rays;
   std::vector<TraceHit> hits(lanes);
   std::vector<int> bounces(lanes);
-  for (TraceRay& ray : group) ray = walk.start();
+  for (TraceRay& ray : group) ray = camera.next(random);
   while (rays.size() < count) {
     rays.insert(rays.end(), group.begin(), group.end());
     kernels.trace(view.view(), group.data(), hits.data(), kernels.lanes, false);
     for (std::size_t k = 0; k < lanes; ++k) {
       const bool on = hits[k].element >= 0 && ++bounces[k] <= max_bounces;
       if (!on) bounces[k] = 0;
-      group[k] = on ? walk.bounce(group[k], hits[k]) : walk.start();
+      group[k] = on ? bounce(scene.elements, group[k], hits[k], random) : camera.next(random);
     }
   }
   rays.resize(count);

@@ -62,7 +62,6 @@ struct Part {
 constexpr Part parts[] = {
     {"accuracy", "seconds to relMSE 0.01, relMSE x spp; beside the program that --against names", measure_accuracy},
     {"closest", "closest hits a second among spheres, beside Embree's", measure_closest},
-    {"edits", "milliseconds from an edit to its picture, interactive renderer", measure_edits},
     {"clean", "milliseconds that the clean view of a film takes", measure_clean},
     {"approximations", "how far each approximation moves the mean of pictures; minutes", measure_approximations}};
 
