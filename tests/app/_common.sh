@@ -71,9 +71,10 @@ same() {
   [ "$2" = "$3" ] || fail "$1: '$2' and '$3' differ"
 }
 
-# image_hash RENDER-OPTIONS...: renders and prints the image's hash.
+# image_hash RENDER-OPTIONS...: renders by "renderer", which is the program, and prints the image's hash.
+renderer=("$tyndall")
 image_hash() {
-  "$tyndall" render "$@" -q -o hashed.pfm --stats hashed.json && json hashed.json image_hash
+  "${renderer[@]}" render "$@" -q -o hashed.pfm --stats hashed.json </dev/null && json hashed.json image_hash
 }
 
 # no_leftovers: fails if a file is left that was only half written.

@@ -31,7 +31,7 @@ def run(command, code=0, *words, out=(), loud=False, lines=None, given=b"", by=(
 
     Fails unless the exit code is this one, standard error holds the words (texts or patterns) and standard output those
     of "out". Only one line may be said, where there are words or the command is refused, else none, or so many "lines";
-    it begins with "tyndall: ". What is refused prints nothing and changes no file. All that is not asked of "loud" ones.
+    it begins with "tyndall: ". What is refused prints nothing and changes no file. None of that is asked of "loud" ones.
     "by": a command that starts the program; "variables": of the environment.
     """
     before = files()
@@ -117,7 +117,8 @@ def begun():
     """Seconds of work after which a small render has surely begun, however slow this build and this machine are."""
     with tempfile.TemporaryDirectory() as folder:
         before = os.times()
-        subprocess.run([PROGRAM, *"render cornell-box --size 64x64 --spp 1 -q -o a.pfm".split()], cwd=folder, check=True)
+        small = "render cornell-box --size 64x64 --spp 1 -q -o a.pfm"
+        subprocess.run([PROGRAM, *small.split()], cwd=folder, check=True)
         after = os.times()
     return 0.1 + 3 * (after.children_user + after.children_system - before.children_user - before.children_system)
 

@@ -1,4 +1,4 @@
-"""Films: shards, merging and going on; sweeps and animations, whose pictures have the bits of render; changed textures."""
+"""Films: shards, merging, going on; sweeps and animations, whose pictures have the bits of render; changed textures."""
 
 import csv
 import json
@@ -12,7 +12,7 @@ import subprocess
 
 import pytest
 from program import (HAS_EXR, PROGRAM, ROOT, image_hash, instruction_sets, interrupted, load, pfm, png, read, rendered,
-                     run, same_picture, write)
+                     run, write)
 
 SMOKE = "cornell-smoke --size 32x24"
 KEYED = {
@@ -62,7 +62,7 @@ def test_going_on(exr):
     going = rendered(f"{SMOKE} --spp 13 --resume -o going.exr")
     assert going["image_hash"] == whole["image_hash"] and going["samples"] == 13 * 32 * 24
     assert 0 < going["rays"] < whole["rays"]
-    few = rendered(f"{SMOKE} --spp 2 --resume -o going.exr", "--resume", "13 samples a pixel", "more than the 2 asked for")
+    few = rendered(f"{SMOKE} --spp 2 --resume -o going.exr", "--resume", "13 samples a pixel", "more than the 2 asked")
     assert few["image_hash"] == whole["image_hash"]
 
 
@@ -71,8 +71,9 @@ def test_chains(exr):
     balls = "stress-caustic-glass --size 16x12 -q"
     run(f"render {balls} --samples 0:2 -o chains.exr", loud=True)
     run(f"render {balls} --spp 4 --resume -o chains.exr", loud=True)
-    run(f"render {balls} --spp 1 --integrator path --caustics chains -o path.pfm", 0, "--caustics chains", "ignored", "path")
-    run(f"render {balls} --spp 1 --integrator path -o same.pfm")
+    alone = f"render {balls} --spp 1 --integrator path"
+    run(f"{alone} --caustics chains -o path.pfm", 0, "--caustics chains", "ignored", "path")
+    run(f"{alone} -o same.pfm")
     assert read("path.pfm") == read("same.pfm")
 
 
@@ -93,7 +94,8 @@ def test_sweep():
         value = row["value"]
         stats = rendered(f"showroom --set /materials/gold/fuzz={value} --size 32x18 --spp 4 -o one.pfm")
         assert read("one.pfm") == read(f"e{value}.pfm") and stats["image_hash"] in row.values()
-    number = [{key: float(row[key]) for key in ("mean", "change", "change_error", "difference_error", "spp")} for row in rows]
+    keys = ("mean", "change", "change_error", "difference_error", "spp")
+    number = [{key: float(row[key]) for key in keys} for row in rows]
     middle = number[1]
     assert middle["change"] == 0 and middle["difference_error"] == 0
     for row in (number[0], number[2]):
@@ -166,8 +168,8 @@ def test_frames_that_are_there(film):
     assert os.stat("0001.png").st_ctime_ns == before and read("0002.png") == whole
     os.remove("0003.png")
     scalar = [] if instruction_sets() == ["scalar"] else [("--spp 4 --isa scalar", "instruction set")]
-    for options, word in [("--spp 5", "4 samples a pixel, expected 5"), ("--spp 4 --set /camera/vfov=41", "another scene"),
-                          ("--spp 4 --seed 6", "seed 5"), ("--spp 4 --exposure 1", "exposure"),
+    for options, word in [("--spp 5", "4 samples a pixel, expected 5"), ("--spp 4 --seed 6", "seed 5"),
+                          ("--spp 4 --set /camera/vfov=41", "another scene"), ("--spp 4 --exposure 1", "exposure"),
                           ("--spp 4 --denoise", "filtered"), *scalar]:
         run(f"animate film.json -q {options} -o %04d.png", 2, "000", word, "--fresh")
     write("0000.png", read("0000.png")[:200])
@@ -224,8 +226,8 @@ def largest_difference(raw, width, height, cut, margin):
         rows = [[rgb[3 * (y * width + x):][:3] for x in range(width)] for y in range(height)]
         for y in range(h):
             for x in range(w):
-                near = {c for row in rows[max(y - margin, 0):y + margin + 1] for c in row[max(x - margin, 0):x + margin + 1]}
-                if len(near) == 1:
+                around = rows[max(y - margin, 0):y + margin + 1]
+                if len({c for row in around for c in row[max(x - margin, 0):x + margin + 1]}) == 1:
                     worst = max(worst, *(abs(a - b) for a, b in zip(rows[y][x], raw[3 * ((n * h + y) * w + x):][:3])))
     return worst
 
@@ -352,7 +354,7 @@ def unlabel(*names):
 
 
 def test_pictures_that_say_nothing_of_pixels(textured):
-    """Films and pictures of version 0.2.0 are taken, and told. Where there are no pictures, nothing is written or said."""
+    """Those of version 0.2.0 are taken, and told. Where there are no pictures, nothing is written or said."""
     for samples, name in ("0:4", "first.exr"), ("4:8", "second.exr"):
         run(f"{TEX} --samples {samples} -o {name}")
     shutil.copy("first.exr", "going.exr")

@@ -1,5 +1,5 @@
-"""What "cmake --install" puts where: a program that works without the sources, its manual, completion for three shells; and the
-libraries, found by CMake and by pkg-config, used from C and C++. tests/library and tests/python hold what those do."""
+"""What "cmake --install" puts where: a program that works without the sources, its manual, completion for three shells;
+and the libraries, found by CMake and by pkg-config, used from C and C++. tests/library and tests/python test those."""
 
 import gzip
 import os
@@ -9,12 +9,12 @@ import shutil
 import subprocess
 
 import pytest
-from program import HAS_EXR, PROGRAM, ROOT, pixels_of, read, run, same_picture, write
+from program import HAS_EXR, PROGRAM, ROOT, image_hash, pixels_of, read, run, same_picture, write
 
 BUILD = pathlib.Path(PROGRAM).parent
 STRICT = "-Wall -Wextra -Wpedantic -Werror -Wconversion -Wshadow"
-INSTALLED = """bin/tyndall share/tyndall/scene.schema.json share/tyndall/scenes/showroom.json share/man/man1/tyndall.1.gz
-share/bash-completion/completions/tyndall share/zsh/vendor-completions/_tyndall
+INSTALLED = """bin/tyndall share/tyndall/scene.schema.json share/tyndall/scenes/showroom.json
+share/man/man1/tyndall.1.gz share/bash-completion/completions/tyndall share/zsh/vendor-completions/_tyndall
 share/fish/vendor_completions.d/tyndall.fish share/applications/tyndall.desktop share/mime/packages/tyndall.xml
 share/icons/hicolor/scalable/apps/tyndall.svg share/doc/tyndall/copyright include/tyndall/watch.h
 include/tyndall/tyndall.h""".split()
@@ -23,8 +23,8 @@ pytestmark = pytest.mark.skipif(not (BUILD / "cmake_install.cmake").exists(), re
 
 def shell(command, code=0, **environment):
     """What a command prints, without the assets of the sources."""
-    variables = {key: value for key, value in (os.environ | environment).items() if key != "TYNDALL_ASSETS" and value is not None}
-    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, env=variables)
+    done = subprocess.run(["bash", "-c", f"unset TYNDALL_ASSETS; {command}"], capture_output=True, text=True,
+                          env=os.environ | environment)
     assert done.returncode == code, f"{command}: {done.stdout}{done.stderr}"
     return done.stdout + done.stderr * (code > 0)
 
@@ -57,7 +57,7 @@ def library_of(tree, name):
 def test_files(tree):
     assert all((tree / name).stat().st_size for name in INSTALLED)
     everything = list(tree.rglob("*"))
-    assert not [path for path in everything if path.name.startswith(".") or path.name == "__pycache__" or path.name.endswith(".md~")]
+    assert not [path for path in everything if re.match(r"\..*|__pycache__|.*\.md~", path.name)]
     assert not [path for path in everything if path.is_symlink() and not re.match(r"libtyndall.*\.so", path.name)]
     shell(f"! grep -rlF -- '{ROOT}' {tree}")
 
@@ -77,17 +77,17 @@ def test_manual(moved):
     """It names all commands and options, and man has nothing to complain about; so does completion for fish."""
     page = gzip.decompress((moved / "share/man/man1/tyndall.1.gz").read_bytes()).decode()
     fish = (moved / "share/fish/vendor_completions.d/tyndall.fish").read_text()
-    for command in re.findall(r"^  ([a-z]+)  ", shell("tyndall --help"), re.M):
-        for option in re.findall("^  (?:-[a-z],)?--([a-z0-9-]+)", shell(f"tyndall {command} --help"), re.M) if command != "help" else []:
+    for command in set(re.findall(r"^  ([a-z]+)  ", shell("tyndall --help"), re.M)) - {"help"}:
+        for option in re.findall("^  (?:-[a-z],)?--([a-z0-9-]+)", shell(f"tyndall {command} --help"), re.M):
             assert "\\fB\\-\\-" + option.replace("-", "\\-") in page, f"{option} of {command}"
             assert f" {option} " in fish or re.search(f"-l {option}( |$)", fish, re.M), f"{option} of {command}"
     write("tyndall.1", page)
     if shutil.which("man"):
         assert not shell("LC_ALL=C.UTF-8 MANWIDTH=100 man --warnings -E UTF-8 -l tyndall.1 2>&1 >page")
-    for program, command in {"zsh": f"zsh -n {moved}/share/zsh/vendor-completions/_tyndall",
-                             "desktop-file-validate": f"desktop-file-validate {moved}/share/applications/tyndall.desktop"}.items():
-        if shutil.which(program):
-            shell(command)
+    for command in ("zsh -n {}/share/zsh/vendor-completions/_tyndall",
+                    "desktop-file-validate {}/share/applications/tyndall.desktop"):
+        if shutil.which(command.split()[0]):
+            shell(command.format(moved))
 
 
 @pytest.mark.parametrize("words, offered", [
@@ -141,7 +141,7 @@ def test_library(moved):
     assert not [name for name in names if not re.search(own, name)]
     assert not re.search("NEEDED.*(glfw|GL|X11|imgui)", shell(f"readelf -d {library}"))
     write("user.cpp", USER)
-    hashes = {re.search('"image_hash": "(.*)"', run("render cornell-box --size 16x9 --spp 2 -q --stats - -o x.pfm", loud=True))[1]}
+    hashes = {image_hash("cornell-box --size 16x9 --spp 2")}
     for standard in (17, 20):
         shell(f"${{CXX:-c++}} -std=c++{standard} -O1 {STRICT} user.cpp -o user {flags}")
         hashes.add(shell("./user", LD_LIBRARY_PATH=str(library.parent)).strip())
@@ -168,12 +168,13 @@ def watch(moved, monkeypatch):
 
 
 def test_watched_pictures(watch, moved):
-    """Each pixel is the mean of its own samples, whatever the number of threads; one file's format goes by its ending."""
+    """Each pixel is the mean of its own samples, whatever the number of threads; formats go by the files' endings."""
     def wrong(name):
         rows = pixels_of(name)
         return [(x, y) for y, row in enumerate(rows) for x, pixel in enumerate(row) if pixel != (x, y, 4)]
     shell("./probe colours && ./probe place a.pfm && ./probe twice b.pfm")
-    assert len(pixels_of("a.pfm")) == 30 and not wrong("a.pfm") and read("a.pfm") == read("b.pfm") == read("again-b.pfm")
+    assert len(pixels_of("a.pfm")) == 30 and not wrong("a.pfm")
+    assert read("a.pfm") == read("b.pfm") == read("again-b.pfm")
     assert shell("./probe threads c.pfm").strip() == "at most 3 at once"
     assert len(pixels_of("c.pfm")) == 64 and not wrong("c.pfm")
     for ending in ("png", "ppm", "hdr", *["exr"] * HAS_EXR):
@@ -184,9 +185,11 @@ def test_watched_pictures(watch, moved):
     shell(f"${{CC:-cc}} -std=c99 {STRICT} '{examples}/rings.c' -o rings {watch} -lm && ./rings rings.pfm")
     shell(f"python3 '{examples}/rings.py' python.pfm")
     assert read("python.pfm")
-    assert shell("./probe process p.pfm").strip() == "rounds still signals C"  # the program's own things stay as they were
+    # The program's own things stay as they were.
+    assert shell("./probe process p.pfm").strip() == "rounds still signals C"
     if os.environ.get("TYNDALL_THOROUGH"):
-        shell(f"cmake -S '{examples}' -B example -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH={moved} && cmake --build example")
+        shell(f"cmake -S '{examples}' -B example -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH={moved}")
+        shell("cmake --build example")
         shell("example/rings cmake.pfm && env -u LD_LIBRARY_PATH example/ball ball.png")
         assert read("rings.pfm") == read("cmake.pfm")
 
@@ -200,15 +203,16 @@ def test_watched_failures(watch):
             (1, "infinite failed.pfm", "pixel (3, 4), sample 2: ", "found (1, 1, inf)"),
             (2, "size x.png 0 10", "found a picture of 0x10 pixels, expected 1 to 65536"),
             (2, "size x.png -3 10", "expected 1 to 65536"), (2, "size x.png 10 70000", "expected 1 to 65536"),
-            (2, "size x.png 2147483647 2147483647", "expected 1 to 65536"), (2, "size x.png 65536 65536", "65536x65536 pixels"),
-            (2, "null", "found no function"), (2, "wrong-size", "size of the options: found 0"),
+            (2, "size x.png 2147483647 2147483647", "expected 1 to 65536"),
+            (2, "size x.png 65536 65536", "65536x65536 pixels"), (2, "null", "found no function"), (2, "wrong-size", "size of the options: found 0"),
             (2, "wrong-threads x.png", "threads: found -1"),
             (2, "wrong-reference x.png", 'reference: found "cover", expected none beside output'),
             (2, "place x.jpg", 'found "x.jpg", expected a name that ends in .png'),
             (3, "place nowhere/x.png", "nowhere/x.png: cannot write: there is no folder nowhere"),
             (3, "place -", "no display", "option output")]:
         said = shell(f"./probe {arguments}", code)
-        assert said.startswith("tyndall: ") and said.count("\n") == 1 and all(word in said for word in words), (arguments, said)
+        assert said.startswith("tyndall: ") and said.count("\n") == 1, arguments
+        assert all(word in said for word in words), (arguments, said)
         if code == 1:
             os.remove("failed.pfm")
     lines = shell("./probe silent failed.pfm", 1).splitlines()

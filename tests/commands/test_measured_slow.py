@@ -6,7 +6,7 @@ import subprocess
 import xml.dom.minidom
 
 import pytest
-from program import PROGRAM, files, instruction_sets, read, run
+from program import PROGRAM, instruction_sets, read, run
 
 LIMITED = ["bash", "-c", 'ulimit -v 120000; exec "$0" "$@"']  # kB of address space, too few for these renders
 BOX = "render cornell-box -q --size 1200x750"
@@ -41,7 +41,8 @@ def test_chart():
     run("chart cornell-box -q -o nowhere/a.svg", 3, "nowhere")
 
 
-@pytest.mark.parametrize("reference, seen", [("--reference reference.pfm", "direct light (floor 0"), ("", "direct light (bias 0")])
+@pytest.mark.parametrize("reference, seen", [
+    ("--reference reference.pfm", "direct light (floor 0"), ("", "direct light (bias 0")])
 def test_chart_of_methods(reference, seen):
     """max-depth 1 is biased, and that is seen, also against a file."""
     if reference:

@@ -1,5 +1,5 @@
-"""Outputs that nothing can take the place of: found before the first sample, written into when the picture is finished, and
-never the reason for which a picture is lost."""
+"""Outputs that nothing can take the place of: found before the first sample, written into when the picture is finished,
+and never the reason for which a picture is lost."""
 
 import contextlib
 import os
@@ -10,8 +10,8 @@ import signal
 import subprocess
 
 import pytest
-from program import (HAS_EXR, PROGRAM, begun, files, image_hash, load, read, rendered, run, running, same_picture, wait_until,
-                     wait_worked, write)
+from program import (HAS_EXR, PROGRAM, begun, files, image_hash, load, read, rendered, run, running, same_picture,
+                     wait_until, wait_worked, write)
 
 SCENE = "cornell-box --size 24x16"
 LONG = f"render {SCENE} --spp 10000000 -q"
@@ -117,7 +117,8 @@ def test_closed_folder(right):
         pytest.skip("the program cannot be run as a user without privileges")
     os.mkdir("closed")
     shutil.copy("right.pfm", "closed/a.pfm")
-    for name, content, mode in ("a.exr", "old\n", 0o666), ("a.json", "\0" * 100000, 0o666), ("locked.pfm", "old\n", 0o444):
+    old = ("a.exr", "old\n", 0o666), ("a.json", "\0" * 100000, 0o666), ("locked.pfm", "old\n", 0o444)
+    for name, content, mode in old:
         write(f"closed/{name}", content)
         os.chmod(f"closed/{name}", mode)
     os.chmod("closed/a.pfm", 0o666)

@@ -8,17 +8,12 @@ import shutil
 import subprocess
 
 import pytest
-from program import (HAS_EXR, PROGRAM, ROOT, files, image_hash, instruction_sets, interrupted, load, pixels_of, png, read,
-                     rendered, run, same_picture, write)
+from program import (HAS_EXR, PROGRAM, ROOT, files, image_hash, instruction_sets, interrupted, load, pixels_of, png,
+                     read, rendered, run, same_picture, write)
 
 BOX = "cornell-box --size 40x30 --spp 4"
 EXR = ["exr"] * HAS_EXR
 CORNELL = ROOT / "assets/scenes/cornell-box.json"
-FIGURES = """scene width height spp samples rays shadow_rays seconds_render seconds_total seconds_build mrays_per_s
-msamples_per_s threads isa lanes kernel_features integrator sampler fresnel relative_error_estimate rejected_samples
-truncated_paths peak_memory_bytes image_hash version truncated_throughput first_rejected adaptive least_spp most_spp
-rare_bright_paths caustics denoised denoised_relative_error_estimate seconds_denoise denoised_hash sharing threads_from
-guide_ms guide_lobes split_events""".split()
 
 
 def test_formats():
@@ -34,13 +29,13 @@ def test_formats():
 
 
 def test_figures():
+    """They are true; files/stats has their names."""
     stats = rendered(BOX)
-    assert list(stats) == FIGURES
     assert [stats[key] for key in ("scene", "width", "height")] == ["cornell-box", 40, 30]
     assert stats["spp"] == 4 and stats["samples"] == 4 * 40 * 30
     assert stats["split_events"] == 0  # no glass
     assert stats["rays"] >= stats["samples"] and 0 < stats["shadow_rays"] < stats["rays"]
-    assert 0 < stats["seconds_render"] <= stats["seconds_total"] and 0 <= stats["seconds_build"] <= stats["seconds_total"]
+    assert 0 < stats["seconds_render"] <= stats["seconds_total"] >= stats["seconds_build"] >= 0
     assert abs(stats["mrays_per_s"] * stats["seconds_render"] * 1e6 / stats["rays"] - 1) < 1e-6
     assert stats["threads"] >= 1 and stats["lanes"] >= 1 and stats["isa"]
     assert {"boxes", "quads", "lambertian", "lights"} <= set(stats["kernel_features"])
@@ -156,7 +151,7 @@ def test_read_from_pipes():
 
 
 def test_threads():
-    """As many as processors which the process may use; the figures say what decided it."""
+    """As many as processors which the process may use; the figures say what decided it. Quotas: system/processors."""
     small = "cornell-box --size 16x16 --spp 2"
 
     def decided(more="", **options):
@@ -169,18 +164,6 @@ def test_threads():
         pytest.skip("one processor, or no taskset: bound processes were not tested")
     assert decided(by=["taskset", "-c", str(processors[0])]) == (1, "affinity")
     assert load("x.json")["image_hash"] == image_hash(small)
-    group = pathlib.Path(f"/sys/fs/cgroup/cpu/tyndall-{os.getpid()}")
-    try:
-        group.mkdir()
-        (group / "cpu.cfs_quota_us").write_text("50000")
-    except OSError:
-        group.is_dir() and group.rmdir()
-        pytest.skip("no control group can be made here: quotas were tested with files alone (system/processors)")
-    try:
-        into_group = ["sh", "-c", f'echo $$ >{group}/cgroup.procs && exec "$0" "$@"']
-        assert decided(by=into_group) == (1, "quota")
-    finally:
-        group.rmdir()
 
 
 def test_adaptive():
@@ -271,8 +254,8 @@ def scene_of(picture, shape):
     return json.dumps({
         "tyndall": 1, "image": {"width": 64, "height": 64}, "background": [1, 1, 1], "render": {"max_depth": 1},
         "camera": {"look_from": [0, 0, 3], "look_at": [0, 0, 0], "vfov": 53.13010235415598},
-        "textures": {"t": {"type": "image", "file": picture}}, "materials": {"m": {"type": "lambertian", "albedo": "t"}},
-        "objects": [shape | {"material": "m"}]})
+        "textures": {"t": {"type": "image", "file": picture}},
+        "materials": {"m": {"type": "lambertian", "albedo": "t"}}, "objects": [shape | {"material": "m"}]})
 
 
 QUAD = {"type": "quad", "corner": [-1, -1, 1], "u": [2, 0, 0], "v": [0, 2, 0]}

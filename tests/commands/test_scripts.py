@@ -10,11 +10,11 @@ from program import PROGRAM, ROOT, read, run
 
 
 def test_switches():
-    """Variables of the environment that say yes or no, as scripts read them: in any case of letters, and nothing else."""
+    """Variables of the environment that say yes or no, as scripts read them: in any case of letters, nothing else."""
     def asked(question, **variables):
         environment = {key: value for key, value in os.environ.items() if key != "CI"} | variables
-        done = subprocess.run(["bash", "-c", f". '{ROOT}/third_party/switches.sh'; {question}"], capture_output=True, text=True,
-                              env=environment)
+        done = subprocess.run(["bash", "-c", f". '{ROOT}/third_party/switches.sh'; {question}"], env=environment,
+                              capture_output=True, text=True)
         return done.returncode, done.stderr
     for yes in ("1", "yes", "true", "on", "YES", "On"):
         assert asked("is_on TYNDALL_SOME", TYNDALL_SOME=yes)[0] == 0
@@ -29,8 +29,8 @@ def test_switches():
 
 
 def test_workflow():
-    """It is YAML, and its steps do what the page says of them, run as GitHub runs them in a container, by "sh -e". The step
-    that installs the package is left to app/package_nightly.sh."""
+    """It is YAML, and its steps do what the page says of them, run as GitHub runs them in a container, by "sh -e". The
+    step that installs the package is left to app/package_nightly.sh."""
     yaml = pytest.importorskip("yaml")
     block = re.search(r"```yaml\n(.*?)```", (ROOT / "app/cli/README.md").read_text(), re.S)[1]
     job = yaml.safe_load(block)["jobs"]["pictures"]
