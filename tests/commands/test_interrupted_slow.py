@@ -160,7 +160,8 @@ def test_checkpoints(exr):
     for arguments, word in [
             (f"{BOX} --spp 3000 --seed 3", "seed 0"), (f"{BOX} --spp 3000 --sampler random", "sampler sobol"),
             ("cornell-box --size 64x63 --spp 3000", "64x64"),
-            (f"{BOX} --spp 3000 --set /camera/vfov=30", "another scene"), (f"{BOX} --spp 3000 --region 0,0,64,63", "region"), (f"{BOX} --samples 4:3000", "from 0"),
+            (f"{BOX} --spp 3000 --set /camera/vfov=30", "another scene"),
+            (f"{BOX} --spp 3000 --region 0,0,64,63", "region"), (f"{BOX} --samples 4:3000", "from 0"),
             (f"{BOX} --spp 3000 --isa scalar", "instruction set"), (f"{BOX} --samples 0:1", "samples up to"),
             (f"{BOX} --spp 3000 --resume --isa scalar", "instruction set"),
             (f"{BOX} --spp 3000 -o first.exr", "first .exr output"),

@@ -94,8 +94,9 @@ def test_what_flip_clips(code, kept, rendered, options, words):
 NAMES = [os.fsdecode(name) for name in [
     b"ctl\x01x", b"esc\x1b[31m", b"del\x7f", b"bytes\xffutf", b"cut\xc3", b"surrogate\xed\xa0\x80",
     b"long form\xc0\xaf", b"non\xef\xbf\xbe", b"\xef\xbf\xbf", b"line\nfeed", b"return\r", b"tab\t",
-    b"next\xc2\x85line", b"separator\xe2\x80\xa8", b"turned\xe2\x80\xae", b'"quotes" \'and\'', b"<b>&amp; & ]]>", b"--> <!--", b"per%cent %s {} {0}", b"-dash",
-    rb"back\slash\n", b"$HOME `id`", b" spaces ", "Grüße, 世界 🙂".encode(), b"#?*", "ä".encode() * 125, b"\x01" * 250]]
+    b"next\xc2\x85line", b"separator\xe2\x80\xa8", b"turned\xe2\x80\xae", b'"quotes" \'and\'',
+    b"<b>&amp; & ]]>", b"--> <!--", b"per%cent %s {} {0}", b"-dash", rb"back\slash\n", b"$HOME `id`", b" spaces ",
+    "Grüße, 世界 🙂".encode(), b"#?*", "ä".encode() * 125, b"\x01" * 250]]
 
 
 def test_baselines_of_odd_names():
@@ -168,7 +169,8 @@ def test_charts_of_odd_names():
     well_formed("chart.svg")
     for name in NAMES[:24]:
         write(f"./{name}.json", json.dumps(SCENE))
-        run(["chart", f"./{name}.json", "-o", f"./{name}.svg", *"--budget 0.05 -q --reference r.pfm --method x=".split()])
+        options = "--budget 0.05 -q --reference r.pfm --method x=".split()
+        run(["chart", f"./{name}.json", "-o", f"./{name}.svg", *options])
         well_formed(f"./{name}.svg")
 
 

@@ -64,8 +64,9 @@ def test_convert_changed():
 QUICK = """furnace/lambertian furnace/glass furnace/hollow fuzzy-ball/fuzz1-b0.99 coloured-glass/n1.5-density1-b0.5
 smoke-ball/inside-density1 square-lamp/corner-h1 small-lamp motion"""
 EACH_KIND = """plate/reflected-n2.417-80 plate/transmitted-n1.5-60 coloured-glass/n2-density1-b0.9
-smoke-ball/density1-b0.6 fog-ball/depth2-albedo0.9-b0.6 fog-layer/reflected-depth1-albedo0.9-60deg thick-fog/density1000-albedo0.9-60deg
-mcml/thin-transmitted cornell-lamp square-lamp/corner-h1- ball-lamp/d2-60deg ball-lamp/d2-45deg-nee
+smoke-ball/density1-b0.6 fog-ball/depth2-albedo0.9-b0.6 fog-layer/reflected-depth1-albedo0.9-60deg
+thick-fog/density1000-albedo0.9-60deg mcml/thin-transmitted cornell-lamp square-lamp/corner-h1- ball-lamp/d2-60deg
+ball-lamp/d2-45deg-nee
 integrating-sphere/albedo0.95- integrating-sphere/albedo0.2 rainbow hollow-ball fuzzy-ball/fuzz0.3 defocus/before
 defocus/close-"""
 
