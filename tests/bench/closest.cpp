@@ -82,7 +82,9 @@ void add_rows(const Table& table, int spheres, bool quick) {
     const std::vector<TraceRay> rays = shuffle ? shuffled(in_order) : in_order;
     Duel duel{kernels, view.view(), embree, rays};
     if (*embree_version()) check(duel, scene);
-    std::vector<std::string> cells{std::to_string(spheres), cell(median(build_ms), 1), shuffle ? "shuffled" : "path"};
+    std::vector<std::string> cells{std::to_string(spheres), cell(median(build_ms), 1),
+                                   cell(static_cast<double>(bytes_of(scene)) / spheres, 0),
+                                   shuffle ? "shuffled" : "path"};
     for (const std::string& figure : run(duel, repeat)) cells.push_back(figure);
     table.add(cells);
   }
@@ -94,7 +96,7 @@ void measure_closest(const Settings& settings) {
   const std::string version = embree_version();
   const std::string rival = version.empty() ? "built without Embree" : "beside the best of Embree " + version;
   const Table table("Closest hits: one thread, Mrays/s, the same rays, " + rival,
-                    {"spheres", "built in ms", "order", "Tyndall", "Embree", "Tyndall / Embree"});
+                    {"spheres", "built in ms", "bytes each", "order", "Tyndall", "Embree", "Tyndall / Embree"});
   for (const int spheres : {486, 6402, 90001}) add_rows(table, spheres, settings.quick);
 }
 

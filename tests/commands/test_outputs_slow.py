@@ -60,11 +60,8 @@ def test_folder_gone_meanwhile():
         assert read(rescued) and re.fullmatch(f"{os.environ['TMPDIR']}/tyndall-....../{name}", rescued)
 
 
-def test_devices():
-    """Devices, pipes and open files take the bytes at the end."""
-    os.symlink("/dev/null", "null.png")
-    run(f"render {SCENE} --spp 1 -q -o null.png", loud=True)
-    assert pathlib.Path("/dev/null").is_char_device() and pathlib.Path("null.png").is_symlink()
+def test_streams():
+    """Streams and open files take the bytes at the end."""
     run(f"render {SCENE} --spp 1 -q -o a.pfm --stats /dev/stdout", out="image_hash", loud=True)
     write("open.txt", "before\n")
     run(f"render {SCENE} --spp 1 -q -o a.pfm --stats /dev/stdout", loud=True,
@@ -117,9 +114,8 @@ def test_closed_folder(right):
         pytest.skip("the program cannot be run as a user without privileges")
     os.mkdir("closed")
     shutil.copy("right.pfm", "closed/a.pfm")
-    old = ("a.exr", "old\n", 0o666), ("a.json", "\0" * 100000, 0o666), ("locked.pfm", "old\n", 0o444)
-    for name, content, mode in old:
-        write(f"closed/{name}", content)
+    for name, mode in ("a.exr", 0o666), ("locked.pfm", 0o444):
+        write(f"closed/{name}", "old\n")
         os.chmod(f"closed/{name}", mode)
     os.chmod("closed/a.pfm", 0o666)
     os.chmod("closed", 0o555)
@@ -127,8 +123,6 @@ def test_closed_folder(right):
         run(f"render {SCENE} --spp 2 -q -o closed/a.pfm --fresh", 0, "closed/a.pfm", "cannot be replaced",
             "its folder takes no new files (Permission denied)", by=by)
         assert read("closed/a.pfm") == right
-        run("convert cornell-box -o closed/a.json", loud=True, by=by)
-        assert read("closed/a.json").decode() == run("convert cornell-box -o -")
         if HAS_EXR:
             run(f"render {SCENE} --spp 2 -q -o closed/a.exr", 0, "no checkpoints are kept", by=by)
             same_picture("closed/a.exr", "right.pfm")
@@ -149,7 +143,7 @@ def test_closed_folder(right):
 
 
 # The program sees "real" mounted at the name of the same ending.
-MOUNTED = ["unshare", "-rm", "bash", "-c", """for name in png pfm exr json svg csv html xml; do
+MOUNTED = ["unshare", "-rm", "bash", "-c", """for name in png pfm exr json; do
   [ ! -e a.$name ] || mount --bind real.$name a.$name || exit 99
 done
 exec "$0" "$@" """]
@@ -167,24 +161,11 @@ def put(*endings):
 
 @needs_mounts
 def test_mounted(right):
+    """All commands write by core/image/whole_file.h; here by one."""
     put("pfm", "png", "json")
     run(f"render {SCENE} --spp 2 -q -o a.pfm -o a.png --stats a.json", by=MOUNTED)
     assert read("real.pfm") == right and load("real.json")["spp"] == 2 and not read("a.pfm")
     same_picture("real.png", "real.png")
-    put("json", "html", "xml", "svg", "csv")
-    run("convert cornell-box -o a.json", by=MOUNTED)
-    assert read("real.json").decode() == run("convert cornell-box -o -")
-    run("compare real.pfm right.pfm --heatmap a.png", by=MOUNTED)
-    same_picture("real.png", "real.png")
-    os.mkdir("kept")
-    run("compare real.pfm --baseline kept --update")
-    run("compare real.pfm --baseline kept --report a.html --junit a.xml", by=MOUNTED)
-    assert b"</html>" in read("real.html") and b"</testsuite" in read("real.xml")
-    shutil.copy("right.pfm", "before.pfm")
-    run("compare real.pfm --baseline kept --update", loud=True,
-        by=mounting('mount --bind before.pfm kept/real.pfm && exec "$0" "$@"'))
-    run("chart cornell-box --size 8x8 --budget 1 -q -o a.svg", by=MOUNTED)
-    assert b"</svg>" in read("real.svg") and b"spp" in read("real.csv")
 
 
 @needs_mounts
@@ -220,7 +201,7 @@ def stopped(name, command):
 
 
 @needs_mounts
-def test_mounted_films(exr, right):
+def test_mounted_films(exr):
     """Checkpoints go beside it, the same command goes on from there, and only the finished film is written into it."""
     box = "render cornell-box --size 64x64 -q"
     beside = "a.unfinished.exr"
@@ -237,12 +218,3 @@ def test_mounted_films(exr, right):
     goes_on = rendered("cornell-box --size 64x64 --spp 5000 -o a.exr", loud=True, by=MOUNTED)
     assert goes_on["image_hash"] == image_hash(f"cornell-box --size 64x64 --spp {goes_on['spp']}")
     assert beside not in files()
-    for samples in ("0:1", "1:2"):
-        run(f"render {SCENE} --samples {samples} -q -o {samples[0]}.exr", loud=True)
-    put("exr")
-    run("merge 0.exr 1.exr -o a.exr", by=MOUNTED, loud=True)
-    same_picture("real.exr", "right.pfm")
-    shutil.copy("real.exr", "whole.exr")
-    put("exr")
-    run("denoise whole.exr -o a.exr", by=MOUNTED, loud=True)
-    same_picture("real.exr", "right.pfm")
