@@ -23,19 +23,6 @@ std::string file_of(const std::string& line) {
   return begin + line + " }";
 }
 
-/// The message about a scene in this folder, without the folder's path.
-std::string message(const std::string& text) {
-  std::string what = "read without complaint";
-  try {
-    read_scene(text, "bad.json", folder);
-  } catch (const SceneError& error) {
-    what = error.what();
-  }
-  const std::string path = folder.string() + "/";
-  if (const std::size_t at = what.find(path); at != what.npos) what.erase(at, path.size());
-  return what;
-}
-
 bool has_control_character(const std::string& text) {
   return std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
 }
@@ -49,8 +36,7 @@ TEST_CASE("bad scenes: each is refused with the line that it carries") {
     if (expected.starts_with("#")) continue;
     std::getline(table, line);
     CAPTURE(line);
-    std::string found = message(file_of(line));
-    expected = "bad.json: " + expected;
+    std::string found = complaint(file_of(line), {}, folder);
     CHECK_FALSE(has_control_character(found));
     if (constexpr std::string_view more = "…"; expected.ends_with(more)) {
       expected.resize(expected.size() - more.size());
