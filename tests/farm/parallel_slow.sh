@@ -8,7 +8,7 @@ for program in parallel rsync; do
   command -v $program >probe || { echo "skipped: $program is missing"; exit 77; }
 done
 export HOME=$PWD TYNDALL=$tyndall SHARDS=4 SAMPLES=10
-mkdir -p .parallel near/.parallel far bin && touch .parallel/will-cite near/.parallel/will-cite
+mkdir -p .parallel near far bin && touch .parallel/will-cite
 whole=$(image_hash cornell-smoke --size 24x24 --samples 0:10)
 expect 0 "$source_root/assets/farm/parallel.sh" cornell-smoke farm.exr --size 24x24
 same 'standard output' 'farm.exr: all 10 samples' "$(tail -1 out)"

@@ -94,6 +94,8 @@ TEST_CASE("check: indices must be in range, names unique, and textures must have
   breaks("/materials/white", [](Scene& s) { s.materials[1].name = "white"; });
   breaks("/textures/tiles", [](Scene& s) { s.textures[1].name = "tiles"; });
   breaks("/textures/planet/file", [](Scene& s) { s.textures[1].kind = Image{"planet.png", nullptr}; });
+  breaks("/background/file", [](Scene& s) { s.background = SkyPicture{}; });
+  breaks("/render/integrator", [](Scene& s) { s.render.integrator = static_cast<Integrator>(9); });
 }
 
 TEST_CASE("check: quads without area are refused, judged by their own size") {
