@@ -36,10 +36,10 @@ def test_signal_within_a_pass():
     """Its samples are kept, which some pixels have and others have not: that is said in a line, in the figures and in
     the files. Where all have the same number nothing is said; a signal hardly ever comes between two passes."""
     long = "render cornell-box --size 600x600 -t 1 -q -o uneven.png" + " -o uneven.exr" * HAS_EXR
-    for _ in range(5):
+    for attempt in range(1, 6):
         for name in pathlib.Path().glob("uneven.*"):
             name.unlink()
-        said = interrupted(f"{long} --spp 10000000 --stats uneven.json", LATER)
+        said = interrupted(f"{long} --spp 10000000 --stats uneven.json", attempt * LATER)
         stats = load("uneven.json")
         least, most = stats["least_spp"], stats["most_spp"]
         assert stats["spp"] == least
