@@ -84,8 +84,7 @@ class Commands:
         self.make_fixtures(scratch)
 
     def output(self, words):
-        done = subprocess.run([self.tyndall, *words], cwd=self.folder, stdout=subprocess.PIPE, check=True)
-        return done.stdout.decode()
+        return subprocess.run([self.tyndall, *words], cwd=self.folder, capture_output=True, check=True, text=True).stdout
 
     def make_fixtures(self, scratch):
         """What pages read without making it, and a root whose ./run and ./test build nothing."""
@@ -114,14 +113,12 @@ class Commands:
         except subprocess.CalledProcessError:
             self.with_exr = False  # a build without OpenEXR
         self.fake = scratch / "root"
+        for name in ("third_party", "build/release", "bin"):
+            (self.fake / name).mkdir(parents=True)
         for name in ("run", "test", "third_party/packages.sh", "third_party/switches.sh"):
-            (self.fake / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(self.root / name, self.fake / name)
-        (self.fake / "build/release").mkdir(parents=True)
-        (self.fake / "build/release/tyndall").symlink_to(self.tyndall)
-        (self.fake / "bin").mkdir()
-        for name in ("cmake", "ctest"):
-            (self.fake / "bin" / name).symlink_to("/bin/true")
+        for link, target in {"build/release/tyndall": self.tyndall, "bin/cmake": "/bin/true", "bin/ctest": "/bin/true"}.items():
+            (self.fake / link).symlink_to(target)
         self.environment |= {"TYNDALL_SKIP_PACKAGES": "1", "PATH": f"{self.fake}/bin:{os.environ['PATH']}"}
 
     def start_page(self, scratch, name):
@@ -149,7 +146,8 @@ class Commands:
             yield from self.check_other(program, words)
 
     def check_tyndall(self, program, words):
-        name = words[0] if words and words[0] in self.help else None
+        first = words[0] if words else "view"
+        name = first if words and first in self.help else None
         if name and len(words) == 1 and name not in ("view", "scenes"):
             return  # the text speaks of a command
         needs_exr = not self.with_exr and any(".exr" in word or word == "kept" for word in words)
@@ -158,16 +156,11 @@ class Commands:
                 yield f"{option} is no option of tyndall {name or 'view'}"
             return
         through_run = program != [self.tyndall]  # ./run renders, as there is no display
-        renders = name == "render" or (through_run and not name and words[:1] != ["--help"])
-        small = SMALL["render"] if renders else SMALL.get(name, [])
-        if renders and not LIMITS & set(words):
-            small = small + ["--spp", "1"]
-        if name == "compare" and "image.ppm" in words:
-            small = ["--time", "1"]
-        if "main.cc" in words:
-            small = [*small, "--trust"]  # also where the system has no guard
+        renders = name == "render" or (through_run and not name and first != "--help")
+        small = ["--spp", "1"] * (renders and not LIMITS & set(words)) + ["--trust"] * ("main.cc" in words)
+        small += ["--time", "1"] if name == "compare" and "image.ppm" in words else SMALL.get("render" if renders else name, [])
         checks = name == "verify" or any(word.startswith("--max-") for word in words)
-        opens_window = not through_run and (not words or name == "view" or (not name and words[0] not in ("help", "version") and words[0][0] != "-"))
+        opens_window = not through_run and (name == "view" or (not name and not re.match("help$|version$|-", first)))
         if opens_window or name == "inspect":
             files = (self.folder / word for word in words)
             reads = (*words, *(file.read_bytes() for file in files if file.is_file()))
@@ -178,8 +171,7 @@ class Commands:
 
     def run(self, command, expected):
         # A limit of processor time, as it does not depend on what else the machine is doing. CTest ends what only waits.
-        done = subprocess.run(command, cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        done = subprocess.run(command, cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL, capture_output=True,
                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (240, 240)))
         if done.returncode not in expected:
             shown = " ".join(str(word) for word in command)
@@ -196,7 +188,7 @@ class Commands:
                 if not re.search(rf"add_(executable|library)\({word}\b", lists):
                     yield f"{word} is no target"
         elif program == "build/release/tyndall_bench":
-            bench = "".join((self.root / "tests/bench" / name).read_text() for name in ("options.cpp", "main.cpp"))
+            bench = (self.root / "tests/bench/main.cpp").read_text()
             for word in words:
                 if "." not in word and f'"{word}"' not in bench:
                     yield f"{word} is neither a part nor an option of tyndall_bench"
@@ -204,7 +196,7 @@ class Commands:
             yield f"{program} is neither known to tests/check_commands.py nor a program of the repository"
 
     def unknown_options(self, text):
-        bench = (self.root / "tests/bench/options.cpp").read_text()
+        bench = (self.root / "tests/bench/main.cpp").read_text()
         known = options_of("".join(self.help.values()) + bench + self.overview) | set(OTHER_OPTIONS)
         for option in sorted(options_of(" ".join(CODE.findall(FENCE.sub("", text)))) - known):
             yield f"{option} is no option of any command"

@@ -59,7 +59,7 @@ def check_names(page, root):
                 yield f"{code}: there is no such file"
         elif re.fullmatch(r"[a-z]+/[a-z_]+", code) and not any((f / code).exists() for f in (root, page.parent)):
             room, name = code.split("/")
-            files = [code + end for end in ("_test.cpp", ".sh", "_slow.sh", "_nightly.sh")]
+            files = [code + end for end in ("_test.cpp", ".sh", "_slow.sh", "_nightly.sh")] + [f"{room}/test_{name}.py"]
             lists = (tests / "CMakeLists.txt").read_text()
             listed = re.search(rf"NAME {code}\b|_test\({name} ", lists)
             if (tests / room).is_dir() and not listed and not any((tests / file).exists() for file in files):

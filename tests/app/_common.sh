@@ -71,29 +71,10 @@ same() {
   [ "$2" = "$3" ] || fail "$1: '$2' and '$3' differ"
 }
 
-# image_hash RENDER-OPTIONS...: renders and prints the image's hash.
+# image_hash RENDER-OPTIONS...: renders by "renderer", which is the program, and prints the image's hash.
+renderer=("$tyndall")
 image_hash() {
-  "$tyndall" render "$@" -q -o hashed.pfm --stats hashed.json && json hashed.json image_hash
-}
-
-# work_of COMMAND...: the seconds of processor time that the command takes.
-work_of() {
-  local TIMEFORMAT='%U %S'
-  { time "$@" >/dev/null 2>&1; } 2>&1 | awk '{ print $1 + $2 }'
-}
-
-# wait_worked PROCESS SECONDS: until the process has used that much processor time (of all its threads), so that on a
-# machine with other work it has come as far as on a quiet one. It fails if the process ends before.
-wait_worked() {
-  local ticks worked=0
-  ticks=$(awk "BEGIN { print int($2 * $(getconf CLK_TCK)) }")
-  while [ "$worked" -lt "$ticks" ]; do
-    worked=$(awk '{ print $14 + $15 }' "/proc/$1/stat" 2>/dev/null) && [ -n "$worked" ] && [ -e "/proc/$1/exe" ] || {
-      fail "the command ended too early: $(cat err)"
-      return
-    }
-    sleep 0.05
-  done
+  "${renderer[@]}" render "$@" -q -o hashed.pfm --stats hashed.json </dev/null && json hashed.json image_hash
 }
 
 # no_leftovers: fails if a file is left that was only half written.

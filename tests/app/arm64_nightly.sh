@@ -19,17 +19,12 @@ on_arm() { "$qemu" -L "$libraries" "$@"; }
 arm=$source_root/build/arm64/tyndall
 on_arm "$arm" version | grep -q '^kernels  *scalar neon; this CPU runs scalar neon$' || fail "version: $(on_arm "$arm" version)"
 
-# hash SCENE ISA [PROGRAM...]: of a small picture.
-hash() {
-  local scene=$1 isa=$2
-  shift 2
-  "$@" render "$scene" --size 32x24 --samples 0:8 --isa "$isa" -t 1 -q -o picture.pfm --stats picture.json || fail "$scene, $isa"
-  json picture.json image_hash
-}
+arm_hash() { renderer=(on_arm "$arm") && image_hash "$@"; }
 pictures=0
 for scene in $("$tyndall" scenes | awk '{ print $1 }'); do
-  same "$scene, scalar" "$(hash "$scene" scalar on_arm "$arm")" "$(hash "$scene" scalar "$tyndall")"
-  same "$scene, neon" "$(hash "$scene" neon on_arm "$arm")" "$(hash "$scene" avx2 "$tyndall")"
+  small=("$scene" --size 32x24 --samples 0:8 -t 1)
+  same "$scene, scalar" "$(arm_hash "${small[@]}" --isa scalar)" "$(image_hash "${small[@]}" --isa scalar)"
+  same "$scene, neon" "$(arm_hash "${small[@]}" --isa neon)" "$(image_hash "${small[@]}" --isa avx2)"
   pictures=$((pictures + 2))
 done
 echo "$pictures pictures compared"

@@ -12,7 +12,7 @@ for preset in clang clang-libcxx; do
   ! grep -n 'warning:' $preset.log || fail "$preset warns"
   for isa in $("$tyndall" version | sed -n 's/^kernels .* runs //p'); do
     picture=(cornell-smoke --size 32x32 --spp 8 --isa "$isa")
-    same "$preset, $isa" "$(image_hash "${picture[@]}")" "$(tyndall=$scratch/$preset/tyndall image_hash "${picture[@]}")"
+    same "$preset, $isa" "$(image_hash "${picture[@]}")" "$(renderer=("$scratch/$preset/tyndall") && image_hash "${picture[@]}")"
   done
 done
 finish

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Which kernels a folder gets: those of this processor, all, or a list; what it keeps; and that packages need all.
+# Which kernels a folder gets: those of this processor, all, or a list; what it keeps; and that packages need all. What
+# "cmake --install" does after ./run, which builds the program alone: it installs that, and says what is not there.
 . "$(dirname "$0")/_common.sh"
 command -v cmake ninja >/dev/null || { echo 'skipped: cmake or ninja is missing'; exit 77; }
 grep -q 'avx2' /proc/cpuinfo || { echo 'skipped: a processor with AVX2 is needed'; exit 77; }
@@ -23,28 +24,12 @@ grep -q 'cmake --preset package' log || fail "what is needed for a package is no
 ! configure -DTYNDALL_INSTRUCTION_SETS=avx3 || fail 'a set that does not exist was accepted'
 grep -q 'found avx3, expected native, all, or a list of' log || fail "a wrong set: $(cat log)"
 
-# ./run configures anew on another processor, and where other sets are asked for, and only then.
-mkdir -p tree stand-ins
-cp -r "$source_root/run" "$source_root/third_party" tree
-cat >stand-ins/cmake <<'MSG'
-#!/bin/sh
-case $1 in
-  --preset)
-    mkdir -p "$4" && echo >"$4/build.ninja" && grep -m1 -E '^(flags|Features)' /proc/cpuinfo >"$4/processor.txt"
-    echo "$5" >>configured
-    echo "TYNDALL_INSTRUCTION_SETS:STRING=$(expr "${5:-=native}" : '.*=\(.*\)')" >"$4/CMakeCache.txt" ;;
-  --build) printf '#!/bin/sh\n' >"$2/tyndall" && chmod +x "$2/tyndall" ;;
-esac
-MSG
-chmod +x stand-ins/cmake
-export PATH=$PWD/stand-ins:$PATH TYNDALL_SKIP_PACKAGES=1
-expect 0 tree/run version
-expect 0 tree/run version
-same 'configured once' 1 "$(wc -l <tree/configured)"
-expect 0 env TYNDALL_INSTRUCTION_SETS=all tree/run version
-expect 0 tree/run version
-same 'configured for all, and kept' $'\n-DTYNDALL_INSTRUCTION_SETS=all' "$(cat tree/configured)"
-echo 'flags : of another processor' >tree/build/release/processor.txt
-expect 0 tree/run version
-same 'configured on another processor, for all' 3 "$(grep -c '' tree/configured)"
+cp "$tyndall" folder/tyndall # stands for the one that would be built
+expect 0 cmake --install folder --prefix "$PWD/there"
+grep -q 'not built, so not installed: libtyndall\.so.*--target tyndall_library' err || fail "the library is not told: $(cat err)"
+for file in bin/tyndall share/tyndall/scenes/showroom.json share/man/man1/tyndall.1.gz; do
+  [ -s "there/$file" ] || fail "$file was not installed"
+done
+[ -z "$(find there -name 'libtyndall*')" ] || fail 'a library comes from somewhere'
+expect 0 env -u TYNDALL_ASSETS there/bin/tyndall scenes
 finish

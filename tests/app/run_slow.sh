@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What ./run says while it builds without a terminal, when the window ends for want of a display, on sources that cannot
+# What ./run builds, and says while it builds without a terminal, when the window ends for want of a display, on sources that cannot
 # be written to, and without a network. CMake, dpkg-query, apt-get and the program that is built are stand-ins here.
 . "$(dirname "$0")/_common.sh"
 mkdir -p tree stand-ins
@@ -7,7 +7,10 @@ cp -r "$source_root/run" "$source_root/third_party" tree
 cat >stand-ins/cmake <<'MSG'
 #!/bin/sh
 case $1 in
-  --preset) mkdir -p "$4" && echo >"$4/build.ninja" && grep -m1 -E '^(flags|Features)' /proc/cpuinfo >"$4/processor.txt" ;;
+  --preset)
+    mkdir -p "$4" && echo >"$4/build.ninja" && grep -m1 -E '^(flags|Features)' /proc/cpuinfo >"$4/processor.txt"
+    echo "$5" >>configured
+    echo "TYNDALL_INSTRUCTION_SETS:STRING=$(expr "${5:-=native}" : '.*=\(.*\)')" >"$4/CMakeCache.txt" ;;
   --build)
     case $* in *commands*) for step in 1 2 3; do echo "c++ -o $step.o -c $step.cpp"; done; exit ;; esac
     for step in 1 2 3; do
@@ -37,13 +40,26 @@ same 'standard output' my.png "$(tail -n 1 out)"
 expect 130 env TYNDALL_SKIP_PACKAGES=1 DISPLAY=:9 VIEW_ENDS=130 tree/run my.json
 ! grep -q 'image' err || fail "an image is rendered though the window was open: $(cat err)"
 
+# It configures anew on another processor, and where other sets are asked for, and only then.
+rm -r tree/build tree/configured
+export TYNDALL_SKIP_PACKAGES=1
+expect 0 tree/run version
+expect 0 tree/run version
+same 'configured once' 1 "$(wc -l <tree/configured)"
+expect 0 env TYNDALL_INSTRUCTION_SETS=all tree/run version
+expect 0 tree/run version
+same 'configured for all, and kept' $'\n-DTYNDALL_INSTRUCTION_SETS=all' "$(cat tree/configured)"
+echo 'flags : of another processor' >tree/build/release/processor.txt
+expect 0 tree/run version
+same 'configured on another processor, for all' 3 "$(grep -c '' tree/configured)"
+
 # Another user: the sources cannot be written to.
 rm -rf tree/build && mkdir -m 777 cache
 if [ "$(id -u)" = 0 ] && setpriv --reuid 65534 --regid 65534 --clear-groups test -x "$PWD/tree/run"; then
   as_other=(setpriv --reuid 65534 --regid 65534 --clear-groups)
-  expect 0 "${as_other[@]}" env TYNDALL_SKIP_PACKAGES=1 XDG_CACHE_HOME="$PWD/cache" tree/run version
+  expect 0 "${as_other[@]}" env XDG_CACHE_HOME="$PWD/cache" tree/run version
   grep -q "cannot be written to, so Tyndall is built in $PWD/cache/tyndall" err || fail "the other folder is not told: $(cat err)"
-  expect 1 "${as_other[@]}" env TYNDALL_SKIP_PACKAGES=1 XDG_CACHE_HOME=/nowhere tree/run version
+  expect 1 "${as_other[@]}" env XDG_CACHE_HOME=/nowhere tree/run version
   same 'lines' 1 "$(grep -c 'both cannot be written' err)"
   [ "$(wc -l <err)" = 1 ] || fail "expected one line: $(cat err)"
 fi

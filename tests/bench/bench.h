@@ -1,10 +1,10 @@
 #pragma once
-#include "tests/bench/table.h"
+#include "core/base/seconds.h"
+#include "core/scene/scene.h"
 
 #include <filesystem>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <vector>
 
 /// Measurements of speed and accuracy. They are no tests: nothing fails for being slow. Figures of one run can be
@@ -13,13 +13,9 @@ namespace tyndall::bench {
 
 /// What one run is asked to do.
 struct Settings {
-  std::vector<std::string> parts;          ///< names, in the order of parts()
-  std::filesystem::path json;              ///< where to write all figures; empty: nowhere
-  std::filesystem::path references = ".";  ///< folder of the reference images
-  std::filesystem::path against;           ///< another program "tyndall"; empty: none
-  bool quick = false;                      ///< shorter and less exact
-  bool thorough = false;                   ///< also what takes minutes
-  int repeat = 0;                          ///< repetitions of each measurement; 0: each part's own number
+  std::vector<std::string> parts;  ///< names; none: all
+  std::filesystem::path against;   ///< another program "tyndall"; empty: none
+  bool quick = false;              ///< shorter and less exact
 };
 
 /// Something that was measured is wrong: two methods that must agree do not.
@@ -27,22 +23,47 @@ struct WrongResult : std::runtime_error {
   using runtime_error::runtime_error;
 };
 
-// Each part prints its table while it measures, and returns its rows. Throws WrongResult.
-Json measure_throughput(const Settings& settings);      ///< camera samples and rays a second, one thread
-Json measure_accuracy(const Settings& settings);        ///< seconds to a given error, two threads
-Json measure_closest(const Settings& settings);         ///< closest hits a second, beside Embree's
-Json measure_tree(const Settings& settings);            ///< build time and memory of trees over spheres
-Json measure_edits(const Settings& settings);           ///< milliseconds from an edit to its picture
-Json measure_approximations(const Settings& settings);  ///< how far each approximation moves the mean of pictures
-Json measure_clean(const Settings& settings);           ///< milliseconds that the clean view of a film takes
-Json measure_start(const Settings& settings);           ///< wall time of the smallest render as a process
-Json measure_against(const Settings& settings);  ///< speed and seconds to an error beside another program, in pairs
+// Each part prints its table while it measures. Throws WrongResult.
+void measure_accuracy(const Settings& settings);
+void measure_closest(const Settings& settings);
+void measure_clean(const Settings& settings);
+void measure_approximations(const Settings& settings);
 
-struct Part {
-  const char* name;
-  const char* about;
-  Json (*measure)(const Settings& settings);
+/// A table that is printed row by row, as the figures come: the first column to the left, the others to the right.
+class Table {
+ public:
+  Table(const std::string& title, std::vector<std::string> headings);
+  void add(const std::vector<std::string>& cells) const;
+
+ private:
+  std::vector<std::string> headings_;
 };
-const std::vector<Part>& parts();
+
+/// A number with so many digits after the point; "-" for what is none.
+std::string cell(double value, int digits);
+
+/// Wall time of a call in seconds.
+template <class Call>
+double seconds_of(Call&& call) {
+  const Clock::time_point start = Clock::now();
+  call();
+  return seconds_since(start);
+}
+
+/// The value that `fraction` (in [0, 1]) of the values do not exceed, interpolated between neighbours; not a number for
+/// none.
+double quantile(std::vector<double> values, double fraction);
+double median(std::vector<double> values);
+
+/// Threads that this process may run at once (see thread_count), at most two.
+int two_threads();
+
+struct NamedScene {
+  std::string name;
+  Scene scene;
+};
+
+/// A built-in scene in another size. Throws SceneError.
+Scene built_in(const std::string& name, int width, int height);
 
 }  // namespace tyndall::bench

@@ -1,85 +1,107 @@
 #include "core/base/error.h"
-#include "tests/bench/machine.h"
-#include "tests/bench/options.h"
+#include "core/scene/load.h"
+#include "core/system/processors.h"
+#include "tests/bench/bench.h"
+
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
-#include <exception>
-#include <fstream>
+#include <limits>
 
 namespace tyndall::bench {
 
-const std::vector<Part>& parts() {
-  static const std::vector<Part> list = {
-      {"throughput", "samples and rays a second on one thread, by scene and instruction set", measure_throughput},
-      {"accuracy", "seconds to relMSE 0.01 on two threads, and relMSE x spp", measure_accuracy},
-      {"closest", "closest hits a second among spheres, beside Embree's", measure_closest},
-      {"tree", "build time, memory and speed of trees over spheres", measure_tree},
-      {"edits", "milliseconds from an edit to its picture, interactive renderer", measure_edits},
-      {"clean", "milliseconds that the clean view of a film takes", measure_clean},
-      {"approximations", "how far each approximation moves the mean of pictures; minutes", measure_approximations},
-      {"start", "wall time of the smallest render as a process", measure_start},
-      {"against", "speed and seconds to relMSE 0.01 beside the program that --against names, in pairs",
-       measure_against},
-  };
-  return list;
+Table::Table(const std::string& title, std::vector<std::string> headings) : headings_(std::move(headings)) {
+  std::printf("\n%s\n", title.c_str());
+  add(headings_);
+}
+
+void Table::add(const std::vector<std::string>& cells) const {
+  std::printf("%-24s", cells[0].c_str());
+  for (std::size_t i = 1; i < cells.size(); ++i)
+    std::printf("  %*s", std::max(static_cast<int>(headings_[i].size()), 12), cells[i].c_str());
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+std::string cell(double value, int digits) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return std::isfinite(value) ? text : "-";
+}
+
+double quantile(std::vector<double> values, double fraction) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  const double place = fraction * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(place), above = std::min(below + 1, values.size() - 1);
+  return std::lerp(values[below], values[above], place - static_cast<double>(below));
+}
+
+double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
+
+int two_threads() { return std::min(thread_count().count, 2); }
+
+Scene built_in(const std::string& name, int width, int height) {
+  Scene scene = load_scene(name).scene;
+  scene.width = width;
+  scene.height = height;
+  return scene;
 }
 
 namespace {
 
 constexpr int wrong_result = 1, wrong_usage = 2, input_output_error = 3;
 
-void complain(const std::string& text) { std::fprintf(stderr, "tyndall_bench: %s\n", text.c_str()); }
+struct Part {
+  const char* name;
+  const char* about;
+  void (*measure)(const Settings& settings);
+};
+constexpr Part parts[] = {
+    {"accuracy", "seconds to relMSE 0.01, relMSE x spp; beside the program that --against names", measure_accuracy},
+    {"closest", "closest hits a second among spheres, beside Embree's", measure_closest},
+    {"clean", "milliseconds that the clean view of a film takes", measure_clean},
+    {"approximations", "how far each approximation moves the mean of pictures; minutes", measure_approximations}};
 
-void print_machine(const Json& json) {
-  std::printf("Tyndall %s, %s, %s, %d cores\n", json["version"].get<std::string>().c_str(),
-              json["compiler"].get<std::string>().c_str(), json["processor"].get<std::string>().c_str(),
-              json["cores"].get<int>());
-}
-
-/// Runs the wanted parts and puts their rows into json; answers the exit code.
-int measure(const Settings& settings, Json& json) {
+/// Runs the wanted parts; answers the exit code.
+int measure(const Settings& settings) {
   int code = 0;
-  for (const Part& part : parts()) {
-    if (std::find(settings.parts.begin(), settings.parts.end(), part.name) == settings.parts.end()) continue;
+  for (const Part& part : parts) {
+    if (!settings.parts.empty() && std::count(settings.parts.begin(), settings.parts.end(), part.name) == 0) continue;
     try {
-      json["parts"][part.name] = part.measure(settings);
+      part.measure(settings);
     } catch (const WrongResult& error) {
-      complain(std::string(part.name) + ": " + error.what());
+      std::fprintf(stderr, "tyndall_bench: %s: %s\n", part.name, error.what());
       code = wrong_result;
     }
   }
   return code;
 }
 
-int run(const Settings& settings) {
-  std::ofstream file;
-  const auto check_file = [&] {
-    if (!settings.json.empty() && !file) throw std::runtime_error(settings.json.string() + ": cannot be written");
-  };
-  if (!settings.json.empty()) file.open(settings.json);  // before minutes are spent
-  check_file();
-  Json json = machine();
-  json["quick"] = settings.quick;
-  print_machine(json);
-  const int code = measure(settings, json);
-  if (file.is_open()) file << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n" << std::flush;
-  check_file();
-  return code;
-}
-
-int main(const std::vector<std::string>& arguments) {
+int main(int argc, char** argv) {
+  Settings settings;
+  std::vector<std::string> names;
+  std::string list = "Parts:\n";
+  for (const Part& part : parts) {
+    names.emplace_back(part.name);
+    list += "  " + names.back() + std::string(16 - names.back().size(), ' ') + part.about + "\n";
+  }
+  CLI::App app("Measures how fast and how accurate Tyndall is on this machine.", "tyndall_bench");
+  app.footer(list);
+  app.add_option("PART", settings.parts, "what to measure; default: everything")->check(CLI::IsMember(names));
+  app.add_flag("--quick", settings.quick, "shorter and less exact");
+  app.add_option("--against", settings.against, "another program \"tyndall\", such as the last release")
+      ->check(CLI::ExistingFile);
   try {
-    const auto settings = read_settings(arguments);
-    return settings ? run(*settings) : 0;
-  } catch (const UsageError& error) {
-    complain(error.what());
-    return wrong_usage;
-  } catch (const SceneError& error) {
-    complain(error.what());
-    return wrong_usage;
+    app.parse(argc, argv);
+    std::printf("Tyndall %s, %d cores\n", TYNDALL_VERSION, thread_count().count);
+    return measure(settings);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : wrong_usage;
   } catch (const std::exception& error) {
-    complain(error.what());
+    std::fprintf(stderr, "tyndall_bench: %s\n", error.what());
     return input_output_error;
   }
 }
@@ -87,4 +109,4 @@ int main(const std::vector<std::string>& arguments) {
 }  // namespace
 }  // namespace tyndall::bench
 
-int main(int argc, char** argv) { return tyndall::bench::main({argv + (argc > 0 ? 1 : 0), argv + argc}); }
+int main(int argc, char** argv) { return tyndall::bench::main(argc, argv); }

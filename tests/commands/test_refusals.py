@@ -1,4 +1,5 @@
-"""What each command refuses: arguments, exit code, words of the one line that it says. No row changes a file."""
+"""What each command refuses: arguments, exit code, words of the one line that it says. No row changes a file. What the
+options alone decide is in app/cli/options, and wrong names of outputs are in app/files/outputs."""
 
 import os
 import pathlib
@@ -50,7 +51,7 @@ def inputs(tmp_path_factory):
         shutil.copy("texture.png", f"kept{number}")
     if HAS_EXR:
         for name, options in {"0": "--samples 0:2", "2": "--samples 2:4", "gap": "--samples 9:13", "one": "--spp 1",
-                              "seed": "--samples 2:4 --seed 3", "size": "--size 8x9 --samples 2:4", "four": "--spp 4",
+                              "size": "--size 8x9 --samples 2:4", "four": "--spp 4",
                               "adaptive": "--spp 4 --adaptive", "left": "--region 0,0,4,8", "right": "--region 4,0,8,8",
                               "lean": "--spp 2 --exr-film no"}.items():
             run(f"{SMALL} {options} -o {name}.exr", loud=True)
@@ -62,8 +63,6 @@ def inputs(tmp_path_factory):
 # The beginning of a command, the exit code, and for each row the other arguments and words of what it says.
 REFUSED = [
     ("", 2, [
-        ("render", "SCENE is missing"),
-        ("render cornell-box", "an output"),
         ("redner cornell-box -o a.png", 'unknown command "redner"', "render"),
         ("verify plaet", '"plaet"', 'did you mean "plate"?'),
         ("verify plate fog-bal/", '"fog-bal/"', "fog-ball"),
@@ -75,21 +74,12 @@ REFUSED = [
         ("render quads --size 1x268435456 --spp 1 -o a.png",),
     ]),
     (BOX, 2, [
-        ("--sied 3", "--sied", 'did you mean "--seed"?'),
         ("--size 12", "--size", '"12"', "WIDTHxHEIGHT"),
-        ("--size 0x10",),
         ("--size 70000x10", "width"),
-        ("--spp 4 --samples 0:4", "--spp", "--samples"),
         ("--region 0,0,601,10", "--region", "600"),
-        ("--isa sse5",),
-        ("--integrator miss", "miss", "mis"),
-        ("--sampler halton", "halton", "sobol"),
         ("--resume", "--resume", ".exr"),
         ("--checkpoint 1", "--checkpoint", ".exr"),
-        ("-o b.jpg", "b.jpg", ".png"),
-        ("-o noending", "noending"),
         ("-o a.png", "twice"),
-        ("-o ./a.png", "twice"),
         ("--stats a.png", "--stats", ".json"),
         ("--set /materials/nobody/fuzz=1", "/materials/nobody"),
         ("--set /camera/vfov=fast", "/camera/vfov", "fast"),
@@ -98,7 +88,6 @@ REFUSED = [
         ("--samples 0:4 --denoise", "--samples", "--denoise"),
         ("--spp 1 --denoise", "--denoise", "at least 2"),
         ("--gamma2", "--gamma2", ".ppm"),
-        ("--format png", "--format", "-o -"),
         ("--frame 0", "--frame", "animation"),
         *[(f"--watch-at={wrong}", "--watch-at: found", "expected HOST or HOST:PORT")
           for wrong in (":14158", "host:", "host:0", "host:65536", "host:x", "[::1", "[::1]x", "[::1]:")],
@@ -112,7 +101,6 @@ REFUSED = [
         ("float.json -o a.png", "reference.pfm", "floating-point"),
         ("adaptive.png --samples 0:4 -o a.png", "--samples", "adaptive"),
         ("film.json --frame 4 -o a.png", "--frame", "at most 3"),
-        ("quads -o -", "--format"),
         ("quads -o - --format jpg", "--format", "jpg"),
         ("quads -o - --format pgm", "ppm"),
         ("quads -o - --format png --stats -", "--stats -"),
@@ -149,7 +137,6 @@ REFUSED = [
     ]),
     ("compare", 2, [
         ("wider.pfm grey.pfm", "wider.pfm", "16x9", "16x8"),
-        ("a b c", "unexpected argument", '"c"'),
         ("texture.png texture.png --gamma2", "--gamma2", "PPM"),
         ("texture.png texture.png --time 3", "--time", "scene"),
         ("picture.ppm quads other.ppm", "unexpected argument", "other.ppm"),
@@ -177,7 +164,6 @@ REFUSED = [
         ("picture.ppm missing.png", "missing.png"),
     ]),
     ("convert", 2, [
-        ("showroom -o a.png", ".json"),
         ("showroom -o a.obj", "a.obj"),
         ("reference.pfm -o a.json", "reference.pfm"),
         *[(f"{arguments} -o a.{ending}", *words, "has no equal") for ending in ("pbrt", "xml", "py")
@@ -221,14 +207,10 @@ REFUSED = [
 REFUSED_FILMS = [
     ("merge", 2, [
         ("0.exr 2.exr -o 2.exr", "--output", "input"),
-        ("0.exr gap.exr -o a.png", "gap.exr", "missing"),
-        ("0.exr 0.exr -o a.png", "overlap"),
-        ("0.exr seed.exr -o a.png", "seed.exr"),
-        ("0.exr size.exr -o a.png",),
+        ("0.exr gap.exr -o a.png", "gap.exr", "missing"),  # app/cli/merge has all wrong sets
         ("0.exr texture.png -o a.png", "texture.png", "film"),
         ("chains.exr scatter.exr -o a.png", "scatter.exr", "other settings"),
-        ("adaptive.exr adaptive.exr -o a.exr", "adaptive.exr", "adaptive"),
-        ("lean.exr -o a.png", "lean.exr", "no film"),
+        ("adaptive.exr -o a.pfm", "adaptive"),
     ]),
     ("denoise", 2, [
         ("0.exr -o 0.exr", "--output", "input", "0.exr"),

@@ -12,11 +12,6 @@ from program import HAS_EXR, PROGRAM, ROOT, read, run, write
 SMALL = "render cornell-box --size 16x16 --spp 1"
 
 
-@pytest.mark.parametrize("command", ["--help", "-h", "render --help", "compare --help", "view --help", "scenes --help"])
-def test_help(command):
-    assert run(command)
-
-
 @pytest.mark.parametrize("command", ["-V", "version", "--version"])
 def test_version(command):
     run(command, out=re.compile("^tyndall [0-9]"))

@@ -183,7 +183,7 @@ TEST_CASE("whole file: what cannot be replaced is found beforehand, with the rea
 }
 
 TEST_CASE("whole file: a file of a folder that takes no new ones is written into, and cut or made longer") {
-  if (geteuid() == 0) return;  // permissions do not apply; tests/app/in_place_slow.sh tries it as another user
+  if (geteuid() == 0) return;  // permissions do not apply; tests/commands/test_outputs_slow.py tries it as another user
   const fs::path folder = scratch_folder("whole_closed"), file = folder / "a";
   for (const std::string& old : {std::string(200'000, 'x'), std::string("x"), std::string()}) {
     write_text(file, old);

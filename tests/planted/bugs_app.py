@@ -34,7 +34,7 @@ APP = [
     ("how many times slower, not faster", "app/curves/curve.cpp", "return «*slow / *fast → *fast / *slow»;", "app/curves/curve"),
     ("between two points always the middle one", "app/curves/curve.cpp",
      "const double part = «part_between(a.seconds, b.seconds, seconds) → 0.5»;", "app/curves/curve"),
-    ("a chart that cannot be written is no error", "app/curves/chart.cpp", "«if (!problem.empty()) throw ImageFileError(problem); → »", "app/chart_slow.sh"),
+    ("a chart that cannot be written is no error", "app/curves/chart.cpp", "«if (!problem.empty()) throw ImageFileError(problem); → »", "commands/measured_slow"),
 
     ("a light that moves is written at rest", "app/export/foreign_scene.cpp",
      "if («std::holds_alternative<Light<double>>(material.kind) → false») refuse(\"/objects\", \"a light that moves\"", "commands/refusals commands/convert_foreign_slow"),
@@ -47,7 +47,7 @@ APP = [
      "commands/refusals commands/convert_foreign_slow"),
 
     ("a ring is a disk", "app/report/contents.cpp", "has_hole = «disk && disk->inner > 0 → false»;", "app/report/contents"),
-    ("a box of light is one lamp", "app/report/contents.cpp", "std::holds_alternative<Box<>>(solid.shape) ? «6 → 1» : 1;", "app/report/contents app/contents.sh"),
+    ("a box of light is one lamp", "app/report/contents.cpp", "std::holds_alternative<Box<>>(solid.shape) ? «6 → 1» : 1;", "app/report/contents"),
     ("the noise of halves is twice that of their mean", "app/report/film_difference.cpp", "const Vec3f deviates = «0.5f → 1.0f» * (a - b);", "app/report/film_difference"),
     ("the squared difference has the noise of one half in it", "app/report/film_difference.cpp",
      "squares += sum_of(a * «b → a»);", "app/report/film_difference"),
@@ -192,12 +192,12 @@ APP = [
     ("a picture that cannot be read passes", "app/comparison/baseline.cpp", "«picture.failures.emplace_back(problem.what()); → »", "app/baseline.sh"),
     ("variances pass as errors", "app/comparison/pair.cpp", "if («squared → false»)\n", "app/max_z.sh"),
 
-    ("failed samples are no failure", "app/watch/watch.cpp", "return failures > 0 ? «1 → 0» : 0;", "app/watch.sh"),
-    ("the caller's rounding is lost", "app/watch/watch.cpp", "~Host() {\n    «std::fesetenv(&arithmetic_); → »", "app/watch.sh"),
-    ("a seed is not handed on", "app/watch/watch.cpp", "«scene.render.seed = options.seed; → »", "app/watch.sh"),
+    ("failed samples are no failure", "app/watch/watch.cpp", "return failures > 0 ? «1 → 0» : 0;", "commands/installed"),
+    ("the caller's rounding is lost", "app/watch/watch.cpp", "~Host() {\n    «std::fesetenv(&arithmetic_); → »", "commands/installed"),
+    ("a seed is not handed on", "app/watch/watch.cpp", "«scene.render.seed = options.seed; → »", "commands/installed"),
     ("more samples than there can be are taken", "app/watch/watch.cpp",
-     "«if (options.spp > max_samples) refuse(fmt::format(\"spp: found {}, expected at most {}\", options.spp, max_samples)); → »", "app/watch.sh"),
-    ("options of an older header are read behind their end", "app/watch/watch.cpp", "std::memcpy(&options, given, «std::min(given->size, sizeof options) → sizeof options»);", "app/watch.sh"),
+     "«if (options.spp > max_samples) refuse(fmt::format(\"spp: found {}, expected at most {}\", options.spp, max_samples)); → »", "commands/installed"),
+    ("options of an older header are read behind their end", "app/watch/watch.cpp", "std::memcpy(&options, given, «std::min(given->size, sizeof options) → sizeof options»);", "commands/installed"),
 
     ("swapped red and blue are not tried", "app/check/reading.cpp", "picture.numbers[at + («reading.swapped ? 2 - c : c → c»)];", "app/check/statistics"),
     ("a mean product in place of a covariance", "app/check/statistics.cpp", "(products - «a * b / count → 0.0») / (count - 1)", "app/check/statistics"),
@@ -207,10 +207,10 @@ APP = [
     ("light of a depth alone, not up to it", "app/check/statistics.cpp", "for (std::size_t k = 1; k < light.size(); ++k) «light[k] += light[k - 1]; → »",
      "app/check/statistics"),
 
-    ("parts of adaptive renders are merged", "app/cli/merge.cpp", "if («part.scene.render.adaptive → false»)", "app/shards.sh"),
-    ("one value is varied twice", "app/cli/options.cpp", "&& «axes[0].pointer == axes[1].pointer → false»)", "commands/refusals app/sweep.sh"),
-    ("a picture of too few samples counts as whole", "app/cli/kept_pictures.cpp", "found > wanted : «found != wanted → found > wanted»))", "app/animate.sh app/sweep.sh"),
-    ("a file that cannot be written is no failure", "app/cli/merge.cpp", "return problems.empty() ? 0 : «output_failed → 0»;", "app/shards.sh"),
-    ("--fresh goes on all the same", "app/cli/kept_pictures.cpp", "const bool whole = «!job.command.fresh → true» &&", "app/animate.sh app/sweep.sh"),
-    ("a frame that was not written is listed as whole", "app/cli/animate.cpp", "«if (!written) return; → »", "app/animate.sh app/full_disk.sh"),
+    ("parts of adaptive renders are merged", "app/cli/merge.cpp", "if («part.scene.render.adaptive → false»)", "commands/refusals"),
+    ("one value is varied twice", "app/cli/options.cpp", "&& «axes[0].pointer == axes[1].pointer → false»)", "commands/refusals"),
+    ("a picture of too few samples counts as whole", "app/cli/kept_pictures.cpp", "found > wanted : «found != wanted → found > wanted»))", "commands/films"),
+    ("a file that cannot be written is no failure", "app/cli/merge.cpp", "return problems.empty() ? 0 : «output_failed → 0»;", "commands/films"),
+    ("--fresh goes on all the same", "app/cli/kept_pictures.cpp", "const bool whole = «!job.command.fresh → true» &&", "commands/films"),
+    ("a frame that was not written is listed as whole", "app/cli/animate.cpp", "«if (!written) return; → »", "commands/films commands/render"),
 ]

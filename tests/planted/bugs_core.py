@@ -86,7 +86,7 @@ CORE = [
     ("memory for another height is kept", "core/clean/clean.cpp",
      "if (cells_x_ == cells_in(width) && «cells_y_ == cells_in(height) → true») return;", "clean/clean"),
 
-    ("keys with a slash are not escaped", "core/scene/place.cpp", "c == '/' ? «\"~1\" → \"~0\"» : std::string(1, c);", "scene/place scene/override"),
+    ("keys with a slash are not escaped", "core/scene/place.cpp", "c == '/' ? «\"~1\" → \"~0\"» : std::string(1, c);", "scene/check scene/override"),
     ("the third component is not checked", "core/scene/check.cpp",
      "for (std::size_t i = 0; i < «3 → 2»; ++i) check_value({at, i}, meaning, components[i]);", "scene/check"),
     ("two materials may have one name", "core/scene/check.cpp", "if («!names.insert(thing.name).second → false»)", "scene/check scene/bad_scenes"),

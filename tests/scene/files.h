@@ -23,14 +23,16 @@ inline Scene parsed(const std::string& text, const std::vector<Override>& overri
   return read_scene(text, "x.json", assets_folder() / "scenes", overrides);
 }
 
-/// What reading a text says, without "x.json: "; empty if it is a scene.
-inline std::string complaint(const std::string& text, const std::vector<Override>& overrides = {}) {
+/// What reading a text in a folder says, without "x.json: " and the folder's path; empty if it is a scene.
+inline std::string complaint(const std::string& text, const std::vector<Override>& overrides = {},
+                             const std::filesystem::path& folder = assets_folder() / "scenes") {
   try {
-    parsed(text, overrides);
+    read_scene(text, "x.json", folder, overrides);
     return "";
   } catch (const SceneError& error) {
-    const std::string what = error.what(), name = "x.json: ";
-    return what.compare(0, name.size(), name) == 0 ? what.substr(name.size()) : "without the file's name: " + what;
+    std::string what = error.what(), name = "x.json: ", path = folder.string() + "/";
+    for (std::size_t at; (at = what.find(path)) != what.npos;) what.erase(at, path.size());
+    return what.starts_with(name) ? what.substr(name.size()) : "without the file's name: " + what;
   }
 }
 

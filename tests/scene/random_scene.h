@@ -1,36 +1,44 @@
 #pragma once
 #include "core/scene/check.h"
+#include "core/scene/slots.h"
+#include "tests/scene/everything.h"
+#include "tests/scene/files.h"
 
 #include <cmath>
 #include <random>
 
-/// Valid scenes that use every value of the format, driven by the same lists as reading and writing.
-namespace tyndall {
+/// Valid scenes that use every value of the format, by the same lists as reading and writing.
+namespace tyndall::test {
 
-class SceneGenerator {
- public:
-  explicit SceneGenerator(unsigned seed) : random_(seed) {}
-
-  Scene scene() {
-    Scene out;
-    out.name = name();
-    out.width = 1 + below(65536);
-    out.height = 1 + below(65536);
-    out.camera = camera();
-    out.background = background();
-    fill(out.render);
-    fill(out.display);
-    for (int i = below(5); i > 0; --i) out.textures.push_back(texture(out.textures.size()));
-    textures_ = static_cast<int>(out.textures.size());
-    for (int i = 1 + below(5); i > 0; --i) out.materials.push_back(material(out.materials.size()));
-    materials_ = static_cast<int>(out.materials.size());
-    out.objects = objects(3);
-    return out;
+inline void add_parts(const std::vector<Object>& objects, const std::string& before, std::vector<std::string>& parts) {
+  const auto add_steps = [&](const std::string& owner, const Transform& transform) {
+    for (std::size_t k = 0; k < transform.size(); ++k) parts.push_back(owner + "/transform/" + std::to_string(k));
+  };
+  for (std::size_t k = 0; k < objects.size(); ++k) {
+    const std::string part = before + "/objects/" + std::to_string(k);
+    parts.push_back(part);
+    add_steps(part, objects[k].transform);
+    if (const Volume* volume = std::get_if<Volume>(&objects[k].kind)) {
+      parts.push_back(part + "/boundary");
+      add_steps(part + "/boundary", volume->boundary_transform);
+    }
+    if (const Group* group = std::get_if<Group>(&objects[k].kind)) add_parts(group->objects, part, parts);
   }
+}
 
- private:
-  std::mt19937 random_;
-  int textures_ = 0, materials_ = 0;
+/// All parts of a scene.
+inline std::vector<std::string> parts_of(const Scene& scene) {
+  std::vector<std::string> parts{"", "/camera", "/render", "/display", "/image", "/animation", "/background"};
+  for (const Material& material : scene.materials) parts.push_back("/materials/" + pointer_step(material.name));
+  for (const Texture& texture : scene.textures) parts.push_back("/textures/" + pointer_step(texture.name));
+  add_parts(scene.objects, "", parts);
+  return parts;
+}
+
+/// Random values, and names.
+class RandomValues {
+ public:
+  explicit RandomValues(unsigned seed) : random_(seed) {}
 
   int below(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
   bool chance() { return below(2) == 0; }
@@ -47,25 +55,11 @@ class SceneGenerator {
     }
   }
 
-  void fill(const Valid& valid, double& out) { out = number(valid); }
-  void fill(const Valid& valid, int& out) { out = static_cast<int>(valid.low) + below(5000); }
-  void fill(const Valid&, std::uint32_t& out) { out = static_cast<std::uint32_t>(random_()); }
-  void fill(const Valid&, bool& out) { out = chance(); }
-  template <NamedEnum E>
-  void fill(const Valid&, E& out) {
-    out = static_cast<E>(below(count_of<E>()));
-  }
-  void fill(const Valid& valid, Vec3d& out) { out = {number(valid), number(valid), number(valid)}; }
-  template <class T>
-  void fill(const Valid& valid, std::optional<T>& out) {
-    if (chance()) fill(valid, out.emplace());
-  }
-  template <class Owner>
-  void fill(Owner& out) {
-    const auto one = [&](const auto& field) {
-      if (field.required || chance()) fill(field.valid, out.*field.value);
-    };
-    std::apply([&](const auto&... field) { (one(field), ...); }, fields_of<Owner>());
+  Value value(const Slot& slot) {
+    if (!slot.choices.empty()) return static_cast<double>(below(static_cast<int>(slot.choices.size())));
+    if (slot.form == ValueForm::whole) return std::max(slot.valid.low, 0.0) + below(5000);
+    if (slot.form == ValueForm::number) return number(slot.valid);
+    return Vec3d{number(slot.valid), number(slot.valid), number(slot.valid)};
   }
 
   /// A text with letters that JSON, pointers and terminals treat specially.
@@ -76,136 +70,35 @@ class SceneGenerator {
     for (int i = below(8); i > 0; --i) out += letters[below(16)];
     return out;
   }
-  std::string unique_name(std::size_t i) { return name() + std::to_string(i); }
 
-  Camera camera() {
-    Camera out;
-    fill(out);
-    out.vup = {0, 1, 0};
-    out.look_at = out.look_from + Vec3d{1 + std::abs(out.look_from.x), 0.1, 0.2};
-    out.shutter_open = number(any_number());
-    out.shutter_close = chance() ? out.shutter_open : out.shutter_open + number(at_least(0));
-    return out;
-  }
-
-  Background background() {
-    Background out;
-    if (chance())
-      fill(at_least(0), out.emplace<Vec3d>());
-    else if (chance())
-      fill(out.emplace<Gradient>());
-    else
-      fill(out.emplace<Hemispheres>());
-    return out;
-  }
-
-  Texture texture(std::size_t i) {
-    Texture out{unique_name(i), {}};
-    if (below(3) == 0)
-      fill(out.kind.emplace<Solid<>>());
-    else if (chance())
-      fill(out.kind.emplace<Checker<>>());
-    else
-      fill(out.kind.emplace<Noise<>>());
-    return out;
-  }
-
-  ColourOrTexture colour(const Valid& valid) {
-    if (textures_ > 0 && chance()) return TextureIndex{below(textures_)};
-    Vec3d out;
-    fill(valid, out);
-    return out;
-  }
-
-  Material material(std::size_t i) {
-    Material out;
-    out.name = unique_name(i);
-    switch (below(4)) {
-      case 0:
-        out.kind = Lambertian<>();
-        break;
-      case 1:
-        fill(out.kind.emplace<Metal<>>());
-        break;
-      case 2:
-        fill(out.kind.emplace<Dielectric<>>());
-        return out;  // without colour
-      default:
-        out.kind = Light<>();
-    }
-    out.colour = colour(std::holds_alternative<Light<>>(out.kind) ? at_least(0) : between(0, 1));
-    return out;
-  }
-
-  Transform transform() {
-    Transform out;
-    for (int i = below(3); i > 0; --i) {
-      if (chance())
-        out.emplace_back(RotateY{number(any_number())});
-      else
-        fill(any_number(), std::get<Translate>(out.emplace_back(Translate())).offset);
-    }
-    return out;
-  }
-
-  Box<> box() {
-    Box<> out;
-    fill(out);
-    out.max = {out.min.x + number(above(0.1)), out.min.y + number(above(0.1)), out.min.z + number(above(0.1))};
-    return out;
-  }
-  Quad<> quad() {
-    Quad<> out;
-    fill(out);
-    if (dot(out.u, out.u) == 0) out.u.x = 1;
-    out.v = {out.u.y + 1, -out.u.x, out.u.z - 1};
-    return out;
-  }
-
-  void fill_flat(Solid3d& solid) {
-    const Quad<> frame = quad();
-    const int which = below(3);
-    if (which == 0) solid.shape = frame;
-    if (which == 1) solid.shape = Triangle<>{frame.corner, frame.u, frame.v};
-    if (which == 2) solid.shape = Disk<>{frame.corner, frame.u, frame.v, chance() ? 0.625 : 0};
-  }
-
-  Object object(int depth) {
-    Object out;
-    if (chance()) out.name = name();
-    out.transform = transform();
-    const int kind = below(depth > 0 ? 5 : 4);
-    if (kind == 4) {
-      out.kind = Group{objects(depth - 1)};
-    } else if (kind == 3) {
-      Volume fog;
-      Sphere<> ball{{1, 2, 3}, number(above(0.1)), std::nullopt};
-      if (chance())
-        fog.boundary = ball;
-      else
-        fog.boundary = box();
-      fog.boundary_transform = transform();
-      fill(fog.medium);
-      fog.albedo = colour(between(0, 1));
-      out.kind = fog;
-    } else {
-      Solid3d solid;
-      if (kind == 0) fill(solid.shape.emplace<Sphere<>>());
-      if (kind == 1) fill_flat(solid);
-      if (kind == 2) solid.shape = box();
-      solid.material = below(materials_);
-      out.kind = solid;
-    }
-    return out;
-  }
-
-  std::vector<Object> objects(int depth) {
-    std::vector<Object> out;
-    for (int i = below(6); i > 0; --i) out.push_back(object(depth));
-    return out;
-  }
+ private:
+  std::mt19937 random_;
 };
 
-inline Scene random_scene(unsigned seed) { return SceneGenerator(seed).scene(); }
+/// Some of the things of a scene that has all kinds, by other names, with random values as far as they fit each other.
+inline Scene random_scene(unsigned seed) {
+  RandomValues random(seed);
+  static const Scene all = parsed(everything);
+  Scene scene = all;
+  std::erase_if(scene.objects, [&](const Object&) { return random.chance(); });
+  scene.name = random.name();
+  for (Object& object : scene.objects) object.name = random.chance() ? random.name() : "";
+  for (Material& material : scene.materials) material.name = random.name() + material.name;
+  for (Texture& texture : scene.textures) texture.name = random.name() + texture.name;
+  scene.textures.back().kind = Solid<>();  // in place of a picture, which takes long to read
+  if (random.chance()) scene.background = Gradient{};
+  if (random.chance()) scene.background = Vec3d{1, 2, 3};
+  if (random.chance()) scene.camera.focus_distance.reset();
+  scene.camera.shutter_open = random.number(any_number());
+  scene.camera.shutter_close = scene.camera.shutter_open + (random.chance() ? 0 : random.number(at_least(0)));
+  for (const std::string& part : parts_of(scene))
+    for (const Slot& slot : slots_of(scene, part)) {
+      const Scene before = scene;
+      if (random.below(4) == 0) continue;
+      put_value(scene, slot.pointer, random.value(slot));
+      if (check(scene)) scene = before;
+    }
+  return scene;
+}
 
-}  // namespace tyndall
+}  // namespace tyndall::test

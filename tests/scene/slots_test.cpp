@@ -8,31 +8,6 @@ namespace tyndall::test::slots_test {
 
 namespace {
 
-void add_parts(const std::vector<Object>& objects, const std::string& before, std::vector<std::string>& parts) {
-  const auto add_steps = [&](const std::string& owner, const Transform& transform) {
-    for (std::size_t k = 0; k < transform.size(); ++k) parts.push_back(owner + "/transform/" + std::to_string(k));
-  };
-  for (std::size_t k = 0; k < objects.size(); ++k) {
-    const std::string part = before + "/objects/" + std::to_string(k);
-    parts.push_back(part);
-    add_steps(part, objects[k].transform);
-    if (const Volume* volume = std::get_if<Volume>(&objects[k].kind)) {
-      parts.push_back(part + "/boundary");
-      add_steps(part + "/boundary", volume->boundary_transform);
-    }
-    if (const Group* group = std::get_if<Group>(&objects[k].kind)) add_parts(group->objects, part, parts);
-  }
-}
-
-/// All parts of a scene.
-std::vector<std::string> parts_of(const Scene& scene) {
-  std::vector<std::string> parts{"", "/camera", "/render", "/display", "/image", "/animation", "/background"};
-  for (const Material& material : scene.materials) parts.push_back("/materials/" + pointer_step(material.name));
-  for (const Texture& texture : scene.textures) parts.push_back("/textures/" + pointer_step(texture.name));
-  add_parts(scene.objects, "", parts);
-  return parts;
-}
-
 /// As a scene's file has it.
 JsonValue json_of(const Slot& slot) {
   if (slot.form == ValueForm::choice)
@@ -57,7 +32,7 @@ bool is_same(const JsonValue& a, const JsonValue& b) {
 TEST_CASE("slots: values by their pointers are those of the scene's document, and are set as there") {
   int seen = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
-    const Scene scene = SceneGenerator(seed).scene();
+    const Scene scene = random_scene(seed);
     for (const std::string& part : parts_of(scene))
       for (const Slot& slot : slots_of(scene, part)) {
         const auto written = value_at_pointer(scene, slot.pointer);

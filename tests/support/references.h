@@ -44,10 +44,9 @@ inline Reference reference_of(Scene scene, std::uint32_t spp) {
   return reference;
 }
 
-/// relMSE of a film against the truth, without the noise of the reference: the mean of (x - a)(x - b) / (ref² + 0.01),
-/// where a and b are the halves of the reference. May be negative where the film is better than the reference.
-inline double true_relative_mse(const Film& film, const Reference& reference) {
-  const std::vector<float> image = resolve(film);
+/// relMSE of a picture against the truth, without the noise of the reference: the mean of (x - a)(x - b) / (ref² + 0.01),
+/// where a and b are the halves of the reference. May be negative where the picture is better than the reference.
+inline double true_relative_mse(const std::vector<float>& image, const Reference& reference) {
   assert(image.size() == reference.half[0].size());
   double sum = 0;
   for (std::size_t i = 0; i < image.size(); ++i) {
@@ -56,6 +55,9 @@ inline double true_relative_mse(const Film& film, const Reference& reference) {
     sum += (x - a) * (x - b) / (level * level + floor_of_square);
   }
   return sum / static_cast<double>(image.size());
+}
+inline double true_relative_mse(const Film& film, const Reference& reference) {
+  return true_relative_mse(resolve(film), reference);
 }
 
 }  // namespace tyndall::test

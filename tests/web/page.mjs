@@ -23,6 +23,13 @@ const drop = (page, ...files) => page.evaluate(`(() => {
     list.items.add(new File([Uint8Array.from(atob(text), c => c.charCodeAt(0))], name));
   Module.canvas.dispatchEvent(new DragEvent('drop', {dataTransfer: list, bubbles: true, cancelable: true}));
 })()`);
+// Opens the page, waits for a whole picture, and closes it after use.
+async function withPage(what, use) {
+  const page = await browser.open(address(what));
+  await page.settled();
+  await use(page);
+  await page.close();
+}
 const memory = page => page.evaluate('Module.wasmMemory.buffer.byteLength / 1e6');
 const hashOf = png => readFileSync(png, 'latin1').match(/"image_hash": ?"([0-9a-f]+)"/)[1];
 
@@ -47,9 +54,7 @@ const tests = {
     }
   },
 
-  async drags() {
-    const page = await browser.open(address('showroom'));
-    await page.settled();
+  drags: () => withPage('showroom', async page => {
     for (const name of ['gold.fuzz', 'glass.refractive_index', 'Fog.density']) {
       const {x0, y0, x1, value} = await widget(page, name), from = page.lines.length;
       await page.drag(x0 + 5, y0 + 8, x1 - 5, y0 + 8);
@@ -65,8 +70,7 @@ const tests = {
     console.log(`camera: ${count} edits shown, median ${median} ms`);
     expect('camera shows many edits', count > 15);
     await page.shot(`${shots}/drag-camera.png`);
-    await page.close();
-  },
+  }),
 
   async snapshot() {
     const page = await browser.open(address('cornell-smoke'));
@@ -77,34 +81,27 @@ const tests = {
     expect('hash of the snapshot, rendered again', hashOf(file), hashOf(`${shots}/again.png`));
     await page.close();
 
-    const other = await browser.open(address('cornell-box'));
-    await other.settled();
-    await drop(other, ['mine.png', readFileSync(file)]);
-    await other.until('the snapshot\'s scene', () => other.said(/^message .*mine\.png/));
-    await other.close();
+    await withPage('cornell-box', async page => {
+      await drop(page, ['mine.png', readFileSync(file)]);
+      await page.until('the snapshot\'s scene', () => page.said(/^message .*mine\.png/));
+    });
   },
 
-  async saves() {
-    const page = await browser.open(address('cornell-box'));
-    await page.settled();
+  saves: () => withPage('cornell-box', async page => {
     const file = await download(page, 'cornell-box.json', async () => {
       await page.control('s'), await seconds(1), await page.key('Enter', 'Enter', 13);
     });
     execFileSync(tyndall, ['inspect', file], {stdio: 'ignore'});
-    await page.close();
-  },
+  }),
 
-  async drops() {
-    const page = await browser.open(address('cornell-box'));
-    await page.settled();
+  drops: () => withPage('cornell-box', async page => {
     const from = page.lines.length;
     await drop(page, ['mine.json', readFileSync(assets + '/scenes/quads.json')]);
     await page.until('the message', () => page.said(/^message .*opened mine\.json/, from));
     await page.picture(from), await seconds(2), await page.shot(`${shots}/dropped.png`);
     await drop(page, ['bad.json', '{"camera": 1}']);
     await page.until('what is wrong', () => page.said(/^message .*found no "tyndall"/, from));
-    await page.close();
-  },
+  }),
 
   async links() {
     const page = await browser.open(address('showroom'));
@@ -123,10 +120,9 @@ const tests = {
     expect('fuzz of the linked scene', (await widget(other, 'gold.fuzz')).value, fuzz);
     expect('its own link', await copied(other), link);
     await other.close();
-    const textures = await browser.open(address('earth'));
-    await textures.settled();
-    await seconds(2), await textures.shot(`${shots}/earth.png`);
-    await textures.close();
+    await withPage('earth', async page => {
+      await seconds(2), await page.shot(`${shots}/earth.png`);
+    });
   },
 
   async tabs() {
@@ -160,9 +156,7 @@ const tests = {
     await seconds(2), await later.close();
   },
 
-  async looks_closer() {
-    const page = await browser.open(address('showroom'));
-    await page.settled();
+  looks_closer: () => withPage('showroom', async page => {
     await page.click(...centre(await widget(page, 'tab.Scenes')));
     await page.until('the scenes', () => [...page.widgets.keys()].some(name => name.includes('cornell-box')), 10);
     await seconds(4), await page.shot(`${shots}/scenes.png`);
@@ -171,20 +165,16 @@ const tests = {
     await page.command('split view');
     await page.until('both halves', () => page.frames().at(-1)[2] > 2);
     await seconds(2), await page.shot(`${shots}/split.png`);
-    await page.close();
-  },
+  }),
 
-  async resizes() {
-    const page = await browser.open(address('cornell-box'));
-    await page.settled();
+  resizes: () => withPage('cornell-box', async page => {
     const resize = (width, height, deviceScaleFactor) => page.call('Emulation.setDeviceMetricsOverride', {width, height, deviceScaleFactor, mobile: false});
     for (const [width, height, density] of [[900, 600, 1], [700, 500, 2], [1280, 720, 1]]) {
       await resize(width, height, density);
       await page.until('the size', () => page.said(new RegExp(`^size ${width * density} ${height * density}`)));
       await seconds(1), await page.shot(`${shots}/size-${width}x${height}@${density}.png`);
     }
-    await page.close();
-  },
+  }),
 
   async wrong_scenes() {
     const said = (what, input) => spawnSync(tyndall, ['inspect', what], {input}).stderr.toString().trim().replace(/^tyndall: /, '');
@@ -215,9 +205,7 @@ const tests = {
     }
   },
 
-  async touches() {
-    const page = await browser.open(address('showroom'));
-    await page.settled();
+  touches: () => withPage('showroom', async page => {
     await page.call('Emulation.setTouchEmulationEnabled', {enabled: true, maxTouchPoints: 2});
     const gesture = async (name, count, points) => {
       const from = page.lines.length;
@@ -234,12 +222,9 @@ const tests = {
     const {x0, y0, value} = await widget(page, 'gold.fuzz');
     await gesture('slider', 3, k => [[x0 + 8 + 4 * k, y0 + 10]]);
     expect('fuzz has changed', page.widgets.get('gold.fuzz').value != value);
-    await page.close();
-  },
+  }),
 
-  async hides() {
-    const page = await browser.open(address('cornell-box'));
-    await page.settled();
+  hides: () => withPage('cornell-box', async page => {
     const hide = hidden => page.evaluate(`Object.defineProperty(document, 'hidden', {value: ${hidden}, configurable: true});
         document.dispatchEvent(new Event('visibilitychange'))`);
     await hide(true), await seconds(1);
@@ -249,12 +234,9 @@ const tests = {
     console.log(`a tab with ${before} samples a pixel has ${after} when it is seen again`);
     expect('a hidden tab takes no samples', after <= before + 4);
     await page.until('more samples', () => page.frames().at(-1)[2] > after, 10);
-    await page.close();
-  },
+  }),
 
-  async memory() {
-    const page = await browser.open(address('cornell-box'));
-    await page.settled();
+  memory: () => withPage('cornell-box', async page => {
     const scenes = execFileSync(tyndall, ['scenes']).toString().match(/^[a-z][\w-]*/gm).slice(0, 20), sizes = [];
     for (const scene of scenes) {
       const from = page.lines.length;
@@ -265,8 +247,7 @@ const tests = {
     }
     console.log(`memory after each of ${sizes.length} scenes, MB: ${sizes.join(' ')}`);
     expect('memory below 1 GB', sizes.at(-1) < 1000);
-    await page.close();
-  },
+  }),
 };
 
 mkdirSync(shots, {recursive: true});

@@ -23,8 +23,7 @@ mapfile -t scenes < <("$native" scenes | awk '{ print $1 }')
 [ ${#scenes[@]} -gt 50 ] || fail 'too few scenes'
 for isa in sse4:wasm scalar:scalar; do # native:page
   for scene in "${scenes[@]}"; do
-    "$native" render "$scene" --size 32x24 --spp 2 --isa ${isa%:*} -q -o "$scratch/picture.pfm" --stats "$scratch/picture.json" || fail "$scene"
-    echo "$scene $(json "$scratch/picture.json" image_hash)"
+    echo "$scene $(cd "$scratch" && renderer=("$native") && image_hash "$scene" --size 32x24 --spp 2 --isa ${isa%:*})"
   done >"$scratch/native"
   node --no-experimental-fetch build/web/tyndall_headless.js assets ${isa#*:} 32 24 2 2 "${scenes[@]}" | cut -d ' ' -f 1,2 >"$scratch/page"
   diff "$scratch/native" "$scratch/page" || fail "pictures of the page (>) that are not those of the program (<), $isa"

@@ -15,21 +15,16 @@ cmake --build build/windows --target tyndall core_tests app_tests >"$scratch/bui
 cd "$scratch" || exit 1
 export WINEPREFIX=$scratch/prefix WINEDEBUG=-all WINEARCH=win64
 wine wineboot -i >boot.log 2>&1
-program=$source_root/build/windows/tyndall.exe
-windows() { timeout -s KILL 300 wine "$program" "$@"; }
+windows_program=$source_root/build/windows/tyndall.exe
+windows() { timeout -s KILL 300 wine "$windows_program" "$@"; }
 
 echo '# hashes'
-hash() { # SCENE ISA COMMAND...
-  local scene=$1 isa=$2
-  shift 2
-  "$@" render "$scene" --size 32x24 --spp 2 --isa "$isa" -q -o picture.pfm --stats picture.json </dev/null || fail "$scene, $isa"
-  json picture.json image_hash
-}
 sets=$("$tyndall" version | sed -n 's/^kernels  *\(.*\); this CPU.*/\1/p')
 pictures=0
 for isa in $sets; do
   for scene in $("$tyndall" scenes | awk '{ print $1 }'); do
-    same "$scene, $isa" "$(hash "$scene" "$isa" windows)" "$(hash "$scene" "$isa" "$tyndall")"
+    small=("$scene" --size 32x24 --spp 2 --isa "$isa")
+    same "$scene, $isa" "$(renderer=(windows) && image_hash "${small[@]}")" "$(image_hash "${small[@]}")"
     pictures=$((pictures + 1))
   done
 done
@@ -39,7 +34,7 @@ echo "$pictures pictures compared ($sets)"
 echo '# threads'
 for threads in 2 4; do
   for ((k = 0; k < ${TYNDALL_TRIALS:-2000}; ++k)); do
-    timeout -s KILL 60 wine "$program" render cornell-box --size 16x16 --spp 1 -t "$threads" -q -o hang.pfm </dev/null ||
+    timeout -s KILL 60 wine "$windows_program" render cornell-box --size 16x16 --spp 1 -t "$threads" -q -o hang.pfm </dev/null ||
       fail "render $k with $threads threads did not end"
   done
 done
@@ -67,7 +62,7 @@ fi
 expect 2 windows render nope -o nope.png :: nope
 
 echo '# ends'
-wine "$program" render cornell-box --size 64x64 --spp 1000000 -t 2 -q -o ended.png >out 2>err </dev/null &
+wine "$windows_program" render cornell-box --size 64x64 --spp 1000000 -t 2 -q -o ended.png >out 2>err </dev/null &
 sleep 8
 kill -INT $! || fail 'nothing to interrupt'
 wait $!
@@ -79,7 +74,7 @@ for ending in png exr; do
   render=(render cornell-box --size 256x192 --spp 1 -q -o "whole.$ending")
   windows "${render[@]}" </dev/null
   for ((k = 0; k < ${TYNDALL_KILLS:-200}; ++k)); do # a render takes a quarter of a second
-    { timeout -s KILL "$(awk "BEGIN { print 0.06 + $k * 0.0009 }")" wine "$program" "${render[@]}" </dev/null; } 2>killed.err
+    { timeout -s KILL "$(awk "BEGIN { print 0.06 + $k * 0.0009 }")" wine "$windows_program" "${render[@]}" </dev/null; } 2>killed.err
     [ $? = 137 ] && killed=$((killed + 1))
     [ -s "whole.$ending" ] || lost=$((lost + 1))
     "$tyndall" inspect "whole.$ending" >out 2>err || torn=$((torn + 1))
@@ -96,7 +91,7 @@ if command -v Xvfb >probe; then
   server=$!
   sleep 2
   mkdir -p data
-  env DISPLAY=:$display XDG_STATE_HOME="Z:$PWD/data" wine "$program" view showroom --ui-log ui.txt >out 2>err </dev/null &
+  env DISPLAY=:$display XDG_STATE_HOME="Z:$PWD/data" wine "$windows_program" view showroom --ui-log ui.txt >out 2>err </dev/null &
   viewer=$!
   for ((k = 0; k < 60; ++k)); do grep -q '^frame' ui.txt 2>/dev/null && break; sleep 1; done
   grep -q '^frame' ui.txt || fail "the window shows nothing: $(cat err)"
@@ -115,6 +110,6 @@ for tests in core_tests app_tests; do
   timeout 3600 wine "$source_root/build/windows/tests/$tests.exe" -tce="$elsewhere" \
     >"$tests.log" 2>&1 || { tail -40 "$tests.log"; fail "$tests"; }
 done
-timeout 14400 wine "$program" verify -t 2 -q >verify.log 2>&1 || { tail -20 verify.log; fail 'verify'; }
+timeout 14400 wine "$windows_program" verify -t 2 -q >verify.log 2>&1 || { tail -20 verify.log; fail 'verify'; }
 tail -1 verify.log
 finish
