@@ -125,12 +125,16 @@ drawn_after() {
     < <(tail -n "+$3" "$scratch/log")
 }
 
-# open_window ARGUMENTS: opens the window as it comes, and waits for its first picture.
-open_window() {
+# run_window COMMAND...: a program that opens a window with that log, which --ui-log or TYNDALL_UI_LOG names.
+run_window() {
   : >"$scratch/log"
-  "$tyndall" view "$@" --ui-log "$scratch/log" 2>"$scratch/errors" &
+  "$@" 2>"$scratch/errors" &
   pid=$!
   trap 'kill $pid 2>/dev/null || true' EXIT
+}
+# open_window ARGUMENTS: opens the window as it comes, and waits for its first picture.
+open_window() {
+  run_window "$tyndall" view "$@" --ui-log "$scratch/log"
   find_window
 }
 find_window() {
@@ -151,14 +155,10 @@ start() {
 
 # at NAME ACROSS [DOWN]: window coordinates of a point of a control; ACROSS and DOWN in percent.
 at() {
-  local line
-  line=$(grep -E "^(widget|gone) ${1//./\\.}( |$)" "$scratch/log" | tail -1)
-  case $line in widget*) ;; *) fail "there is no control $1" ;; esac
-  # shellcheck disable=SC2086
-  set -- $line "$2" "${3:-50}"
-  local down=${!#} across
-  across=$(eval "echo \${$(($# - 1))}")
-  echo $(($3 + ($5 - $3) * across / 100)) $(($4 + ($6 - $4) * down / 100))
+  local kind x0 y0 x1 y1 _
+  read -r kind _ x0 y0 x1 y1 _ < <(grep -E "^(widget|gone) ${1//./\\.}( |$)" "$scratch/log" | tail -1) || true
+  [ "$kind" = widget ] || fail "there is no control $1"
+  echo $((x0 + (x1 - x0) * $2 / 100)) $((y0 + (y1 - y0) * ${3:-50} / 100))
 }
 
 # The value that a control had last.
@@ -213,31 +213,16 @@ type_value() {
   enter
 }
 
-# Mean of the screen's red, green and blue within a control's rectangle. The X server puts a drawing on the screen some
-# time after the log has told of it: what is expected of the screen is waited for.
-brightness() {
-  local line
-  line=$(grep -E "^widget ${1//./\\.} " "$scratch/log" | tail -1)
-  # shellcheck disable=SC2086
-  set -- $line
-  python3 - "$screen/Xvfb_screen0" "$3" "$4" "$5" "$6" <<'PY'
-import struct, sys
-data = open(sys.argv[1], "rb").read()
-x0, y0, x1, y1 = map(int, sys.argv[2:6])
-header = struct.unpack(">25I", data[:100])
-stride, start = header[12], header[0] + 12 * header[19]
-total = count = 0
-for y in range(y0, y1):
-    row = data[start + y * stride + 4 * x0 : start + y * stride + 4 * x1]
-    for c in range(3):
-        total += sum(row[c::4])
-    count += 3 * (x1 - x0)
-print(round(total / count, 2))
-PY
+# on_screen NAME COMMAND [PICTURE]: what the screen shows in a control's rectangle, see _screen.py. The X server puts a
+# drawing on the screen some time after the log has told of it: what is expected of the screen is waited for.
+on_screen() {
+  local x0 y0 x1 y1 _
+  read -r _ _ x0 y0 x1 y1 _ < <(grep -E "^widget ${1//./\\.} " "$scratch/log" | tail -1)
+  python3 -B "$root/tests/window/_screen.py" "$screen/Xvfb_screen0" "$x0" "$y0" "$x1" "$y1" "${@:2}"
 }
 
-# compares A OPERATOR B: Python's comparison of two numbers.
-compares() { python3 -c "import sys; sys.exit(not ($*))"; }
+# compares CONDITION: awk's comparison of numbers.
+compares() { awk "BEGIN { exit !($*) }"; }
 
 # ends_with STATUS TEXT...: the window ends with that status, and its last line has each text.
 ends_with() {
@@ -245,9 +230,10 @@ ends_with() {
   wait "$pid" || status=$?
   trap - EXIT
   [ "$status" = "$1" ] || fail "exit code $status, expected $1"
-  shift
-  for text in "$@"; do tail -1 "$scratch/errors" | grep -qF -- "$text" || fail "the last line lacks '$text'"; done
+  for text in "${@:2}"; do tail -1 "$scratch/errors" | grep -qF -- "$text" || fail "the last line lacks '$text'"; done
 }
+# Asks it to close, as the button in its title bar does.
+press_close_button() { python3 -B "$root/tests/window/_close.py" "$window"; }
 
 # Closes with Ctrl+Q, without saving, and checks how it ended.
 finish() {

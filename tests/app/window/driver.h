@@ -62,6 +62,7 @@ class Driver {
   void click(const std::string& name, double across = 0.5, double down = 0.5, int button = 0) {
     push(name, across, down, button), settle();
   }
+  void click_ball() { click("picture", 0.5, 0.45); }
   /// The same without waiting for a picture.
   void push(const std::string& name, double across = 0.5, double down = 0.5, int button = 0) {
     point(name, across, down);
@@ -101,7 +102,7 @@ class Driver {
     strike(ImGuiKey_Escape);  // for a control that has the keyboard
     key(256);
   }
-  void undo() { key('Z', {.control = true}); }
+  void undo() { chord('Z'); }
   /// Characters, as shortcuts get them.
   void press_characters(const std::string& text) {
     for (const char c : text) platform_->events.keys.push_back({0, {}, false, c});
@@ -109,7 +110,7 @@ class Driver {
   }
   /// Into the control that has the keyboard.
   void write(const std::string& text) {
-    for (const char c : text) ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(c));
+    test::write(text.c_str());
     step();
   }
   /// The same in place of all that it holds, and Enter.
@@ -128,11 +129,27 @@ class Driver {
   }
   /// What Ctrl + K finds first is carried out.
   void find(const std::string& words) {
-    key('K', {.control = true});
+    chord('K');
     type(words);
   }
+  /// Ctrl + Z and the like.
+  void chord(int code, bool shift = false) { key(code, {.control = true, .shift = shift}); }
   /// Lets the window go on until that is so.
   void wait_until(const std::function<bool()>& is_so);
+  /// Until the newest line of a kind begins so; until the value of a control has these words.
+  void await(const std::string& kind, const std::string& begin) {
+    wait_until([&] { return last(kind).starts_with(begin) && (!begin.empty() || last(kind).empty()); });
+  }
+  void await_value(const std::string& control, const std::string& words) {
+    wait_until([&] { return value(control).find(words) != std::string::npos; });
+  }
+  void await_gone(const std::string& control) {
+    wait_until([&] { return !has(control); });
+  }
+  void save() {
+    chord('S');
+    await("saved", "scene.json");
+  }
 
   /// Whether a control is on the screen, and its value as the log has it.
   bool has(const std::string& control) const { return widgets_.contains(control); }
@@ -149,6 +166,8 @@ class Driver {
     const auto found = last_.find(kind);
     return found == last_.end() ? "" : found->second;
   }
+  /// Whether the window has not been closed.
+  bool is_open() const { return open_; }
   /// How many edits were sent to the renderer.
   int submits() const { return submits_; }
   NullPlatform& platform() { return *platform_; }
@@ -161,7 +180,7 @@ class Driver {
   };
   void pass() {
     skipped_seconds = skipped_seconds + echo_interval;  // drawings keep a distance
-    window_->step();
+    open_ = window_->step();
     read_log();
   }
   /// A drawing, as after input.
@@ -192,6 +211,7 @@ class Driver {
   std::string newest_;              ///< the last line
   int drawn_ = 0;                   ///< how often
   int submits_ = 0, settled_ = -1;  ///< now, and when it had settled last
+  bool open_ = true;
 };
 
 inline Driver::Driver(const std::string& name, const std::function<void(WindowOptions&)>& adjust)
