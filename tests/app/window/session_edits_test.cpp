@@ -156,6 +156,7 @@ TEST_CASE("a snapshot that is opened again goes on: the EXR from its samples to 
   opened.session->snapshot();  // of the newest edit, though it was not sent yet
   REQUIRE(opened.appears("scene-001.png"));
   const Scene seen = opened.scene();
+  opened.session->discard_edits();
   opened.reopen([](WindowOptions& options) { options.scene = load_scene("scene-001.png"); });
   CHECK(opened.message() == "opened scene-001.png; it starts over");
   CHECK(opened.scene() == seen);
