@@ -1,9 +1,7 @@
 #include "app/window/command.h"
-
 #include "tests/app/window/panels/column.h"
 #include "tests/support/skies.h"
 
-#include <algorithm>
 #include <set>
 #include <sstream>
 
@@ -22,21 +20,24 @@ Scene varied_scene() {
                      {"wall", TextureIndex{1}, Metal<>{0.5}},        {"paint", TextureIndex{2}, Lambertian<>{}},
                      {"globe", TextureIndex{3}, Lambertian<>{}},     {"lamp", Vec3d{4, 4, 4}, Light<>{}},
                      {"screen", TextureIndex{3}, Light<>{}}};
-  const Sphere<> ball{{0, 0, 0}, 0.7, {}}, moving{{2, 0, 0}, 0.5, Vec3d{2, 1, 0}};
-  scene.objects = {{"gold", Solid3d{ball, 0}, {}},
-                   {"gold box", Solid3d{Box<>{}, 0}, {}},
-                   {"glass", Solid3d{ball, 1}, {Translate{{1, 0, 0}}}},
-                   {"matt", Solid3d{moving, 2}, {}},
-                   {"floor", Solid3d{Quad<>{}, 3}, {}},
-                   {"wall", Solid3d{Box<>{}, 4}, {RotateY{30}}},
-                   {"paint", Solid3d{ball, 5}, {}},
-                   {"globe", Solid3d{ball, 6}, {}},
-                   {"lamp", Solid3d{Quad<>{}, 7}, {}},
-                   {"screen", Solid3d{Quad<>{}, 8}, {}},
-                   {"fog", Volume{Box<>{}, {RotateY{10}}, Medium<>{1.1, 0}, Vec3d{1, 1, 1}}, {}},
-                   {"tiled fog", Volume{ball, {}, Medium<>{1.1, 0}, TextureIndex{0}}, {}},
-                   {"ring", Solid3d{Disk<>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.5}, 2}, {}},
-                   {"group", Group{{{"inner", Solid3d{ball, 2}, {}}}}, {Translate{}}}};
+  const Sphere<> round{{0, 0, 0}, 0.7, {}};
+  scene.objects = {solid(round, {}, 0),
+                   solid(Box<>{}, {}, 0),
+                   solid(round, {Translate{{1, 0, 0}}}, 1),
+                   solid(Sphere<>{{2, 0, 0}, 0.5, Vec3d{2, 1, 0}}, {}, 2),
+                   solid(Quad<>{}, {}, 3),
+                   solid(Box<>{}, {RotateY{30}}, 4),
+                   solid(round, {}, 5),
+                   solid(round, {}, 6),
+                   solid(Quad<>{}, {}, 7),
+                   solid(Quad<>{}, {}, 8),
+                   {"", Volume{Box<>{}, {RotateY{10}}, Medium<>{1.1, 0}, Vec3d{1, 1, 1}}, {}},
+                   {"", Volume{round, {}, Medium<>{1.1, 0}, TextureIndex{0}}, {}},
+                   solid(Disk<>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.5}, {}, 2),
+                   {"group", Group{{solid(round, {}, 2)}}, {Translate{}}}};
+  const char* names[] = {"gold",  "gold box", "glass",  "matt", "floor",     "wall", "paint",
+                         "globe", "lamp",     "screen", "fog",  "tiled fog", "ring"};
+  for (std::size_t k = 0; k < std::size(names); ++k) scene.objects[k].name = names[k];
   return scene;
 }
 
@@ -45,7 +46,7 @@ struct VariedColumn : TestColumn {
   VariedColumn() {
     saved = varied_scene();
     scene() = saved;
-    for (int k = 0; k < 3; ++k) draw();
+    draw(3);
   }
   /// What the palette lists while this is selected.
   std::vector<ListedRow> rows(const ObjectPath& selected) {
@@ -63,65 +64,59 @@ struct VariedColumn : TestColumn {
     problem.clear();
     ui.edit = {};
     seek_row(ui, {row.part, row.label});
-    for (int k = 0; k < 7; ++k) draw();
+    draw(7);
   }
 };
+
+/// Words that are divided by ", ".
+std::vector<std::string> split(const std::string& words) {
+  std::vector<std::string> result;
+  std::istringstream parts(words);
+  for (std::string word; std::getline(parts >> std::ws, word, ',');) result.push_back(word);
+  return result;
+}
+/// What Return carries out when this is typed.
+std::string first_found(const std::vector<PaletteItem>& items, const std::string& typed) {
+  const std::vector<int> found = matching_items(items, typed);
+  return found.empty() ? "" : items[static_cast<std::size_t>(found[0])].label;
+}
 
 }  // namespace
 
 TEST_CASE("the words of other programs lead to the action or row that is meant there") {
-  const std::pair<const char*, const char*> meant[] = {
-      {"split", "split view"},
-      {"A/B", "split view"},
-      {"fullscreen", "full screen"},
-      {"full-screen", "full screen"},
-      {"Full Screen", "full screen"},
-      {"denoise", "clean view on or off"},
-      {"screenshot", "snapshot"},
-      {"screen shot", "snapshot"},
-      {"undo", "undo"},
-      {"render region", "refine a rectangle first"},
-      {"save as", "save as"},
-      {"ior", "go to: Refractive index"},
-      {"index of refraction", "go to: Refractive index"},
-      {"roughness", "go to: Fuzz"},
-      {"aperture", "go to: Defocus"},
-      {"f-stop", "go to: Defocus"},
-      {"depth of field", "go to: Defocus"},
-      {"emission", "go to: Power"},
-      {"intensity", "go to: Power"},
-      {"fov", "go to: Field of view"},
-      {"focal", "go to: Field of view"},
-      {"focal length", "go to: Field of view"},
-      {"focus distance", "go to: Focus"},
-      {"exposure", "go to: Exposure"},
-      {"bounces", "go to: Depth"},
-      {"samples", "go to: Limit"},
-      {"spp", "go to: Limit"},
-      {"albedo", "go to: Albedo"},
-      {"color", "go to: Albedo"},
-      {"base colour", "go to: Albedo"},
-      {"density", "go to: Density"},
-      {"anisotropy", "go to: Asymmetry g"},
-      {"resolution", "go to: Image size"},
-      {"threads", "go to: Threads"},
-      {"tone mapping", "go to: Tone map"},
-      {"inner radius", "go to: Hole"},
-      {"environment", "go to: Background kind"},
-      {"histogram", "go to: Histogram"},
-      {"noise", "view: noise"},
-      {"false color", "view: false colour"},
-      {"render", "go to: Render"},
-      {"cover", "open: cover"},
-  };
+  const std::pair<const char*, const char*> meant[] = {{"split view", "split, A/B"},
+                                                       {"full screen", "fullscreen, full-screen, Full Screen"},
+                                                       {"clean view on or off", "denoise"},
+                                                       {"snapshot", "screenshot, screen shot"},
+                                                       {"undo", "undo"},
+                                                       {"refine a rectangle first", "render region"},
+                                                       {"save as", "save as"},
+                                                       {"go to: Refractive index", "ior, index of refraction"},
+                                                       {"go to: Fuzz", "roughness"},
+                                                       {"go to: Defocus", "aperture, f-stop, depth of field"},
+                                                       {"go to: Power", "emission, intensity"},
+                                                       {"go to: Field of view", "fov, focal, focal length"},
+                                                       {"go to: Focus", "focus distance"},
+                                                       {"go to: Exposure", "exposure"},
+                                                       {"go to: Depth", "bounces"},
+                                                       {"go to: Limit", "samples, spp"},
+                                                       {"go to: Albedo", "albedo, color, base colour"},
+                                                       {"go to: Density", "density"},
+                                                       {"go to: Asymmetry g", "anisotropy"},
+                                                       {"go to: Image size", "resolution"},
+                                                       {"go to: Threads", "threads"},
+                                                       {"go to: Tone map", "tone mapping"},
+                                                       {"go to: Hole", "inner radius"},
+                                                       {"go to: Background kind", "environment"},
+                                                       {"go to: Histogram", "histogram"},
+                                                       {"view: noise", "noise"},
+                                                       {"view: false colour", "false color"},
+                                                       {"go to: Render", "render"},
+                                                       {"open: cover", "cover"}};
   VariedColumn column;
   const std::vector<PaletteItem> items = palette_items(column.rows({}), {"cover", "showroom"});
-  for (const auto& [text, label] : meant) {
-    const std::string typed = text;
-    const std::vector<int> found = matching_items(items, typed);
-    REQUIRE_MESSAGE(!found.empty(), typed);
-    CHECK_MESSAGE(items[static_cast<std::size_t>(found[0])].label == label, typed);  // Return carries it out
-  }
+  for (const auto& [label, words] : meant)
+    for (const std::string& word : split(words)) CHECK_MESSAGE(first_found(items, word) == label, word);
 }
 
 TEST_CASE(
@@ -129,17 +124,12 @@ TEST_CASE(
     "line") {
   VariedColumn column;
   for (const ObjectPath& selected : {ObjectPath{}, ObjectPath{0}, ObjectPath{10}}) {
+    std::set<std::string> labels;
     const std::vector<PaletteItem> items = palette_items(column.rows(selected), {});
-    for (std::size_t k = 0; k < items.size(); ++k) {
-      const bool is_row = items[k].label.starts_with("go to:");
-      CHECK_MESSAGE((!is_row || !items[k].also.empty()), items[k].label);
-      for (std::size_t other = 0; other < k; ++other) CHECK(items[other].label != items[k].label);
-      std::istringstream words(items[k].also);
-      for (std::string word; std::getline(words, word, ',');) {
-        const std::vector<int> found = matching_items(items, word);
-        REQUIRE_MESSAGE(!found.empty(), word);
-        CHECK_MESSAGE(items[static_cast<std::size_t>(found[0])].label == items[k].label, word);
-      }
+    for (const PaletteItem& item : items) {
+      CHECK_MESSAGE(labels.insert(item.label).second, item.label);
+      CHECK_MESSAGE((!item.label.starts_with("go to:") || !item.also.empty()), item.label);
+      for (const std::string& word : split(item.also)) CHECK_MESSAGE(first_found(items, word) == item.label, word);
     }
   }
 }
@@ -151,15 +141,14 @@ TEST_CASE("each row is brought up and takes the keyboard, or it is said what to 
   std::set<std::string> reached, all;
   for (std::size_t k = 0; k <= count; ++k) {
     column.state.selected = k < count ? ObjectPath{static_cast<int>(k)} : ObjectPath{};
-    for (int drawing = 0; drawing < 3; ++drawing) column.draw();
+    column.draw(3);
     for (const ListedRow& listed : column.rows(column.state.selected)) {
       const RowEntry& row = listed.row;
       column.go(row);
       const bool shown = listed.missing.empty();
       CHECK_MESSAGE(shown == column.problem.empty(), k, ": ", row.part, ": ", row.label);
       if (shown && !row.label.empty()) {
-        const bool has_keyboard = column.ui.edit.id != 0 || column.ui.sought.has_keys;
-        CHECK_MESSAGE(has_keyboard, row.label);
+        CHECK_MESSAGE((column.has_keyboard() || column.ui.sought.has_keys), row.label);
       }
       if (shown) reached.insert(row.part + row.label);
       if (row.part != "Background") all.insert(row.part + row.label);
@@ -201,7 +190,7 @@ TEST_CASE("the rows of each kind of background are reached") {
     column.scene().background = background;
     column.go({"Background", label, "", ""});
     CHECK(column.problem.empty());
-    CHECK(column.ui.edit.id != 0);
+    CHECK(column.has_keyboard());
   }
 }
 
@@ -210,17 +199,16 @@ TEST_CASE("a row in a folded section, far down, is opened and scrolled to, and w
   column.height = 420;
   column.state.selected = {0};
   for (const char* section : {"Gold", "Camera", "Render"}) column.ui.folded.insert(section);
-  for (int k = 0; k < 3; ++k) column.draw();
+  column.draw(3);
   const auto type = [&](const char* label, const char* part, const char* text) {
     column.go({part, label, "", ""});
-    for (const char* c = text; *c; ++c) ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(*c));
-    column.draw();
+    column.write(text);
     column.press(ImGuiKey_Enter);
   };
   type("Seed", "Render", "77");
   CHECK(column.scene().render.seed == 77);
   CHECK(column.has("render.seed"));
-  CHECK(column_sections()[static_cast<std::size_t>(column.state.tabs.lit)].name == std::string("Render"));
+  CHECK(column.lit() == "Render");
   CHECK_FALSE(column.ui.folded.contains("Render"));
   CHECK(column.ui.folded.contains("Camera"));
   type("Fuzz", "Object", "0.75");

@@ -9,10 +9,6 @@
 #include "tests/support/mixed_scene.h"
 #include "tests/support/prepared.h"
 
-#include <doctest/doctest.h>
-
-#include <string>
-
 /// Many edits of all kinds, as a person's hands make them, while a renderer works.
 namespace tyndall::test {
 

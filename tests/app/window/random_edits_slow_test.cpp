@@ -1,13 +1,9 @@
 #include "tests/app/window/random_edits.h"
 #include "tests/support/peak_memory.h"
 
-#include <doctest/doctest.h>
+#include <malloc.h>
 
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <malloc.h>
-#include <vector>
 
 namespace tyndall::test::random_edits_slow_test {
 
@@ -16,10 +12,10 @@ TEST_CASE("12,000 random edits: the picture is that of the saved scene, and memo
   // these are medians over 2,000 edits, and may differ by 2 MB: 2.5 % of what a window has, and 200 bytes an edit,
   // where a scene that is kept takes thousands.
   std::vector<std::int64_t> early, late;
-  test::check_random_edits("many_random_edits", 12000, 7, [&](int edits) {
+  check_random_edits("many_random_edits", 12000, 7, [&](int edits) {
     if (edits % 100 != 0 || edits < 1000 || (edits > 3000 && edits < 10000)) return;
     malloc_trim(0);
-    (edits <= 3000 ? early : late).push_back(test::process_memory("VmRSS"));
+    (edits <= 3000 ? early : late).push_back(process_memory("VmRSS"));
   });
   const auto median = [](std::vector<std::int64_t> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

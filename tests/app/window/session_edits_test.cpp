@@ -125,8 +125,9 @@ TEST_CASE("a picture that is being written is shown row by row, and stays where 
   CHECK(opened.shows({1, 1, 0, 0}));
 }
 
-TEST_CASE("how a picture is displayed is no edit that could be lost; a snapshot holds no scene; undo of another scene "
-          "brings the picture back") {
+TEST_CASE(
+    "how a picture is displayed is no edit that could be lost; a snapshot holds no scene; undo of another scene "
+    "brings the picture back") {
   PictureSession opened("picture_display");
   opened.pipe.write("255 0 0 0 0 0 255 0 0 0 0 0\n");
   REQUIRE(opened.shows({1, 0, 1, 0}));

@@ -3,7 +3,6 @@
 
 namespace tyndall::test::window_commands_test {
 
-
 /// What is to be seen of a command that does more than the log says of each.
 const std::map<std::string, bool (*)(const Driver&)> effects = {
     {"deselect", [](const Driver& d) { return !d.has("Ball.name"); }},

@@ -70,9 +70,9 @@ TEST_CASE("the window: closing asks while there are edits, answers come by mouse
   driver.escape();
   CHECK_FALSE(driver.has("dialog.discard"));
   driver.chord('Q');
-  driver.key(258);                    // Tab marks the next answer,
+  driver.key(258);                   // Tab marks the next answer,
   driver.key(258, {.shift = true});  // with Shift the one before,
-  driver.key(263);                    // and so do arrows, round and round: Cancel
+  driver.key(263);                   // and so do arrows, round and round: Cancel
   driver.key(257);
   CHECK_FALSE(driver.has("dialog.discard"));
   CHECK(driver.is_open());
@@ -156,9 +156,9 @@ TEST_CASE("the window: a damaged file of preferences is told of, not believed, a
       if (in_the_way) std::filesystem::create_directories("config/tyndall/window.txt.damaged/in the way");
     });
     const std::filesystem::path file = std::filesystem::absolute("config/tyndall/window.txt");
-    CHECK(driver.last("message") == file.string() + " is damaged; the window begins with its defaults, " +
-                                        (in_the_way ? "and the file cannot be moved out of the way"
-                                                    : "the file is now window.txt.damaged"));
+    CHECK(driver.last("message") ==
+          file.string() + " is damaged; the window begins with its defaults, " +
+              (in_the_way ? "and the file cannot be moved out of the way" : "the file is now window.txt.damaged"));
     CHECK(std::filesystem::exists(file) == in_the_way);
     CHECK(driver.value("window.theme.dark") == "on");
   }

@@ -177,8 +177,9 @@ TEST_CASE("which dropped images hold no scene") {
   for (const char* file : {"a.json", "no such file", ""}) CHECK_FALSE(shows_no_scene(folder / file));
 }
 
-TEST_CASE("of films the noise is known, but not of one layer of an EXR, which is no scene when it is dropped; a part of a "
-          "picture is no reference") {
+TEST_CASE(
+    "of films the noise is known, but not of one layer of an EXR, which is no scene when it is dropped; a part of a "
+    "picture is no reference") {
   if (!has_openexr()) return;
   const fs::path file = scratch_folder("reference_film") / "a.exr";
   const Document document = small_document("cover");
@@ -193,7 +194,8 @@ TEST_CASE("of films the noise is known, but not of one layer of an EXR, which is
   CHECK(reference.about == "a.exr:Albedo");
   CHECK_THROWS_AS(read_reference(file.string() + ":albedo", document), NoSuchLayer);
   write_exr(file, make_film(document.scene.width, document.scene.height, {1, 1, 5, 4}, 0, 1), {}, {});
-  const std::string problem = ": found the pixels of its data window 1,1,5,4 alone, expected all of its display window ";
+  const std::string problem =
+      ": found the pixels of its data window 1,1,5,4 alone, expected all of its display window ";
   CHECK_THROWS_WITH_AS(read_reference(file, document), (file.string() + problem + "0,0,8,6").c_str(), UsageError);
 }
 

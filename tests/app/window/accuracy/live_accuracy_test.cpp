@@ -108,8 +108,10 @@ TEST_CASE("a reference of another scene stays but is not compared with; of the s
   CHECK(w.lines() == "! same random numbers, noise looks too small: grey.exr\n");
 }
 
-TEST_CASE("a picture of the scene before is not measured against the reference of this one, and what was measured against the "
-          "former reference is dropped") {
+TEST_CASE(
+    "a picture of the scene before is not measured against the reference of this one, and what was measured against "
+    "the "
+    "former reference is dropped") {
   Watched w;
   w.refer_to(1);
   w.accuracy.shown(Half::current, picture(1.5f, 1, 1), "mis", false);

@@ -221,7 +221,8 @@ TEST_CASE("edits go on beside the scene when the state folder fails later, and o
   CHECK(read(scenes / ".scene.json.unsaved-1").camera.vfov == 32);
 }
 
-TEST_CASE("the last words of several windows promise no more than the next start does; nor where the scene's file is gone") {
+TEST_CASE(
+    "the last words of several windows promise no more than the next start does; nor where the scene's file is gone") {
   const fs::path folder = scratch_folder("kept_two"), state = folder / "state";
   const auto document = edited_document(folder, "scene.json", 31);
   const std::string kept = "the edits of scene.json are kept";
@@ -229,8 +230,9 @@ TEST_CASE("the last words of several windows promise no more than the next start
     Window first(state), second(state);
     for (Window* window : {&first, &second}) window->keep(document);
     for (Window* window : {&first, &second})
-      CHECK(window->last_words() == kept + ", and so are others; each start with this scene brings back the newest that "
-                                           "no window has");
+      CHECK(window->last_words() == kept +
+                                        ", and so are others; each start with this scene brings back the newest that "
+                                        "no window has");
   }
   {
     Window first(state), second(state), third(state);
@@ -247,8 +249,9 @@ TEST_CASE("the last words of several windows promise no more than the next start
   CHECK(apart.last_words() == kept + " in " + beside + ", which opens as a scene; the one that was edited is gone");
   CHECK(load_scene(beside).scene.camera.vfov == 31);
   other.keep(edited_elsewhere("showroom"));
-  CHECK(window.last_words() == kept + ", and so are others; each start without a scene brings back the newest that no "
-                                      "window has");
+  CHECK(window.last_words() == kept +
+                                   ", and so are others; each start without a scene brings back the newest that no "
+                                   "window has");
 }
 
 TEST_CASE("the state folder: relative paths in the environment are no folders") {

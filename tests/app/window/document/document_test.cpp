@@ -13,8 +13,9 @@ TEST_CASE("comments are found, slashes in strings are none") {
   CHECK_FALSE(has_comments("{}"));
 }
 
-TEST_CASE("a saved scene reads back equal, from another folder too; two scenes give the same picture if they differ in name "
-          "and display only") {
+TEST_CASE(
+    "a saved scene reads back equal, from another folder too; two scenes give the same picture if they differ in name "
+    "and display only") {
   const fs::path folder = scratch_folder("saved_scene");
   Document document = document_of(load_scene("earth"));
   Scene& scene = document.scene;
@@ -33,8 +34,10 @@ TEST_CASE("a saved scene reads back equal, from another folder too; two scenes g
   CHECK_THROWS_AS(save_document(document, folder / "none" / "copy.json"), std::exception);
 }
 
-TEST_CASE("titles are one line; names for snapshots are that of the scene, without its number, and leave room for numbers and "
-          "endings") {
+TEST_CASE(
+    "titles are one line; names for snapshots are that of the scene, without its number, and leave room for numbers "
+    "and "
+    "endings") {
   CHECK(title_of("folder/cornell.json") == "cornell.json");
   CHECK(title_of("a\nb\x1b\xff.json") == "a\\nb\\u001b\\xff.json");
   const fs::path file = scratch_folder("odd_titles") / "line\nfeed.json";
@@ -72,8 +75,9 @@ TEST_CASE("objects are found again where they stand now, with other values, name
   CHECK(paths_after(before, {}, {{0}, {3, 1}, {9}}).empty());
 }
 
-TEST_CASE("of equal objects each is found by its number, and those too many are gone; one without a name that changed while "
-          "its list grew is where its neighbours say") {
+TEST_CASE(
+    "of equal objects each is found by its number, and those too many are gone; one without a name that changed while "
+    "its list grew is where its neighbours say") {
   Scene before = scene_of({at("", 0), at("", 0), at("b", 2), at("", 4), at("", 4)});
   Scene after = scene_of({at("", 0), at("b", 2), at("", 4)});
   CHECK(paths_after(before, after, {{1}, {4}}).empty());
@@ -89,7 +93,8 @@ TEST_CASE("of equal objects each is found by its number, and those too many are 
 TEST_CASE("keys follow their objects, and go with them") {
   Scene before = scene_of({at("a", 0), pair({at("b", 1), at("c", 2)})});
   before.animation.emplace();
-  for (const char* row : {"/objects/0/radius", "/objects/1/objects/1/radius"}) set_key(*before.animation, row, {0, {1}});
+  for (const char* row : {"/objects/0/radius", "/objects/1/objects/1/radius"})
+    set_key(*before.animation, row, {0, {1}});
   Scene after = before;
   after.objects.erase(after.objects.begin());
   move_keys(before, after);

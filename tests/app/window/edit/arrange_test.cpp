@@ -76,16 +76,22 @@ TEST_CASE("grips: a sphere's radius, the ends of edges and half axes, a ring's h
   };
   const Vec3d o{0, 0, 0}, v{0, 2, 0}, slanted{3, 0, 4};
   const Disk<> ring{{0, 1, 0}, {2, 0, 0}, {0, 0, 1}, 0.5};
-  for (const auto& [shape, grips, grip, at, value, wanted, after] : std::vector<Row>{
-           {Sphere<>{{1, 2, 3}, -0.5, {}}, 1, 0, {1, 2.5, 3}, 0.5, 0.75, Sphere<>{{1, 2, 3}, -0.75, {}}},
-           {Sphere<>{{1, 2, 3}, -0.5, {}}, 1, 0, {1, 2.5, 3}, 0.5, -3, Sphere<>{{1, 2, 3}, -0.1, {}}},
-           {Quad<>{o, slanted, v}, 2, 0, {3, 1, 4}, 5, 10, Quad<>{o, {6, 0, 8}, v}},
-           {Triangle<>{o, slanted, v}, 2, 0, slanted, 5, 10, Triangle<>{o, {6, 0, 8}, v}},
-           {Triangle<>{o, slanted, v}, 2, 1, v, 2, 3, Triangle<>{o, slanted, {0, 3, 0}}},
-           {Disk<>{{0, 1, 0}, {2, 0, 0}, {0, 0, 1}, 0}, 2, 1, {0, 1, 1}, 1, 1, Disk<>{{0, 1, 0}, {2, 0, 0}, {0, 0, 1}, 0}},
-           {ring, 3, 0, {2, 1, 0}, 2, 4, Disk<>{{0, 1, 0}, {4, 0, 0}, {0, 0, 1}, 0.5}},
-           {ring, 3, 2, {-1, 1, 0}, 1, 0.5, Disk<>{{0, 1, 0}, {2, 0, 0}, {0, 0, 1}, 0.25}},
-           {ring, 3, 2, {-1, 1, 0}, 1, 100, Disk<>{{0, 1, 0}, {2, 0, 0}, {0, 0, 1}, 0.99}}}) {
+  for (const auto& [shape, grips, grip, at, value, wanted, after] :
+       std::vector<Row>{{Sphere<>{{1, 2, 3}, -0.5, {}}, 1, 0, {1, 2.5, 3}, 0.5, 0.75, Sphere<>{{1, 2, 3}, -0.75, {}}},
+                        {Sphere<>{{1, 2, 3}, -0.5, {}}, 1, 0, {1, 2.5, 3}, 0.5, -3, Sphere<>{{1, 2, 3}, -0.1, {}}},
+                        {Quad<>{o, slanted, v}, 2, 0, {3, 1, 4}, 5, 10, Quad<>{o, {6, 0, 8}, v}},
+                        {Triangle<>{o, slanted, v}, 2, 0, slanted, 5, 10, Triangle<>{o, {6, 0, 8}, v}},
+                        {Triangle<>{o, slanted, v}, 2, 1, v, 2, 3, Triangle<>{o, slanted, {0, 3, 0}}},
+                        {Disk<>{{0, 1, 0}, {2, 0, 0}, {0, 0, 1}, 0},
+                         2,
+                         1,
+                         {0, 1, 1},
+                         1,
+                         1,
+                         Disk<>{{0, 1, 0}, {2, 0, 0}, {0, 0, 1}, 0}},
+                        {ring, 3, 0, {2, 1, 0}, 2, 4, Disk<>{{0, 1, 0}, {4, 0, 0}, {0, 0, 1}, 0.5}},
+                        {ring, 3, 2, {-1, 1, 0}, 1, 0.5, Disk<>{{0, 1, 0}, {2, 0, 0}, {0, 0, 1}, 0.25}},
+                        {ring, 3, 2, {-1, 1, 0}, 1, 100, Disk<>{{0, 1, 0}, {2, 0, 0}, {0, 0, 1}, 0.99}}}) {
     CAPTURE(shape.index());
     CAPTURE(grip);
     Scene scene = scene_of({solid(shape)});
@@ -142,8 +148,9 @@ TEST_CASE("a ball of glass has the fog that fills it and the spheres within as c
   CHECK(linked_objects(scene, {0}) == std::vector<ObjectPath>{{2}});
 }
 
-TEST_CASE("companions follow exactly: the same centre, fog the very numbers, inner spheres the proportion; one that is "
-          "changed itself leaves its ball alone") {
+TEST_CASE(
+    "companions follow exactly: the same centre, fog the very numbers, inner spheres the proportion; one that is "
+    "changed itself leaves its ball alone") {
   const Scene before = shell();
   Scene after = before;
   shape(after, 0) = {{0.4, 1.2, -1}, 2, {}};

@@ -14,7 +14,8 @@ constexpr int lambertian = 0, metal = 1, dielectric = 2, light = 3, medium_withi
 
 /// Two balls of gold, one of glass, and a quad of it; their types are changed.
 struct Typed {
-  Scene scene = scene_of({ball("b", {0, 0, 0}), ball("b", {3, 0, 0}), ball("b", {6, 0, 0}, 1, 1), solid(Quad<>{}, {}, 1)});
+  Scene scene =
+      scene_of({ball("b", {0, 0, 0}), ball("b", {3, 0, 0}), ball("b", {6, 0, 0}, 1, 1), solid(Quad<>{}, {}, 1)});
   MaterialMemory memory;
 
   Typed() { scene.materials = {{"gold", Vec3d{0.8, 0.6, 0.2}, Metal<>{0.3}}, {"glass", {}, Dielectric<>{1.4}}}; }
@@ -41,17 +42,18 @@ Scene example() {
 
 /// In a picture as high as far.
 Scene floor_and_box() {
-  Scene scene = seen_scene(200, 100, {0, 1, 10}, 53.13,
-                           {solid(Quad<>{{-50, 0, -50}, {100, 0, 0}, {0, 0, 100}}),
-                            solid(Box<>{{-1, 0, -1}, {1, 1, 1}}, {RotateY{90}})});
+  Scene scene = seen_scene(
+      200, 100, {0, 1, 10}, 53.13,
+      {solid(Quad<>{{-50, 0, -50}, {100, 0, 0}, {0, 0, 100}}), solid(Box<>{{-1, 0, -1}, {1, 1, 1}}, {RotateY{90}})});
   scene.materials.resize(1);
   return scene;
 }
 
 }  // namespace
 
-TEST_CASE("types are listed as the scene file names them, and each object says its own; another one keeps the colour as far "
-          "as it has one") {
+TEST_CASE(
+    "types are listed as the scene file names them, and each object says its own; another one keeps the colour as far "
+    "as it has one") {
   Typed typed;
   CHECK(std::string(surface_types()[metal]) == "metal");
   CHECK(typed.type(0) == metal);
@@ -154,8 +156,8 @@ TEST_CASE("a background of another kind has the present colours, and its own whe
   const Gradient gradient{{1, 1, 1}, {0.5, 0.7, 1}};
   Background background = gradient;
   BackgroundMemory memory;
-  for (const Background& expected : {Background(Hemispheres{gradient.top, gradient.bottom}), Background(gradient.top),
-                                     Background(gradient)}) {
+  for (const Background& expected :
+       {Background(Hemispheres{gradient.top, gradient.bottom}), Background(gradient.top), Background(gradient)}) {
     set_background_kind(background, static_cast<int>(expected.index()), memory);
     CHECK(background == expected);
   }
@@ -167,8 +169,9 @@ TEST_CASE("what is in a selected group is not edited twice") {
   CHECK(outermost({}).empty());
 }
 
-TEST_CASE("copies stand behind what they are copies of, with names of their own; companions come along, and groups keep "
-          "theirs") {
+TEST_CASE(
+    "copies stand behind what they are copies of, with names of their own; companions come along, and groups keep "
+    "theirs") {
   Scene scene = example();
   CHECK(duplicate_objects(scene, {{1}, {0}}) == ObjectPaths{{1}, {3}, {5}});
   CHECK(names(scene.objects) ==
@@ -215,8 +218,9 @@ TEST_CASE("everything that can be added gives a valid scene that reads back the 
   }
 }
 
-TEST_CASE("a ball stands on the spot, by numbers that print short; a material of the usual name but with other values is "
-          "left alone") {
+TEST_CASE(
+    "a ball stands on the spot, by numbers that print short; a material of the usual name but with other values is "
+    "left alone") {
   Scene scene = floor_and_box();
   addition_named("a sphere").add(scene, {{0.123456, 0.0000001, 0.3}, {0, 1, 0}, 0.5});
   CHECK(shape(scene, 2) == Sphere<>{{0.123, 0.25, 0.3}, 0.25, {}});

@@ -15,9 +15,9 @@ constexpr Rect image{100, 0, 900, 600};
 
 /// A sphere in the middle of a picture, 10 units before the eye, and a turned box elsewhere.
 Scene example() {
-  return seen_scene(800, 600, {0, 0, 10}, 60,
-                    {ball("ball", {0, 0, 0}),
-                     solid(Box<>{{-1, -1, -1}, {1, 1, 1}}, {RotateY{20}, Translate{{3, 1, 0}}})});
+  return seen_scene(
+      800, 600, {0, 0, 10}, 60,
+      {ball("ball", {0, 0, 0}), solid(Box<>{{-1, -1, -1}, {1, 1, 1}}, {RotateY{20}, Translate{{3, 1, 0}}})});
 }
 PictureFrame frame(const Scene& scene) { return frame_of(scene, image, 1); }
 
@@ -42,8 +42,9 @@ std::ptrdiff_t count(const std::vector<Handle>& handles, HandleKind kind) {
 
 }  // namespace
 
-TEST_CASE("in the camera's plane the object stays under the mouse; along an axis only that number changes, and prints "
-          "short") {
+TEST_CASE(
+    "in the camera's plane the object stays under the mouse; along an axis only that number changes, and prints "
+    "short") {
   Scene scene = example();
   scene.camera.look_from = {4, 3, 8};
   const Scene moved = dragged(scene, drag_by(HandleKind::plane, 120, -80));

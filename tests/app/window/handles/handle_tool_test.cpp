@@ -55,8 +55,9 @@ struct Hand {
 
 }  // namespace
 
-TEST_CASE("a drag on a handle moves, with Shift a tenth; a drag beside it is left to others, and so is all while "
-          "something else has the mouse, or nothing is selected") {
+TEST_CASE(
+    "a drag on a handle moves, with Shift a tenth; a drag beside it is left to others, and so is all while "
+    "something else has the mouse, or nothing is selected") {
   Hand hand, fine;
   CHECK(hand.drag(50, 0));
   CHECK(hand.center().x == close(50 * 11.547 / 300, 0.01));

@@ -19,7 +19,8 @@ class TestColumn {
     set_style(1);
     ui.log = &log_;
     scene().materials = {{"gold", Vec3d{0.9, 0.6, 0.3}, Metal<>{0.18}}, {"glass", {}, Dielectric<>{2.0 / 3}}};
-    scene().objects = {ball("ball", {0, 0, 0}, 0.7), ball("bubble", {2, 0, 0}, -0.9, 1),
+    scene().objects = {ball("ball", {0, 0, 0}, 0.7),
+                       ball("bubble", {2, 0, 0}, -0.9, 1),
                        {"fog", Volume{Box<>{}, {}, Medium<>{1.1, 0}, Vec3d{1, 1, 1}}, {}}};
     scene().objects[1].transform = {RotateY{30}};
     scene().camera.look_from = {0, 1, 6};

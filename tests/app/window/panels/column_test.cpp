@@ -9,7 +9,8 @@ TEST_CASE("a new user finds fuzz, refractive index and density at once") {
     CHECK_MESSAGE(column.has(name), name);
 }
 
-TEST_CASE("a tab brings its part to the head of the column, opens it, and is lit; so does a selection with its values") {
+TEST_CASE(
+    "a tab brings its part to the head of the column, opens it, and is lit; so does a selection with its values") {
   TestColumn column;
   column.height = 500;
   column.draw(2);

@@ -5,8 +5,9 @@
 
 namespace tyndall::test::rows_test {
 
-TEST_CASE("drawing changes nothing, nor does a click into a number that has more digits than it shows; a drawing in which "
-          "a control was moved says so") {
+TEST_CASE(
+    "drawing changes nothing, nor does a click into a number that has more digits than it shows; a drawing in which "
+    "a control was moved says so") {
   TestColumn column;
   const Scene before = column.scene();
   column.draw(5);
@@ -59,7 +60,8 @@ TEST_CASE("a press on the grab moves nothing, though the value has more digits t
   CHECK(column.refractive_index() > 0.7);
 }
 
-TEST_CASE("numbers and sums are typed: taken where valid, also beyond the slider, and refused with a reason elsewhere") {
+TEST_CASE(
+    "numbers and sums are typed: taken where valid, also beyond the slider, and refused with a reason elsewhere") {
   TestColumn column;
   struct Typed {
     const char *row, *text;
@@ -68,7 +70,8 @@ TEST_CASE("numbers and sums are typed: taken where valid, also beyond the slider
   };
   column.select({0});
   for (const auto& [row, text, value, problem] :
-       {Typed{"gold.fuzz.value", "0.25", 0.25, ""}, {"gold.fuzz.value", "1/5", 0.2, ""},
+       {Typed{"gold.fuzz.value", "0.25", 0.25, ""},
+        {"gold.fuzz.value", "1/5", 0.2, ""},
         {"gold.fuzz.value", "1.5", 0.2, "fuzz: found 1.5, expected a number in [0, 1]"},
         {"gold.fuzz.value", "much", 0.2, "fuzz: found much, expected a number in [0, 1]"},
         {"gold.fuzz.value", "2*pi", 0.2, "fuzz: found 2*pi, expected a number in [0, 1]"},
@@ -129,8 +132,9 @@ TEST_CASE("a double click sets sliders and numbers back to what the file has, or
   CHECK(column.fuzz() == Metal<>{}.fuzz);
 }
 
-TEST_CASE("on sliders and numbers Shift drags a tenth as far, Ctrl snaps, and Esc takes a drag back until the mouse is let "
-          "go") {
+TEST_CASE(
+    "on sliders and numbers Shift drags a tenth as far, Ctrl snaps, and Esc takes a drag back until the mouse is let "
+    "go") {
   for (const char* name : {"gold.fuzz", "gold.fuzz.value"}) {
     double way[2];
     for (const bool shift : {false, true}) {
@@ -166,7 +170,8 @@ TEST_CASE("on sliders and numbers Shift drags a tenth as far, Ctrl snaps, and Es
   CHECK(column.scene().camera.vfov == std::round(column.scene().camera.vfov));
 }
 
-TEST_CASE("choices change what they say, and only that; errors are seen only where there is something to measure against") {
+TEST_CASE(
+    "choices change what they say, and only that; errors are seen only where there is something to measure against") {
   TestColumn column;
   column.click("render.fresnel.schlick");
   CHECK(column.scene().render.fresnel == FresnelKind::schlick);
@@ -215,7 +220,9 @@ TEST_CASE("a shared material can be made a single user's") {
   TestColumn column;
   column.select({0});
   CHECK_FALSE(column.has("Ball.single_user"));
-  const auto material = [&](std::size_t k) -> int& { return std::get<Solid3d>(column.scene().objects[k].kind).material; };
+  const auto material = [&](std::size_t k) -> int& {
+    return std::get<Solid3d>(column.scene().objects[k].kind).material;
+  };
   material(1) = 0;
   column.draw();
   column.click("Ball.single_user");

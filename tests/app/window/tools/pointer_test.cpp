@@ -1,5 +1,5 @@
-#include "app/window/tools/camera_control.h"
 #include "app/window/tools/pointer.h"
+#include "app/window/tools/camera_control.h"
 #include "tests/app/window/scenes.h"
 
 namespace tyndall::test::pointer_test {
@@ -102,7 +102,8 @@ TEST_CASE("the wheel dollies, with Ctrl it changes the field of view; quick step
   CHECK(target_distance(hand.camera) == doctest::Approx(0.9 * distance));
 }
 
-TEST_CASE("a click knows its pixel, also at the edges of the picture; clicks are at one place if mouse and camera stay") {
+TEST_CASE(
+    "a click knows its pixel, also at the edges of the picture; clicks are at one place if mouse and camera stay") {
   const Rect image{100, 50, 300, 150};
   const auto pixel = [&](float x, float y) {
     const PictureClick click = click_at(image, x, y, 20, 10);
@@ -122,8 +123,7 @@ TEST_CASE("a click knows its pixel, also at the edges of the picture; clicks are
 }
 
 TEST_CASE("fog is selected where nothing else is, or by a second click") {
-  const Scene scene =
-      seen_scene(100, 100, {0, 0, 0}, 90, {ball("", {0, 0, -5}), fog(Sphere<>{{0, 0, -2}, 0.5, {}})});
+  const Scene scene = seen_scene(100, 100, {0, 0, 0}, 90, {ball("", {0, 0, -5}), fog(Sphere<>{{0, 0, -2}, 0.5, {}})});
   const Renderer::Pick on_sphere{{0}, 4, {0, 0, -4}}, nothing{};
   const auto clicked = [&](const Renderer::Pick& pick, double x, const ObjectPath& selected, bool again) {
     return clicked_object(scene, pick, {x, 0.5}, selected, again);
@@ -137,9 +137,9 @@ TEST_CASE("fog is selected where nothing else is, or by a second click") {
 }
 
 TEST_CASE("clicks at one place go on to what lies behind, and from the last object to the first again") {
-  const Scene scene = seen_scene(100, 100, {0, 0, 0}, 90,
-                                 {ball("", {0, 0, -9}), ball("", {0, 0, -4}, 2), ball("", {0, 0, -4}, -1.5),
-                                  fog(Sphere<>{{0, 0, -20}, 3, {}})});
+  const Scene scene = seen_scene(
+      100, 100, {0, 0, 0}, 90,
+      {ball("", {0, 0, -9}), ball("", {0, 0, -4}, 2), ball("", {0, 0, -4}, -1.5), fog(Sphere<>{{0, 0, -20}, 3, {}})});
   const Renderer::Pick front{{1}, 2, {0, 0, -2}};
   ObjectPath now = clicked_object(scene, front, {0.5, 0.5}, {}, false);
   std::vector<ObjectPath> seen{now};

@@ -1,5 +1,5 @@
-#include "app/window/tools/projection.h"
 #include "app/window/tools/selection.h"
+#include "app/window/tools/projection.h"
 #include "tests/app/window/scenes.h"
 
 #include <cmath>
@@ -21,7 +21,8 @@ Scene example() {
 /// The medium that a line of sight enters first, if it does so before `depth` along the axis; empty: none.
 ObjectPath medium_at(const Scene& scene, double x, double depth = std::numeric_limits<double>::infinity()) {
   for (const ObjectUnder& object : objects_under(scene, {x, 0.5}))
-    if (object.medium && -object.distance * Projection(scene).view_ray({x, 0.5}).direction.z < depth) return object.path;
+    if (object.medium && -object.distance * Projection(scene).view_ray({x, 0.5}).direction.z < depth)
+      return object.path;
   return {};
 }
 
@@ -63,8 +64,9 @@ TEST_CASE("at first the most interesting object is selected: metal, glass or fog
   CHECK(interesting(scene).empty());
 }
 
-TEST_CASE("outlines: a sphere's is the circle of its tangents; a box has four edges face on, from a corner six; what is "
-          "behind the eye is left out, what reaches behind it is cut") {
+TEST_CASE(
+    "outlines: a sphere's is the circle of its tangents; a box has four edges face on, from a corner six; what is "
+    "behind the eye is left out, what reaches behind it is cut") {
   double right = 0, top = 0, bottom = 0;
   for (const ImageLine& line : outline(example(), {0}))
     for (const ImagePoint& p : {line.a, line.b}) {
@@ -94,8 +96,8 @@ TEST_CASE("outlines: a sphere's is the circle of its tangents; a box has four ed
 }
 
 TEST_CASE("fog is found where the ray enters it, nearest first, and not behind what hides it") {
-  Scene scene = seen({fog(Sphere<>{{0, 0, 0}, 1, {}}),
-                      fog(Box<>{{-1, -1, -1}, {1, 1, 1}}, {RotateY{45}, Translate{{4, 0, 0}}})});
+  Scene scene =
+      seen({fog(Sphere<>{{0, 0, 0}, 1, {}}), fog(Box<>{{-1, -1, -1}, {1, 1, 1}}, {RotateY{45}, Translate{{4, 0, 0}}})});
   CHECK(medium_at(scene, 0.5) == ObjectPath{0});
   CHECK(medium_at(scene, 0.5, 9.01) == ObjectPath{0});
   CHECK(medium_at(scene, 0.5, 8.99).empty());
@@ -113,7 +115,8 @@ TEST_CASE("fog is found where the ray enters it, nearest first, and not behind w
   CHECK(medium_at(scene, 0.5, 11.99).empty());
 }
 
-TEST_CASE("all that lies under a point is listed from near to far, also in turned groups, and shapes only where they are") {
+TEST_CASE(
+    "all that lies under a point is listed from near to far, also in turned groups, and shapes only where they are") {
   Scene scene = seen({solid(Quad<>{{-2, -2, -3}, {4, 0, 0}, {0, 4, 0}}),
                       ball("", {0, 0, 0}),
                       {"turned", Group{{ball("", {-4, 0, 0}, 0.5)}}, {RotateY{90}}}});  // now at z = 4
