@@ -22,7 +22,7 @@ if [ -z "${IN_XVFB:-}" ]; then
   # A folder of this run alone: the screen of the run before may still be ending, and then removes its own picture.
   screen=$scratch/screen.$$
   rm -rf "${scratch:?}"/* && mkdir -p "$screen"
-  IN_XVFB=$screen exec xvfb-run -a -s "-r -noreset -screen 0 1280x2700x24 -nolisten tcp -fbdir $screen" \
+  IN_XVFB=$screen exec xvfb-run -a -s "-r -noreset -screen 0 ${screen_size:-1280x2700}x24 -nolisten tcp -fbdir $screen" \
     bash "$script" "$tyndall" "$scratch" "$root"
 fi
 screen=$IN_XVFB
@@ -93,8 +93,6 @@ wait_for() { wait_until logged "$1" "${2:-1}"; }
 # The number of lines in the log and one, for wait_for's second argument.
 here() { echo $(($(wc -l <"$scratch/log") + 1)); }
 
-# The number of edits that were submitted.
-submits() { grep -c '^submit' "$scratch/log"; }
 
 # Waits until the window is at rest: all that was sent to it is shown, the picture is finished.
 # What was sent must have arrived before; the helpers below see to that.

@@ -1,3 +1,4 @@
+#include "app/window/panels/panels.h"
 #include "core/image/image_io.h"
 #include "tests/app/window/opened_session.h"
 
@@ -45,9 +46,11 @@ TEST_CASE(
   CHECK(session.can_show_errors());
   opened.set_fuzz(0.5);
   CHECK(fit() == ReferenceFit::other_scene);
+  CHECK_FALSE(opened.accuracy().is_true());
   opened.editor().undo();
   opened.edit([](Scene& scene) { scene.render.seed = 1; });
   CHECK(fit() == ReferenceFit::same_samples);
+  CHECK(accuracy_lines(opened.accuracy())[0].text.starts_with("same random numbers, noise looks too small: "));
   opened.editor().undo();
   REQUIRE(opened.finishes());
   opened.show();

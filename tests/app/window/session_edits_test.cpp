@@ -1,3 +1,4 @@
+#include "core/compile/compile.h"
 #include "core/image/image_io.h"
 #include "core/render/render.h"
 #include "tests/app/window/opened_session.h"

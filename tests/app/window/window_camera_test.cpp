@@ -11,20 +11,38 @@ TEST_CASE("the window: the mouse orbits, pans and moves the camera, each a step 
     driver.undo();
     CHECK_MESSAGE(driver.value(control) == before, control);
   };
+  const std::string target = driver.value("camera.look_at.x") + driver.value("camera.look_at.y");
+  const auto keeps_target = [&] {
+    CHECK(driver.value("camera.look_at.x") + driver.value("camera.look_at.y") == target);
+  };
   changes("camera.look_from.x", [&] {
     driver.drag(0.4, 0.5, 0.6, 0.5);
-    CHECK(driver.value("camera.look_at.x") == "0");
+    keeps_target();
   });
   changes("camera.look_at.x", [&] { driver.drag(0.4, 0.5, 0.6, 0.6, 2); });
-  changes("camera.look_from.z", [&] { driver.drag(0.5, 0.4, 0.5, 0.6, 1); });
+  changes("camera.look_from.z", [&] {
+    driver.drag(0.5, 0.4, 0.6, 0.6, 1);
+    keeps_target();
+    CHECK(driver.value("camera.look_from.x") == "0");
+  });
   driver.point("picture");
   changes("camera.look_from.z", [&] {
     for (int k = 0; k < 3; ++k) driver.wheel(1);
+    keeps_target();
+  });
+  changes("camera.look_from.z", [&] {
+    driver.wheel(1);
+    const std::string once = driver.value("camera.look_from.z");
+    skipped_seconds = skipped_seconds + 1;
+    driver.wheel(1);
+    driver.undo();
+    CHECK(driver.value("camera.look_from.z") == once);  // steps that are not quick are undone one by one
   });
   driver.hold({.control = true});
   changes("camera.vfov", [&] {
     driver.wheel(1);
     driver.hold({});
+    CHECK(driver.value("camera.look_from.z") == "6");
   });
   changes("camera.look_from.z", [&] { driver.fly('W'); });
 }

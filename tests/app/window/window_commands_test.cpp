@@ -138,15 +138,12 @@ TEST_CASE("the window: what changes no picture starts nothing over, but can be u
   CHECK(driver.submits() == 1);
 }
 
-TEST_CASE("the window: a value that is typed where the palette has led to") {
+TEST_CASE("the window: the palette leads to rows and commands, or says what to do first") {
   Driver driver("palette");
   driver.click("section.Render");
-  for (const auto& [words, text, row] :
-       {std::tuple{"roughness", "0.75", "gold.fuzz"}, {"bounces", "17", "render.max_depth"}}) {
-    driver.find(words);
-    driver.type(text);
-    CHECK(driver.value(row) == text);
-  }
+  driver.find("bounces");
+  driver.type("17");
+  CHECK(driver.value("render.max_depth") == "17");
   driver.find("emission");
   CHECK(driver.last("message") == "Power: select a lamp first");
   driver.find("A/B");

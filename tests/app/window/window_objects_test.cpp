@@ -17,7 +17,8 @@ TEST_CASE("the window: handles move and size what is selected, each pull a step 
   driver.click_ball();
   REQUIRE(driver.value("picture") == "Ball");
   pull(driver, "x", 100, 30);
-  CHECK(driver.number("Ball.center.x") > 0.5);
+  const double moved = driver.number("Ball.center.x");
+  CHECK(moved > 0.5);
   CHECK(driver.value("Ball.center.y") == "0.8");
   CHECK(driver.value("camera.look_from.x") == "0");
   driver.undo();
@@ -30,6 +31,10 @@ TEST_CASE("the window: handles move and size what is selected, each pull a step 
   CHECK(driver.number("Ball.radius") > 0.9);
   driver.undo();
   CHECK(driver.value("Ball.radius") == "0.8");
+  driver.hold({.shift = true});
+  pull(driver, "x", 100, 30);  // a tenth as far
+  driver.hold({});
+  CHECK(driver.number("Ball.center.x") == doctest::Approx(moved / 10).epsilon(0.03));
   driver.drag(0.2, 0.8, 0.25, 0.8);  // beside the ball
   CHECK(driver.value("camera.look_from.x") != "0");
 }

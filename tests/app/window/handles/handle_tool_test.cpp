@@ -16,9 +16,9 @@ struct Hand {
   ObjectPaths selected{{0}};
 
   Hand() { mouse.x = 200, mouse.y = 150; }
-  bool update(bool free = true) {
+  bool update() {
     EditedScene edited(std::make_shared<const Scene>(scene));
-    const bool taken = tool.update(mouse, layout, 1, free, selected, edited);
+    const bool taken = tool.update(mouse, layout, 1, true, selected, edited);
     if (auto changed = edited.take()) scene = std::move(*changed);
     mouse.dx = mouse.dy = 0;
     for (bool& button : mouse.clicked) button = false;
@@ -36,13 +36,6 @@ struct Hand {
     mouse.x += dx, mouse.y += dy, mouse.dx = dx, mouse.dy = dy;
     return update();
   }
-  bool drag(float dx, float dy) {
-    press();
-    const bool taken = update();
-    move(dx, dy);
-    release();
-    return taken;
-  }
   /// Whether the tool takes all of these characters.
   bool type(const std::string& text) {
     for (const char c : text)
@@ -54,28 +47,6 @@ struct Hand {
 };
 
 }  // namespace
-
-TEST_CASE(
-    "a drag on a handle moves, with Shift a tenth; a drag beside it is left to others, and so is all while "
-    "something else has the mouse, or nothing is selected") {
-  Hand hand, fine;
-  CHECK(hand.drag(50, 0));
-  CHECK(hand.center().x == close(50 * 11.547 / 300, 0.01));
-  CHECK_FALSE(hand.tool.active());
-  fine.mouse.shift = true;
-  fine.drag(50, 0);
-  CHECK(fine.center().x == close(hand.center().x / 10, 0.02));
-  const Scene before = hand.scene;
-  hand.mouse.x = 20, hand.mouse.y = 280;
-  CHECK_FALSE(hand.drag(50, 0));
-  CHECK(hand.scene == before);
-  Hand other;
-  other.press();
-  CHECK_FALSE(other.update(false));
-  other.selected.clear();
-  other.press();
-  CHECK_FALSE(other.update());
-}
 
 TEST_CASE("a press on a handle that does not move is a click on what lies behind") {
   Hand hand;
