@@ -29,7 +29,7 @@ const Rect area{0, 0, 900, 700}, fit{0, 68, 900, 631};  // a picture of 1600 x 1
 struct Zoomed {
   int width = 1600, height = 1000;
   float dots = 1;
-  ImageZoom zoom;
+  ImageZoom zoom{};
 
   Rect place() { return zoom.place(area, fit, width, height, dots); }
 };
