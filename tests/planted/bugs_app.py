@@ -150,12 +150,12 @@ APP = [
     ("a film plays on behind its end", "app/window/timeline/timeline.cpp", "static_cast<int>(«played % animation.frames → played»);", "app/window/window_rows"),
 
     ("what begins so stands among the others", "app/window/menus/menu.cpp",
-     "if («name.starts_with(sought) || end.starts_with(sought) → false») return 1;", "app/window/menus/palette"),
-    ("other words of an item are not looked at", "app/window/menus/menu.cpp", "if (holds_words(«label + \" \" + also → label», text)) return 3;", "app/window/menus/palette"),
-    ("what cannot be done is done by a click", "app/window/menus/menu.cpp", "return «pressed && can → pressed»;", "app/window/menus/palette"),
+     "if («name.starts_with(sought) || end.starts_with(sought) → false») return 1;", "app/window/palette_list"),
+    ("other words of an item are not looked at", "app/window/menus/menu.cpp", "if (holds_words(«label + \" \" + also → label», text)) return 3;", "app/window/palette_list"),
+    ("what cannot be done is done by a click", "app/window/menus/menu.cpp", "return «pressed && can → pressed»;", "app/window/palette_list"),
     ("arrow keys stop at what cannot be done", "app/window/menus/menu.cpp",
-     "if («items_[static_cast<std::size_t>(mark_)].why_not.empty() → true») break;", "app/window/menus/palette"),
-    ("the down key goes up in the palette", "app/window/menus/menu.cpp", "mark_ += «key == key_down → key != key_down» ? 1 : -1;", "app/window/menus/palette"),
+     "if («items_[static_cast<std::size_t>(mark_)].why_not.empty() → true») break;", "app/window/palette_list"),
+    ("the down key goes up in the palette", "app/window/menus/menu.cpp", "mark_ += «key == key_down → key != key_down» ? 1 : -1;", "app/window/window_commands"),
 
     ("a rectangle without its last column and row", "app/window/inspector/drawings.cpp",
      "«std::ceil(at * size - rounding) → std::floor(at * size - rounding)»", "app/window/inspector/inspector"),

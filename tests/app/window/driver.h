@@ -98,6 +98,13 @@ class Driver {
     platform_->events.keys.push_back({code, modifiers, ImGui::GetIO().WantTextInput});
     step();
   }
+  /// A key of Dear ImGui's own, for the control that has the keyboard.
+  void strike(ImGuiKey key, int times = 1) {
+    for (int k = 0; k < 2 * times; ++k) {
+      compat::key(ImGui::GetIO(), key, k % 2 == 0);
+      step();
+    }
+  }
   void escape() {
     strike(ImGuiKey_Escape);  // for a control that has the keyboard
     key(256);
@@ -192,13 +199,6 @@ class Driver {
   void hold(int button, bool down) {
     compat::mouse_button(ImGui::GetIO(), button, down);
     step();
-  }
-  /// A key of Dear ImGui's own.
-  void strike(ImGuiKey key) {
-    for (const bool down : {true, false}) {
-      compat::key(ImGui::GetIO(), key, down);
-      step();
-    }
   }
   void read_log();
 

@@ -1,4 +1,5 @@
 #include "app/window/command.h"
+#include "app/window/menus/menu.h"
 #include "tests/app/window/panels/column.h"
 #include "tests/support/skies.h"
 
@@ -82,6 +83,52 @@ std::string first_found(const std::vector<PaletteItem>& items, const std::string
 }
 
 }  // namespace
+
+TEST_CASE("items are found by all words, in any order and case, other words too; those that begin so come first") {
+  const std::vector<PaletteItem> items{{"save the scene", "Ctrl + S", "", {"save the scene"}},
+                                       {"save as", "", "", {"save as"}},
+                                       {"add a lamp", "", "", {"add a lamp"}},
+                                       {"undo", "Ctrl + Z", "", {"undo"}}};
+  CHECK(matching_items(items, "") == std::vector<int>{0, 1, 2, 3});
+  CHECK(matching_items(items, "SAVE") == std::vector<int>{0, 1});
+  CHECK(matching_items(items, "scene save") == std::vector<int>{0});
+  CHECK(matching_items(items, "a") == std::vector<int>{2, 0, 1});
+  CHECK(matching_items(items, "nothing").empty());
+  const std::vector<PaletteItem> others{
+      {"larger text", "", "font size, preferences"}, {"full screen", "", ""}, {"size of the film", "", ""}};
+  CHECK(matching_items(others, "font") == std::vector<int>{0});
+  CHECK(matching_items(others, "larger font") == std::vector<int>{0});
+  CHECK(matching_items(others, "size") == std::vector<int>{2, 0});
+  CHECK(matching_items({{"clean view on or off", "", "denoise"}, {"view: noise", "", ""}}, "view noise") ==
+        std::vector<int>{1, 0});
+}
+
+TEST_CASE("what cannot be done in a menu is passed over by keys, and does nothing when it is clicked") {
+  NullImGui imgui;
+  Ui ui;
+  Menu menu;
+  std::optional<Request> chosen;
+  const auto draw = [&] {
+    imgui.frame([&] {
+      if (const auto now = menu.draw(ui, {0, 0, 900, 700})) chosen = now;
+    });
+  };
+  menu.open(100, 100, "ball", {{"no", "", "it cannot"}});
+  draw();
+  for (float y = 100; y < 200; y += 3) {
+    compat::mouse_pos(ImGui::GetIO(), 130, y);
+    for (const bool down : {true, false}) {
+      compat::mouse_button(ImGui::GetIO(), 0, down);
+      draw();
+    }
+  }
+  CHECK_FALSE(chosen);
+  menu.open(100, 100, "ball", {{"no", "", "it cannot"}, {"undo", "", ""}});
+  CHECK(menu.take_key(264));  // down
+  CHECK(menu.take_key(257));  // Enter
+  draw();
+  CHECK(chosen == Request{"undo"});
+}
 
 TEST_CASE("the words of other programs lead to the action or row that is meant there") {
   const std::pair<const char*, const char*> meant[] = {{"split view", "split, A/B"},

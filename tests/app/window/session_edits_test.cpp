@@ -1,8 +1,6 @@
 #include "core/compile/compile.h"
-#include "core/image/image_io.h"
 #include "core/render/render.h"
 #include "tests/app/window/opened_session.h"
-#include "tests/app/window/picture_pipe.h"
 #include "tests/support/allocations.h"
 
 namespace tyndall::test::session_edits_test {
@@ -80,75 +78,6 @@ TEST_CASE("the selection stays on its objects through undo, redo and a file that
   write_text("scene.json", write_scene(other));
   REQUIRE(opened.comes_true([&] { return editor.scene().objects.size() == 3; }));
   CHECK(editor.selection() == ObjectPaths{{2}});
-}
-
-namespace {
-
-/// A session over a picture of 2 x 2 pixels that comes by a pipe.
-struct PictureSession : OpenedSession {
-  PicturePipe pipe;
-
-  explicit PictureSession(const std::string& name) : OpenedSession(name) {
-    pipe.write("P3 2 2 255 ");
-    open([&](WindowOptions& options) { pipe.give_to(options, 2, 2); });
-  }
-  ~PictureSession() { session.reset(); }
-  /// Whether so much of the picture has come; pixels are shown as soon as they are there, which is told of later.
-  bool says(const std::string& arrived) {
-    return comes_true([&] { return session->arrived() == arrived; });
-  }
-  /// Whether the frame of the newest request has these values of red.
-  bool shows(const std::array<float, 4>& red) {
-    return comes_true([&] {
-      const auto now = frame();
-      if (!now || !now->finished || now->rgba.size() != 16) return false;
-      for (std::size_t i = 0; i < 4; ++i)
-        if (now->rgba[4 * i] != red[i]) return false;
-      return true;
-    });
-  }
-};
-
-}  // namespace
-
-TEST_CASE("a picture that is being written is shown row by row, and stays where it ends") {
-  PictureSession opened("picture");
-  REQUIRE(opened.shows({0, 0, 0, 0}));
-  CHECK(opened.session->shows_picture());
-  CHECK(opened.session->arrived() == "row 0 of 2");
-  CHECK_FALSE(opened.session->at_rest());
-  opened.pipe.write("255 0 0 255 0 0 ");
-  REQUIRE(opened.shows({1, 1, 0, 0}));
-  CHECK(opened.says("row 1 of 2"));
-  opened.pipe.close_writer();
-  REQUIRE(opened.comes_true([&] { return opened.session->at_rest(); }));
-  CHECK(opened.session->arrived() == "ended at row 1 of 2");
-  CHECK(opened.shows({1, 1, 0, 0}));
-}
-
-TEST_CASE(
-    "how a picture is displayed is no edit that could be lost; a snapshot holds no scene; undo of another scene "
-    "brings the picture back") {
-  PictureSession opened("picture_display");
-  opened.pipe.write("255 0 0 0 0 0 255 0 0 0 0 0\n");
-  REQUIRE(opened.shows({1, 0, 1, 0}));
-  CHECK(opened.says("all 2 rows"));
-  for (const double exposure : {1, 0}) {
-    opened.edit([&](Scene& scene) { scene.display.exposure = exposure; });
-    CHECK(opened.session->unsaved() == nullptr);
-  }
-  opened.session->snapshot();
-  REQUIRE(opened.appears("image-001.png"));
-  CHECK(read_image("image-001.png").rgb == std::vector<float>{1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0});
-  CHECK_FALSE(read_embedded_scene("image-001.png"));
-  OpenedSession::write(0.125, "other.json");
-  opened.editor().open("other.json");
-  REQUIRE(opened.comes_true([&] { return !opened.session->shows_picture(); }));
-  CHECK(opened.finishes());
-  CHECK(opened.frame()->width == 8);
-  opened.editor().undo();
-  CHECK(opened.session->shows_picture());
-  CHECK(opened.shows({1, 0, 1, 0}));
 }
 
 TEST_CASE("a snapshot that is opened again goes on: the EXR from its samples to the same bits, the PNG starts over") {

@@ -150,19 +150,41 @@ TEST_CASE("the window: the palette leads to rows and commands, or says what to d
   CHECK(driver.value("render.split.on") == "on");
 }
 
-TEST_CASE("the window: what is typed into the palette is no shortcut, and without a match it goes on") {
+TEST_CASE("the window: what is typed into the palette is no shortcut, goes on without a match, and is forgotten") {
   Driver driver("palette_typing");
+  const auto begin = [&](const char* text) {
+    driver.chord('K');
+    driver.write(text);
+    driver.settle();
+  };
   driver.find("nor");
   CHECK(driver.value("image.view.normal") == "on");
-  driver.chord('K');
-  driver.write("1");
-  driver.settle();
+  begin("1");
   CHECK(driver.value("palette") == "1");
   CHECK(driver.value("image.view.normal") == "on");
-  driver.type("qqq");
+  driver.type("sabe");  // there is no such thing
   CHECK(driver.has("palette"));
+  driver.strike(ImGuiKey_Backspace, 2);
+  driver.write("xx");
+  driver.click("palette", 0.5, 0.5);
+  REQUIRE(driver.has("palette"));
+  driver.strike(ImGuiKey_Backspace, 2);
+  driver.write("ve");
+  driver.key(264);  // down, to the second line
+  driver.strike(ImGuiKey_Enter);
+  driver.settle();
+  CHECK(driver.last("did") == "save as");
   driver.escape();
+  begin("tone");
+  driver.click("picture", 0.05, 0.95);  // beside it
   CHECK_FALSE(driver.has("palette"));
+  begin("");
+  driver.hold({.control = true});
+  driver.strike(ImGuiKey_Z);
+  driver.strike(ImGuiKey_Y);
+  driver.hold({});
+  driver.settle();
+  CHECK(driver.value("palette").empty());
 }
 
 TEST_CASE("the window: what the palette adds comes where the mouse was when it opened") {

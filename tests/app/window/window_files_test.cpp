@@ -131,6 +131,9 @@ TEST_CASE("the window: theme, size of texts, width of the column and folded sect
   CHECK(ImGui::GetStyle().Colors[ImGuiCol_WindowBg].x > dark + 0.5f);
   driver.click("section.Camera");
   written("folded Camera");
+  CHECK_FALSE(driver.has("camera.vfov"));
+  driver.click("section.Camera");
+  CHECK(driver.has("camera.vfov"));
   driver.click("window.text.125");
   written("text-size 1.25");
   CHECK(driver.width("gold.fuzz.value") > usual);

@@ -1,4 +1,6 @@
 #include "app/window/accuracy/views.h"
+#include "core/image/image_io.h"
+#include "core/image/tonemap.h"
 #include "tests/app/window/driver.h"
 #include "tests/app/window/picture_pipe.h"
 
@@ -100,7 +102,9 @@ TEST_CASE("the window: names that hold anything stand in one line, in the title,
   CHECK(driver.platform().title.find("odd\\n\\u001b[31m %s ##x.json") == 0);
 }
 
-TEST_CASE("the window: a picture that a program writes is looked at, exposed and saved, and nothing leads to a scene") {
+TEST_CASE(
+    "the window: a picture that a program writes is looked at, exposed and saved; nothing leads to a scene but opening "
+    "one, which can be undone") {
   PicturePipe pipe;
   pipe.write("P3 32 20 255\n");
   Driver driver("piped", [&](WindowOptions& options) { pipe.give_to(options, 32, 20); });
@@ -123,13 +127,28 @@ TEST_CASE("the window: a picture that a program writes is looked at, exposed and
   driver.key('2');
   driver.await("message", no_scene);
   driver.set("image.exposure", "1");
+  driver.undo();
   CHECK(driver.submits() == 1);
   driver.chord('P');
   driver.await("message", "saved image-001.png");
-  CHECK_THROWS(load_scene("image-001.png"));
+  CHECK_FALSE(read_embedded_scene("image-001.png"));
+  const std::vector<float> rgb = read_image("image-001.png").rgb;
+  CHECK(std::vector<float>(rgb.begin(), rgb.begin() + 3) == std::vector<float>{1, srgb_decode(128 / 255.0f), 0});
+  CHECK(std::vector<float>(rgb.end() - 3, rgb.end()) == std::vector<float>{0, 0, 0});
   pipe.close_writer();
   driver.await("state", "ended at row 10 of 20");
   CHECK(driver.last("message") == "ended at row 10 of 20");
+  driver.set("image.exposure", "1");
+  driver.chord('O');
+  driver.type("scene.json");
+  driver.await("message", "opened scene.json");
+  driver.settle();
+  CHECK(driver.has("camera.vfov"));
+  driver.undo();
+  driver.await("state", "ended at row 10 of 20");
+  CHECK_FALSE(driver.has("camera.vfov"));
+  driver.send_key('Q', {.control = true});  // what is exposed is no edit that could be lost
+  driver.wait_until([&] { return !driver.is_open(); });
 }
 
 }  // namespace tyndall::test::window_look_test

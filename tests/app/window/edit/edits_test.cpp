@@ -1,7 +1,6 @@
 #include "app/window/edit/arrange.h"
 #include "app/window/edit/material_edits.h"
 #include "app/window/edit/object_list.h"
-#include "core/base/kinds.h"
 #include "core/scene/check.h"
 #include "core/scene/load.h"
 #include "tests/app/window/scenes.h"
@@ -131,17 +130,6 @@ TEST_CASE("what cannot hold fog says why") {
   CHECK(typed.scene == before);
 }
 
-TEST_CASE("a single user has a copy with a new name; others keep theirs") {
-  Typed typed;
-  make_single_user(typed.scene, {1});
-  CHECK(typed.material(0).name == "gold");
-  CHECK(typed.material(1).name == "gold 2");
-  CHECK(typed.material(1).kind == typed.material(0).kind);
-  const Scene before = typed.scene;
-  make_single_user(typed.scene, {1});
-  CHECK(typed.scene == before);
-}
-
 TEST_CASE("a lamp's colour times its power is its radiance") {
   const LightColour lamp = light_colour({7, 6.2, 5});
   CHECK(lamp.power == 7);
@@ -150,17 +138,6 @@ TEST_CASE("a lamp's colour times its power is its radiance") {
   CHECK(light_radiance({{0.5, 0.25, 0.5}, 10}) == Vec3d{10, 5, 10});
   CHECK(light_radiance({{0, 0, 0}, 3}) == Vec3d{3, 3, 3});
   CHECK(light_colour({0, 0, 0}).power == 0);
-}
-
-TEST_CASE("a background of another kind has the present colours, and its own when it was there before") {
-  const Gradient gradient{{1, 1, 1}, {0.5, 0.7, 1}};
-  Background background = gradient;
-  BackgroundMemory memory;
-  for (const Background& expected :
-       {Background(Hemispheres{gradient.top, gradient.bottom}), Background(gradient.top), Background(gradient)}) {
-    set_background_kind(background, static_cast<int>(expected.index()), memory);
-    CHECK(background == expected);
-  }
 }
 
 TEST_CASE("what is in a selected group is not edited twice") {

@@ -36,14 +36,6 @@ TEST_CASE(
   CHECK(column.state.tabs.lit == 0);
 }
 
-TEST_CASE("a click on a section's heading folds it and unfolds it again") {
-  TestColumn column;
-  for (const bool shown : {false, true}) {
-    column.click("section.Camera");
-    CHECK(column.has("camera.vfov") == shown);
-  }
-}
-
 TEST_CASE("dragging its edge makes the column wider, within limits, and a double click sets it back") {
   TestColumn column;
   column.aim("column.edge");

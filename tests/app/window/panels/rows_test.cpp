@@ -210,6 +210,7 @@ TEST_CASE("a background keeps its colours when its kind changes, and has its own
   column.click("background.kind.hemispheres");
   CHECK(column.scene().background == Background(Hemispheres{gradient.top, gradient.bottom}));
   column.click("background.kind.colour");
+  CHECK(column.scene().background == Background(gradient.top));
   column.click("background.kind.gradient");
   CHECK(column.scene().background == Background(gradient));
   column.click("background.kind.image");  // there has been no picture yet
@@ -228,6 +229,8 @@ TEST_CASE("a shared material can be made a single user's") {
   column.click("Ball.single_user");
   CHECK(column.scene().materials[static_cast<std::size_t>(material(0))].name == "gold 2");
   CHECK(material(1) == 0);
+  CHECK(column.scene().materials[2].kind == column.scene().materials[0].kind);
+  CHECK_FALSE(column.has("Ball.single_user"));
 }
 
 TEST_CASE("the menu of a row has each line once, also where the row has three numbers") {
