@@ -7,8 +7,7 @@
 
 namespace tyndall::test::command_test {
 
-TEST_CASE(
-    "no two commands have the same name or key, each can be carried out, and a key with other modifiers is none") {
+TEST_CASE("no two commands have the same name or key, each can be carried out, and other modifiers are none") {
   std::set<std::string> names;
   for (const Command& command : commands()) {
     CHECK_MESSAGE(names.insert(command.name).second, command.name);

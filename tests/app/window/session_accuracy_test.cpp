@@ -28,9 +28,7 @@ struct Measured : OpenedSession {
 
 }  // namespace
 
-TEST_CASE(
-    "a reference is rendered with another seed; it is of other scenes after an edit, the old one again after "
-    "undo") {
+TEST_CASE("a reference is rendered with another seed; it is of other scenes after an edit, until undo") {
   Measured opened("reference");
   Session& session = *opened.session;
   const auto fit = [&] {
@@ -127,9 +125,7 @@ TEST_CASE("a split view keeps the settings on its left, and follows edits of the
   CHECK_FALSE(session.split());
 }
 
-TEST_CASE(
-    "a reference that is being rendered is given up when the scene changes; one in its place counts its own "
-    "samples") {
+TEST_CASE("a reference that is being rendered is given up when the scene changes, or for another one") {
   Measured opened("reference_again");
   Session& session = *opened.session;
   LoadedScene other = load_scene("scene.json");

@@ -1,7 +1,7 @@
 #include "core/compile/compile.h"
-#include "core/render/render.h"
 #include "tests/app/window/opened_session.h"
 #include "tests/support/allocations.h"
+#include "tests/support/prepared.h"
 
 namespace tyndall::test::session_edits_test {
 

@@ -8,9 +8,7 @@
 namespace tyndall::test::session_files_test {
 namespace fs = std::filesystem;
 
-TEST_CASE(
-    "the file is read again when it changes, also while another program leaves it broken; with edits the user is "
-    "asked first") {
+TEST_CASE("the file is read again when it changes, also from a broken one; with edits the user is asked first") {
   OpenedSession opened("reload");
   OpenedSession::write(0.625);
   REQUIRE(opened.becomes(0.625));
@@ -83,9 +81,7 @@ TEST_CASE("restored edits of a file that another program has changed since wait 
   CHECK(opened.fuzz() == 0.5);
 }
 
-TEST_CASE(
-    "where edits cannot be kept as usual it is said at the first one, once, with the reason, and when they can be "
-    "again") {
+TEST_CASE("where edits cannot be kept as usual it is said once, with the reason, and when they can be again") {
   OpenedSession opened("keeping");
   const auto keeps = [&](const std::string& scene, double fuzz) {
     setenv("XDG_STATE_HOME", fs::absolute("file/state").c_str(), 1);
@@ -202,9 +198,7 @@ TEST_CASE("a scene that names a texture before it is there is read when it comes
   REQUIRE(opened.shows(255));
 }
 
-TEST_CASE(
-    "a scene that was opened by a symbolic link is read again when its target is saved or the link leads "
-    "elsewhere") {
+TEST_CASE("a scene behind a symbolic link is read again when its target is saved or the link leads elsewhere") {
   OpenedSession opened("link");
   fs::create_directory("in");
   OpenedSession::write(0.125, "in/a.json");
@@ -267,9 +261,7 @@ TEST_CASE("saving is no edit, and is not read again as one") {
   CHECK(opened.session->messages.current().error);
 }
 
-TEST_CASE(
-    "snapshots hold the newest edit, are numbered, finished when the window closes, and missed where the folder is "
-    "gone, as are charts") {
+TEST_CASE("snapshots hold the newest edit, are finished when the window closes, and missed where the folder is gone") {
   OpenedSession opened("snapshot");
   opened.session->export_chart();
   CHECK(opened.message() == "there is no curve yet");

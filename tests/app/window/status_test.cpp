@@ -62,9 +62,7 @@ TEST_CASE("the status line tells what is on the screen, and leaves out what is n
   CHECK(status_cells(Context{}, Scene{}).front().value == "starting");
 }
 
-TEST_CASE(
-    "the status line tells the errors of the clean view and of the raw picture, the true ones against a reference, and "
-    "what is only estimated") {
+TEST_CASE("the status line tells the errors of both pictures, the true ones, and what is only estimated") {
   Shown shown;
   Frame& frame = shown.picture;
   frame.edit = 3;

@@ -102,9 +102,7 @@ TEST_CASE("the window: names that hold anything stand in one line, in the title,
   CHECK(driver.platform().title.find("odd\\n\\u001b[31m %s ##x.json") == 0);
 }
 
-TEST_CASE(
-    "the window: a picture that a program writes is looked at, exposed and saved; nothing leads to a scene but opening "
-    "one, which can be undone") {
+TEST_CASE("the window: a picture that a program writes is looked at and saved; only opening leads to a scene") {
   PicturePipe pipe;
   pipe.write("P3 32 20 255\n");
   Driver driver("piped", [&](WindowOptions& options) { pipe.give_to(options, 32, 20); });

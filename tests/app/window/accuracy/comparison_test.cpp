@@ -177,9 +177,7 @@ TEST_CASE("which dropped images hold no scene") {
   for (const char* file : {"a.json", "no such file", ""}) CHECK_FALSE(shows_no_scene(folder / file));
 }
 
-TEST_CASE(
-    "of films the noise is known, but not of one layer of an EXR, which is no scene when it is dropped; a part of a "
-    "picture is no reference") {
+TEST_CASE("of films the noise is known, but not of a layer of an EXR; a part of a picture is no reference") {
   if (!has_openexr()) return;
   const fs::path file = scratch_folder("reference_film") / "a.exr";
   const Document document = small_document("cover");

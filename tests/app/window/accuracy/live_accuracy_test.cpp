@@ -92,10 +92,7 @@ TEST_CASE("with a reference the curve shows the true error, and without one the 
   CHECK(measured.error() == doctest::Approx(0.04));
 }
 
-TEST_CASE(
-    "a picture of the scene before is not measured against the reference of this one, and what was measured against "
-    "the "
-    "former reference is dropped") {
+TEST_CASE("pictures of the scene before are not measured, and results against the former reference are dropped") {
   Watched w;
   w.refer_to(1);
   w.accuracy.shown(Half::current, picture(1.5f, 1, 1), "mis", false);

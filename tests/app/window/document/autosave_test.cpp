@@ -221,8 +221,7 @@ TEST_CASE("edits go on beside the scene when the state folder fails later, and o
   CHECK(read(scenes / ".scene.json.unsaved-1").camera.vfov == 32);
 }
 
-TEST_CASE(
-    "the last words of several windows promise no more than the next start does; nor where the scene's file is gone") {
+TEST_CASE("the last words promise no more than the next start does, with several windows or a file that is gone") {
   const fs::path folder = scratch_folder("kept_two"), state = folder / "state";
   const auto document = edited_document(folder, "scene.json", 31);
   const std::string kept = "the edits of scene.json are kept";

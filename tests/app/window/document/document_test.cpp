@@ -13,9 +13,7 @@ TEST_CASE("comments are found, slashes in strings are none") {
   CHECK_FALSE(has_comments("{}"));
 }
 
-TEST_CASE(
-    "a saved scene reads back equal, from another folder too; two scenes give the same picture if they differ in name "
-    "and display only") {
+TEST_CASE("a saved scene reads back equal, from another folder too; names and display make no other picture") {
   const fs::path folder = scratch_folder("saved_scene");
   Document document = document_of(load_scene("earth"));
   Scene& scene = document.scene;
@@ -34,10 +32,7 @@ TEST_CASE(
   CHECK_THROWS_AS(save_document(document, folder / "none" / "copy.json"), std::exception);
 }
 
-TEST_CASE(
-    "titles are one line; names for snapshots are that of the scene, without its number, and leave room for numbers "
-    "and "
-    "endings") {
+TEST_CASE("titles are one line; names for snapshots leave out the number, and leave room for numbers and endings") {
   CHECK(title_of("folder/cornell.json") == "cornell.json");
   CHECK(title_of("a\nb\x1b\xff.json") == "a\\nb\\u001b\\xff.json");
   const fs::path file = scratch_folder("odd_titles") / "line\nfeed.json";
@@ -75,9 +70,7 @@ TEST_CASE("objects are found again where they stand now, with other values, name
   CHECK(paths_after(before, {}, {{0}, {3, 1}, {9}}).empty());
 }
 
-TEST_CASE(
-    "of equal objects each is found by its number, and those too many are gone; one without a name that changed while "
-    "its list grew is where its neighbours say") {
+TEST_CASE("of equal objects each is found by its number, of those without names by their neighbours") {
   Scene before = scene_of({at("", 0), at("", 0), at("b", 2), at("", 4), at("", 4)});
   Scene after = scene_of({at("", 0), at("b", 2), at("", 4)});
   CHECK(paths_after(before, after, {{1}, {4}}).empty());

@@ -84,9 +84,7 @@ TEST_CASE("the oldest steps are forgotten") {
   CHECK(seen.back() == 1001 - static_cast<int>(History::max_steps));
 }
 
-TEST_CASE(
-    "saving changes what all steps of the same file are compared with, and no others; edits that no file has are found "
-    "after another scene was opened") {
+TEST_CASE("saving changes what all steps of the file are compared with; edits that no file has are found") {
   const auto first = origin_of("first", 0), other = origin_of("other", 0);
   History history(numbered(0, first));
   CHECK(history.unsaved() == nullptr);

@@ -148,9 +148,7 @@ TEST_CASE("a ball of glass has the fog that fills it and the spheres within as c
   CHECK(linked_objects(scene, {0}) == std::vector<ObjectPath>{{2}});
 }
 
-TEST_CASE(
-    "companions follow exactly: the same centre, fog the very numbers, inner spheres the proportion; one that is "
-    "changed itself leaves its ball alone") {
+TEST_CASE("companions follow exactly: the same centre, fog the very numbers, inner spheres the proportion") {
   const Scene before = shell();
   Scene after = before;
   shape(after, 0) = {{0.4, 1.2, -1}, 2, {}};

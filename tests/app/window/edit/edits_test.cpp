@@ -50,9 +50,7 @@ Scene floor_and_box() {
 
 }  // namespace
 
-TEST_CASE(
-    "types are listed as the scene file names them, and each object says its own; another one keeps the colour as far "
-    "as it has one") {
+TEST_CASE("types are listed as the scene file names them; another one keeps the colour as far as it has one") {
   Typed typed;
   CHECK(std::string(surface_types()[metal]) == "metal");
   CHECK(typed.type(0) == metal);
@@ -146,9 +144,7 @@ TEST_CASE("what is in a selected group is not edited twice") {
   CHECK(outermost({}).empty());
 }
 
-TEST_CASE(
-    "copies stand behind what they are copies of, with names of their own; companions come along, and groups keep "
-    "theirs") {
+TEST_CASE("copies stand behind what they are copies of, with names of their own, in their groups, with companions") {
   Scene scene = example();
   CHECK(duplicate_objects(scene, {{1}, {0}}) == ObjectPaths{{1}, {3}, {5}});
   CHECK(names(scene.objects) ==
@@ -195,9 +191,7 @@ TEST_CASE("everything that can be added gives a valid scene that reads back the 
   }
 }
 
-TEST_CASE(
-    "a ball stands on the spot, by numbers that print short; a material of the usual name but with other values is "
-    "left alone") {
+TEST_CASE("a ball stands on the spot, by numbers that print short, and leaves a material of the usual name alone") {
   Scene scene = floor_and_box();
   addition_named("a sphere").add(scene, {{0.123456, 0.0000001, 0.3}, {0, 1, 0}, 0.5});
   CHECK(shape(scene, 2) == Sphere<>{{0.123, 0.25, 0.3}, 0.25, {}});

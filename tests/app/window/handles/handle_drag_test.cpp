@@ -42,9 +42,7 @@ std::ptrdiff_t count(const std::vector<Handle>& handles, HandleKind kind) {
 
 }  // namespace
 
-TEST_CASE(
-    "in the camera's plane the object stays under the mouse; along an axis only that number changes, and prints "
-    "short") {
+TEST_CASE("in the camera's plane the object stays under the mouse; along an axis only that number changes") {
   Scene scene = example();
   scene.camera.look_from = {4, 3, 8};
   const Scene moved = dragged(scene, drag_by(HandleKind::plane, 120, -80));

@@ -9,8 +9,7 @@ TEST_CASE("a new user finds fuzz, refractive index and density at once") {
     CHECK_MESSAGE(column.has(name), name);
 }
 
-TEST_CASE(
-    "a tab brings its part to the head of the column, opens it, and is lit; so does a selection with its values") {
+TEST_CASE("a tab brings its part to the head of the column, opens it, and is lit; so does a selection") {
   TestColumn column;
   column.height = 500;
   column.draw(2);

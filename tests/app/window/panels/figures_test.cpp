@@ -104,9 +104,7 @@ TEST_CASE("histogram: of a large picture a part of the pixels is counted, from a
   CHECK(histogram.white == close(0.25, 0.02));
 }
 
-TEST_CASE(
-    "the light that fuzz loses is metal_survival averaged over the cosine; the forward share of fog is Henyey and "
-    "Greenstein's density integrated over half of the directions") {
+TEST_CASE("what fuzz loses and fog sends on is the integral over the directions") {
   for (const double fuzz : {0.05, 0.18, 0.5, 1.0})
     CHECK(fuzz_loss(fuzz) == close(mean(20000, [&](double c) { return 2 * c * (1 - metal_survival(fuzz, c)); })));
   for (const double g : {-0.8, -0.1, 0.0005, 0.3, 0.9})

@@ -5,9 +5,7 @@
 
 namespace tyndall::test::rows_test {
 
-TEST_CASE(
-    "drawing changes nothing, nor does a click into a number that has more digits than it shows; a drawing in which "
-    "a control was moved says so") {
+TEST_CASE("drawing changes nothing, nor does a click into a number; a drawing in which a control was moved says so") {
   TestColumn column;
   const Scene before = column.scene();
   column.draw(5);
@@ -60,8 +58,7 @@ TEST_CASE("a press on the grab moves nothing, though the value has more digits t
   CHECK(column.refractive_index() > 0.7);
 }
 
-TEST_CASE(
-    "numbers and sums are typed: taken where valid, also beyond the slider, and refused with a reason elsewhere") {
+TEST_CASE("numbers and sums are typed: taken where valid, also beyond the slider, else refused with a reason") {
   TestColumn column;
   struct Typed {
     const char *row, *text;
@@ -132,9 +129,7 @@ TEST_CASE("a double click sets sliders and numbers back to what the file has, or
   CHECK(column.fuzz() == Metal<>{}.fuzz);
 }
 
-TEST_CASE(
-    "on sliders and numbers Shift drags a tenth as far, Ctrl snaps, and Esc takes a drag back until the mouse is let "
-    "go") {
+TEST_CASE("on sliders and numbers Shift drags a tenth as far, Ctrl snaps, and Esc takes a drag back") {
   for (const char* name : {"gold.fuzz", "gold.fuzz.value"}) {
     double way[2];
     for (const bool shift : {false, true}) {
@@ -170,8 +165,7 @@ TEST_CASE(
   CHECK(column.scene().camera.vfov == std::round(column.scene().camera.vfov));
 }
 
-TEST_CASE(
-    "choices change what they say, and only that; errors are seen only where there is something to measure against") {
+TEST_CASE("choices change what they say, and only that; errors are seen only where there is a reference") {
   TestColumn column;
   column.click("render.fresnel.schlick");
   CHECK(column.scene().render.fresnel == FresnelKind::schlick);

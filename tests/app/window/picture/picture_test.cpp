@@ -49,9 +49,7 @@ TEST_CASE("a look: what the screen shows is what a PNG would hold") {
     for (std::size_t c = 0; c < 3; ++c) REQUIRE(screen[4 * i + c] == png[3 * i + c]);
 }
 
-TEST_CASE(
-    "a look: luminance in stops from middle grey, counted with the exposure; black where there is no light, and where "
-    "it is not a number") {
+TEST_CASE("a look: luminance in stops from middle grey, counted with the exposure; black where there is none") {
   const Look stops{.stops = true};
   for (int stop = darkest_stop; stop <= brightest_stop; ++stop)
     for (const double off : {-0.49, 0.0, 0.49}) {
@@ -68,9 +66,7 @@ TEST_CASE(
   CHECK(shown({infinity, infinity, infinity, 1}, {.exposure = 100, .stops = true}) == band(brightest_stop));
 }
 
-TEST_CASE(
-    "zoom: what is under the cursor stays there, down to where all is shown; a small picture can be as small as it "
-    "is") {
+TEST_CASE("zoom: what is under the cursor stays there, down to where all is shown, or as small as the picture is") {
   Zoomed large;
   const auto pixel = [&] {
     const Rect image = large.place();
@@ -119,9 +115,7 @@ TEST_CASE("zoom: actual size is one pixel for each of the screen's, on whole pix
   }
 }
 
-TEST_CASE(
-    "the divider is taken near its line only, follows the mouse that took it, also where its press is seen late, and "
-    "leaves something of each half") {
+TEST_CASE("the divider is taken near its line only, follows the mouse, and leaves something of each half") {
   const Rect image{100, 50, 500, 250};
   Divider divider;
   Mouse mouse;

@@ -119,8 +119,7 @@ TEST_CASE("renderers that share threads begin no pass while they are well ahead,
   }
 }
 
-TEST_CASE(
-    "of an even number of threads each half gets one half, of an odd one all in turns; without a second one all") {
+TEST_CASE("of an even number of threads each half gets one half, of an odd one all in turns, alone all") {
   ThreadBudget budget;
   const auto threads_of = [&](const RenderRequest& wanted, Half half) {  // 0: it is paused
     const RenderRequest part = budget.part_of(wanted, half);

@@ -84,8 +84,7 @@ TEST_CASE("something that moves by itself wakes the window, once for each drawin
   CHECK(std::isinf(pacing.wait(10)));
 }
 
-TEST_CASE(
-    "the picture keeps its aspect in the middle of what the column leaves, and no size is too small for a layout") {
+TEST_CASE("the picture keeps its aspect in the middle of what the column leaves; no size is too small") {
   const Layout layout = make_layout(1600, 900, 1280, 800, 1, column_width);
   CHECK(layout.column.width() == column_width);
   CHECK(layout.status.height() == status_height);

@@ -8,8 +8,7 @@
 
 namespace tyndall::test::preferences_test {
 
-TEST_CASE(
-    "preferences: what was written is read; what is not said has its default; what another version wrote is kept") {
+TEST_CASE("preferences: what was written is read, the rest has its default, and what others wrote is kept") {
   const auto folder = scratch_folder("preferences_test"), file = folder / "of" / "tyndall" / "window.txt";
   CHECK(read_preferences(file) == Preferences{});
   CHECK(Preferences{}.clean);
@@ -59,9 +58,7 @@ TEST_CASE("preferences: texts grow and shrink by steps, up to the ends") {
   }
 }
 
-TEST_CASE(
-    "what Latin, Greek and Cyrillic fonts do not have is asked for once, and loaded at any size; broken text is no "
-    "error") {
+TEST_CASE("what Latin, Greek and Cyrillic fonts do not have is asked for once, and loaded at any size") {
   Characters more;
   CHECK_FALSE(add_characters("Ball 3 – Kugel groß, сфера, σφαίρα", more));
   CHECK(add_characters("金の球", more));

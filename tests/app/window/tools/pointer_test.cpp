@@ -69,8 +69,7 @@ TEST_CASE("a drag goes on outside the picture, but does not begin there or while
   CHECK_FALSE(hand.camera == Camera());
 }
 
-TEST_CASE(
-    "a click knows its pixel, also at the edges of the picture; clicks are at one place if mouse and camera stay") {
+TEST_CASE("a click knows its pixel, also at the edges; clicks are at one place if mouse and camera stay") {
   const Rect image{100, 50, 300, 150};
   const auto pixel = [&](float x, float y) {
     const PictureClick click = click_at(image, x, y, 20, 10);

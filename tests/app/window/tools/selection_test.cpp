@@ -64,9 +64,7 @@ TEST_CASE("at first the most interesting object is selected: metal, glass or fog
   CHECK(interesting(scene).empty());
 }
 
-TEST_CASE(
-    "outlines: a sphere's is the circle of its tangents; a box has four edges face on, from a corner six; what is "
-    "behind the eye is left out, what reaches behind it is cut") {
+TEST_CASE("outlines are tangents, and the outer edges of boxes; what is behind the eye is left out or cut") {
   double right = 0, top = 0, bottom = 0;
   for (const ImageLine& line : outline(example(), {0}))
     for (const ImagePoint& p : {line.a, line.b}) {
@@ -115,8 +113,7 @@ TEST_CASE("fog is found where the ray enters it, nearest first, and not behind w
   CHECK(medium_at(scene, 0.5, 11.99).empty());
 }
 
-TEST_CASE(
-    "all that lies under a point is listed from near to far, also in turned groups, and shapes only where they are") {
+TEST_CASE("all that lies under a point is listed from near to far, also in groups, and shapes only where they are") {
   Scene scene = seen({solid(Quad<>{{-2, -2, -3}, {4, 0, 0}, {0, 4, 0}}),
                       ball("", {0, 0, 0}),
                       {"turned", Group{{ball("", {-4, 0, 0}, 0.5)}}, {RotateY{90}}}});  // now at z = 4
