@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace tyndall::test::window_rows_test {
 
@@ -141,6 +142,22 @@ TEST_CASE("the window: adaptive sampling is a setting of the render: it starts o
   driver.undo();
   CHECK(driver.value("render.adaptive.off") == "on");
   CHECK(driver.submits() == 3);
+}
+
+TEST_CASE("the window: in a split view both halves get equal seconds, in turns or with half of the threads each") {
+  for (const int threads : {1, 2}) {
+    Driver driver("halves", [&](WindowOptions& options) {
+      options.threads = threads;
+      options.scene.scene.render.spp = 1000000;
+    });
+    driver.push("render.split.on");
+    driver.wait_until([&] {
+      double a = 0, b = 0;
+      std::sscanf(driver.last("halves").c_str(), "A %lf B %lf", &a, &b);
+      CHECK(std::abs(a - b) < 0.75);
+      return std::min(a, b) > 1;
+    });
+  }
 }
 
 TEST_CASE("the window: two settings side by side, of which one is kept") {

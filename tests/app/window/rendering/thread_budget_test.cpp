@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 
 namespace tyndall::test::thread_budget_test {
 
@@ -29,55 +28,6 @@ double greatest_lead(double first_pass, double second_pass, bool together) {
 RenderRequest request_of(std::uint32_t spp, int threads) {
   return {.scene = std::make_shared<const Scene>(small_scene("cornell-box", 60, 60, spp)), .threads = threads};
 }
-
-/// Two renderers that share threads, and how far each was ahead of the other when it began a pass.
-class Sharing {
- public:
-  explicit Sharing(int threads) : pair_(threads, "", [this] { on_frame(); }) {
-    const RenderRequest wanted = request_of(1000000, threads);
-    pair_.request(wanted, wanted);
-  }
-  /// Waits until each has rendered that many passes.
-  bool both_make(int passes) {
-    return news_.wait_until([&] {
-      const std::lock_guard lock(mutex_);
-      return halves_[0].passes >= passes && halves_[1].passes >= passes;
-    });
-  }
-  /// In seconds of rendering, over the passes that began after both renderers had begun.
-  double greatest_lead() const {
-    const std::lock_guard lock(mutex_);
-    return greatest_;
-  }
-
- private:
-  struct Seen {
-    std::uint64_t pass = 0;  ///< the newest one
-    int passes = 0;
-    double seconds = 0;
-  };
-  void on_frame() {
-    {
-      const std::lock_guard lock(mutex_);
-      const std::shared_ptr<const Frame> now[2] = {pair_.latest(Half::current), pair_.latest(Half::kept)};
-      for (const int k : {0, 1}) {
-        Seen& mine = halves_[k];
-        const Frame* other = now[1 - k].get();
-        if (!now[k] || now[k]->pass == mine.pass) continue;
-        // The other one may have gone on since this pass began: its lead was at least this.
-        if (other && mine.seconds > 0) greatest_ = std::max(greatest_, mine.seconds - other->seconds);
-        mine = {now[k]->pass, mine.passes + 1, now[k]->seconds};
-      }
-    }
-    news_.tell();
-  }
-
-  mutable std::mutex mutex_;
-  Seen halves_[2];
-  double greatest_ = 0;
-  News news_;
-  RendererPair pair_;  // declared last, so that it stops first
-};
 
 }  // namespace
 
@@ -109,14 +59,6 @@ TEST_CASE("two renderers get equal seconds, in turns or side by side, unless one
       CHECK(next_active(now, {9, true}, {1, false}, together) == both);
       CHECK(next_active(now, {1, false}, {9, true}, together) == both);
     }
-}
-
-TEST_CASE("renderers that share threads begin no pass while they are well ahead, however slow the machine is") {
-  for (const int threads : {1, 2}) {
-    Sharing sharing(threads);
-    REQUIRE(sharing.both_make(12));
-    CHECK(sharing.greatest_lead() < 0.5 + 1e-9);
-  }
 }
 
 TEST_CASE("of an even number of threads each half gets one half, of an odd one all in turns, alone all") {
