@@ -2,7 +2,10 @@
 #include "core/image/image_io.h"
 #include "core/image/tonemap.h"
 #include "tests/app/window/driver.h"
-#include "tests/app/window/picture_pipe.h"
+
+#include <unistd.h>
+
+#include <array>
 
 namespace tyndall::test::window_look_test {
 
@@ -101,6 +104,43 @@ TEST_CASE("the window: names that hold anything stand in one line, in the title,
   CHECK(driver.platform().title.find('\n') == std::string::npos);
   CHECK(driver.platform().title.find("odd\\n\\u001b[31m %s ##x.json") == 0);
 }
+
+namespace {
+
+/// A picture that a program writes, as the command line gives it to a window.
+class PicturePipe {
+ public:
+  PicturePipe() { REQUIRE(pipe(ends_.data()) == 0); }
+  ~PicturePipe() {
+    close_writer();
+    close(ends_[0]);
+  }
+  PicturePipe(const PicturePipe&) = delete;
+  PicturePipe& operator=(const PicturePipe&) = delete;
+
+  /// Must be called after the picture's head was written.
+  void give_to(WindowOptions& options, int width, int height) {
+    const int in = ends_[0];
+    options.picture = std::make_shared<ArrivingPicture>(in, beginning_of(in).bytes, "standard input", PpmCurve::srgb);
+    options.scene = {};
+    options.scene.name = "standard input";
+    options.scene.is_picture = true;
+    options.scene.scene.width = width, options.scene.scene.height = height;
+    options.scene.scene.render.spp = 1;
+  }
+  void write(const std::string& text) const {
+    REQUIRE(::write(ends_[1], text.data(), text.size()) == static_cast<ssize_t>(text.size()));
+  }
+  void close_writer() {
+    if (ends_[1] >= 0) close(ends_[1]);
+    ends_[1] = -1;
+  }
+
+ private:
+  std::array<int, 2> ends_{-1, -1};
+};
+
+}  // namespace
 
 TEST_CASE("the window: a picture that a program writes is looked at and saved; only opening leads to a scene") {
   PicturePipe pipe;
