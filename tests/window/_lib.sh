@@ -126,7 +126,7 @@ drawn_after() {
 # run_window COMMAND...: a program that opens a window with that log, which --ui-log or TYNDALL_UI_LOG names.
 run_window() {
   : >"$scratch/log"
-  "$@" 2>"$scratch/errors" &
+  "$@" <&0 2>"$scratch/errors" &
   pid=$!
   trap 'kill $pid 2>/dev/null || true' EXIT
 }
