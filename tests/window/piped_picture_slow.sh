@@ -7,7 +7,7 @@
 piped_window() {
   rm -f pipe
   mkfifo pipe
-  run_window "$tyndall" view - "$@" --ui-log "$scratch/log" <pipe
+  run_window bash -c 'exec "$@" <pipe' - "$tyndall" view - "$@" --ui-log "$scratch/log"
 }
 rows() { yes "$2 $2 $2" | head -$((320 * $1)) || true; } # COUNT BYTE
 is_bright() { compares "($(on_screen picture mean) - $1) ^ 2 < 4"; }
