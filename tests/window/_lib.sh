@@ -43,27 +43,8 @@ fail() {
 
 # A small scene with a metal ball, a lamp and fog; $1: the file, $2: fuzz, $3: samples a pixel.
 write_scene() {
-  cat >"$1.new" <<SCENE
-// A comment that saving loses.
-{
-  "tyndall": 1,
-  "image": { "width": 320, "height": 200 },
-  "camera": { "look_from": [0, 1, 6], "look_at": [0, 0.5, 0], "vfov": 40 },
-  "background": { "type": "gradient", "bottom": [0.9, 0.9, 0.9], "top": [0.2, 0.3, 0.5] },
-  "render": { "spp": ${3:-16}, "integrator": "path", "sampler": "random" },
-  "materials": {
-    "floor": { "type": "lambertian", "albedo": [0.4, 0.4, 0.4] },
-    "gold": { "type": "metal", "albedo": [0.9, 0.6, 0.3], "fuzz": $2 },
-    "lamp": { "type": "light", "radiance": [4, 4, 4] }
-  },
-  "objects": [
-    { "name": "floor", "type": "sphere", "center": [0, -1000, 0], "radius": 1000, "material": "floor" },
-    { "name": "ball", "type": "sphere", "center": [0, 0.8, 0], "radius": 0.8, "material": "gold" },
-    { "name": "fog", "type": "medium", "boundary": { "type": "sphere", "center": [2, 0.6, 0], "radius": 0.6 }, "density": 1.1, "albedo": [1, 1, 1] },
-    { "name": "lamp", "type": "quad", "corner": [-2, 4, -1], "u": [4, 0, 0], "v": [0, 0, 2], "material": "lamp" }
-  ]
-}
-SCENE
+  sed -e 's/"width": 32, "height": 20/"width": 320, "height": 200/' -e "s/\"fuzz\": 0.2/\"fuzz\": $2/" \
+    -e "s/\"spp\": 2/\"spp\": ${3:-16}/" "$root/tests/window/scene.json" >"$1.new"
   mv "$1.new" "$1"
 }
 
@@ -92,7 +73,6 @@ wait_for() { wait_until logged "$1" "${2:-1}"; }
 
 # The number of lines in the log and one, for wait_for's second argument.
 here() { echo $(($(wc -l <"$scratch/log") + 1)); }
-
 
 # Waits until the window is at rest: all that was sent to it is shown, the picture is finished.
 # What was sent must have arrived before; the helpers below see to that.
@@ -185,8 +165,6 @@ click() {
   press 1
   release 1
 }
-# A step of the wheel over the picture.
-roll() { sends 1 '^wheel ' xdotool click 4; }
 hold() { sends 1 '^key ' xdotool keydown "$1"; }
 key() {
   hold "$1"

@@ -17,7 +17,6 @@ kept_holds() { grep -qs "\"fuzz\": $1" state/tyndall/unsaved-*.json; }
 
 # The button asks; Save writes.
 write_scene scene.json 0.1
-sed -i '/^\/\//d' scene.json
 begin scene.json
 type_value gold.fuzz.value 0.2
 press_close_button

@@ -1,7 +1,7 @@
 #pragma once
 #include "app/window/main_window.h"
 #include "tests/app/window/null_platform.h"
-#include "tests/support/paths.h"
+#include "tests/support/scratch.h"
 
 #include <doctest/doctest.h>
 
@@ -18,20 +18,8 @@
 /// The whole window within a test: no display, no OpenGL, input by the names that controls have in its log.
 namespace tyndall::test {
 
-inline constexpr const char* scene_text = R"({ "tyndall": 1,
-  "image": { "width": 32, "height": 20 },
-  "camera": { "look_from": [0, 1, 6], "look_at": [0, 0.5, 0], "vfov": 40 },
-  "background": { "type": "gradient", "bottom": [0.9, 0.9, 0.9], "top": [0.2, 0.3, 0.5] },
-  "render": { "spp": 2, "integrator": "path", "sampler": "random" },
-  "materials": { "floor": { "type": "lambertian", "albedo": [0.4, 0.4, 0.4] },
-    "gold": { "type": "metal", "albedo": [0.9, 0.6, 0.3], "fuzz": 0.2 },
-    "lamp": { "type": "light", "radiance": [4, 4, 4] } },
-  "objects": [
-    { "name": "floor", "type": "sphere", "center": [0, -1000, 0], "radius": 1000, "material": "floor" },
-    { "name": "ball", "type": "sphere", "center": [0, 0.8, 0], "radius": 0.8, "material": "gold" },
-    { "name": "fog", "type": "medium", "boundary": { "type": "sphere", "center": [2, 0.6, 0], "radius": 0.6 },
-      "density": 1.1, "albedo": [1, 1, 1] },
-    { "name": "lamp", "type": "quad", "corner": [-2, 4, -1], "u": [4, 0, 0], "v": [0, 0, 2], "material": "lamp" }] })";
+/// Of a small scene: a metal ball, fog and a lamp.
+inline const std::string scene_text = read_text(tests_folder() / "window" / "scene.json");
 
 /// A window over a scene file, and hands for it.
 class Driver {
