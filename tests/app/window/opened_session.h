@@ -97,6 +97,9 @@ class OpenedSession {
     editor().open(std::filesystem::absolute(file).string());
     return becomes(expected);
   }
+  bool says(const std::string& begin) {
+    return comes_true([&] { return message().starts_with(begin); });
+  }
   bool complains() {
     return comes_true([&] { return session->messages.current().error; });
   }

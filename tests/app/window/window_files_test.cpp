@@ -70,10 +70,13 @@ TEST_CASE("the window: closing asks while there are edits, answers come by mouse
   driver.escape();
   CHECK_FALSE(driver.has("dialog.discard"));
   driver.chord('Q');
-  driver.key(258);                   // Tab marks the next answer,
-  driver.key(258, {.shift = true});  // with Shift the one before,
-  driver.key(263);                   // and so do arrows, round and round: Cancel
-  driver.key(257);
+  driver.strike(ImGuiKey_Tab);  // marks the next answer, with Shift the one before
+  driver.hold({.shift = true});
+  driver.strike(ImGuiKey_Tab);
+  driver.hold({});
+  driver.strike(ImGuiKey_LeftArrow);  // round and round: Cancel
+  driver.strike(ImGuiKey_Enter);
+  driver.settle();
   CHECK_FALSE(driver.has("dialog.discard"));
   CHECK(driver.is_open());
   driver.chord('Q');

@@ -172,7 +172,7 @@ TEST_CASE("the window: ten tasks of somebody who sees it for the first time, by 
   driver.type("mine");
   driver.await("saved", "mine.json");
   driver.click("scenes.recent.0");  // 8: and come back to
-  driver.await("message", "opened mine.json");
+  driver.await("message", "read again: mine.json");
   driver.settle();
   CHECK(driver.value("render.integrator.path") == "on");
   driver.set("render.size.width", "384");  // 9: a picture of another size is made
