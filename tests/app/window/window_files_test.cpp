@@ -114,9 +114,9 @@ TEST_CASE(
   driver.undo();
   CHECK(driver.value("gold.fuzz") == "0.6");
   change("broken");
-  driver.await("message", "scene.json: ");
+  driver.await("message", "scene.json:");
   driver.set("gold.fuzz", "0.61");
-  CHECK(driver.last("message").starts_with("scene.json: "));  // until it is mended
+  CHECK(driver.last("message").starts_with("scene.json:"));  // until it is mended
   driver.chord('S');
   driver.click("dialog.cancel");
   CHECK_THROWS(load_scene("scene.json"));
@@ -125,7 +125,7 @@ TEST_CASE(
   driver.await("saved", "scene.json");
   CHECK(std::get<Metal<>>(load_scene("scene.json").scene.materials[1].kind).fuzz == 0.61);
   driver.set("gold.fuzz", "0.62");
-  CHECK_FALSE(driver.last("message").starts_with("scene.json: "));
+  CHECK_FALSE(driver.last("message").starts_with("scene.json:"));
   driver.chord('S');
   CHECK_FALSE(driver.has("dialog.save"));
 }
