@@ -176,8 +176,10 @@ TEST_CASE("the window: ten tasks of somebody who sees it for the first time, by 
   driver.await("message", "read again: mine.json");
   driver.settle();
   CHECK(driver.value("camera.vfov") != "50");
-  driver.set("render.size.width", "384");  // 9: a picture of another size is made
-  driver.set("render.size.height", "216");
+  for (const auto& [row, pixels] : {std::pair{"render.size.width", "384"}, {"render.size.height", "216"}}) {
+    driver.click(row);  // 9: a picture of another size is made
+    driver.type(pixels);
+  }
   action("snapshot");
   driver.await("saved", "mine-001");
   CHECK(read_image("mine-001.png").width == 384);
