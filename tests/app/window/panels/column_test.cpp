@@ -101,11 +101,11 @@ TEST_CASE("large groups are folded at first, small ones are not; a click on the 
   column.click("objects.1", 0.03);
   CHECK(column.has("objects.5"));
   CHECK(column.state.selected.empty());
-  column.click("objects.1", 0.03);
   column.click("objects.1", 0.5);
   CHECK(column.state.selected == ObjectPath{1});
-  column.select({1, 29});
-  CHECK(column.has("objects.31"));
+  ManyObjects folded;
+  folded.select({1, 29});
+  CHECK(folded.has("objects.31"));
 }
 
 TEST_CASE("a search finds objects in folded groups, by name, kind and material") {
