@@ -182,7 +182,7 @@ class Driver {
   void step() {
     const int before = drawn_;
     platform_->events.any = true;
-    for (int k = 0; k < 100 && drawn_ == before; ++k) pass();
+    for (int k = 0; k < 100 && drawn_ == before && open_; ++k) pass();
   }
   void hold(int button, bool down) {
     compat::mouse_button(ImGui::GetIO(), button, down);
@@ -235,7 +235,8 @@ inline void Driver::settle() {
   const float before = std::exchange(ImGui::GetIO().DeltaTime, 1.0f);  // tooltips that wait for a moment come now
   step();
   ImGui::GetIO().DeltaTime = before;
-  if (std::exchange(settled_, submits_) == submits_) return;
+  const bool comes = last("state").starts_with("row ");  // a picture that is still being written
+  if (std::exchange(settled_, submits_) == submits_ || comes) return;
   for (int k = 0; k < 2000 && newest_ != "rest"; ++k) {  // without skipping time, in which messages would go
     window_->step();
     read_log();

@@ -234,13 +234,13 @@ TEST_CASE("snapshots hold the newest edit, are finished when the window closes, 
   CHECK(opened.message() == "there is no curve yet");
   REQUIRE(opened.finishes());
   opened.show();
+  for (int k = 0; k < 2; ++k) opened.session->export_chart();
+  REQUIRE(opened.appears("scene-chart-002.svg"));
+  CHECK(fs::exists("scene-chart-001.csv"));
   opened.set_fuzz(0.875);
   opened.session->snapshot();  // the edit was not sent yet
   REQUIRE(opened.appears("scene-001.png"));
   CHECK(OpenedSession::fuzz_in("scene-001.png") == 0.875);
-  for (int k = 0; k < 2; ++k) opened.session->export_chart();
-  REQUIRE(opened.appears("scene-chart-002.svg"));
-  CHECK(fs::exists("scene-chart-001.csv"));
   opened.session->snapshot();
   opened.open();
   CHECK(fs::exists("scene-002.png"));
