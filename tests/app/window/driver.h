@@ -105,7 +105,7 @@ class Driver {
   }
   /// Into the control that has the keyboard.
   void write(const std::string& text) {
-    test::write(text.c_str());
+    type_text(text.c_str());
     step();
   }
   /// The same in place of all that it holds, and Enter.

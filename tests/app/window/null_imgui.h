@@ -103,7 +103,7 @@ class NullImGui {
 };
 
 /// Characters for the control that has the keyboard.
-inline void write(const char* text) {
+inline void type_text(const char* text) {
   for (const char* c = text; *c; ++c) ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(*c));
 }
 

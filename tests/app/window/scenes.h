@@ -45,7 +45,7 @@ const Shape& shape(const Scene& scene, std::size_t k = 0) {
 }
 
 /// A number that may differ by this fraction of itself.
-inline doctest::Approx close(double value, double fraction = 1e-4) {
+inline doctest::Approx about(double value, double fraction = 1e-4) {
   return doctest::Approx(value).epsilon(fraction).scale(0);
 }
 

@@ -110,10 +110,10 @@ namespace {
 /// A picture that a program writes, as the command line gives it to a window.
 class PicturePipe {
  public:
-  PicturePipe() { REQUIRE(pipe(ends_.data()) == 0); }
+  PicturePipe() { REQUIRE(::pipe(ends_.data()) == 0); }
   ~PicturePipe() {
     close_writer();
-    close(ends_[0]);
+    ::close(ends_[0]);
   }
   PicturePipe(const PicturePipe&) = delete;
   PicturePipe& operator=(const PicturePipe&) = delete;
@@ -132,7 +132,7 @@ class PicturePipe {
     REQUIRE(::write(ends_[1], text.data(), text.size()) == static_cast<ssize_t>(text.size()));
   }
   void close_writer() {
-    if (ends_[1] >= 0) close(ends_[1]);
+    if (ends_[1] >= 0) ::close(ends_[1]);
     ends_[1] = -1;
   }
 

@@ -108,7 +108,7 @@ TEST_CASE("work keeps to its share of the processors") {
   double used = 0;
   for (double now = 0; now < 100; now += 0.01)
     if (fraction.due(now)) fraction.spent(now, 0.05, 4), used += 0.05;
-  CHECK(used / (100 * 4) == close(0.02, 0.05));
+  CHECK(used / (100 * 4) == about(0.02, 0.05));
   fraction.renew();
   CHECK(fraction.due(0));
 }
@@ -183,7 +183,7 @@ TEST_CASE("of films the noise is known, but not of a layer of an EXR; a part of 
   const Document document = small_document("cover");
   const Film film = two_halves(document.scene);
   write_exr(file, film, {{"Albedo", {"R", "G", "B"}, std::vector<float>(3 * film.pixels.size(), 0.25f)}}, {"{}", ""});
-  CHECK(read_reference(file, document).rel_mse == close(0.01 / 1.01, 1e-3));
+  CHECK(read_reference(file, document).rel_mse == about(0.01 / 1.01, 1e-3));
   CHECK_FALSE(shows_no_scene(file));
   CHECK(shows_no_scene(file.string() + ":Albedo"));
   const Reference reference = read_reference(file.string() + ":Albedo", document);

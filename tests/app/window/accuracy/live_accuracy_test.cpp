@@ -84,7 +84,7 @@ TEST_CASE("with a reference the curve shows the true error, and without one the 
   CHECK(measured.lines() == "against grey.exr\n");
   measured.show(1.1f, 1, 1);
   REQUIRE(measured.measures());
-  CHECK(measured.error() == close(0.01 / 1.01));
+  CHECK(measured.error() == about(0.01 / 1.01));
   CHECK(measured.points()[0].noise == doctest::Approx(0.04));
   CHECK(measured.lines().starts_with("against grey.exr · FLIP 0"));
   CHECK(measured.lines().ends_with(" at 100 spp\n"));
@@ -102,13 +102,13 @@ TEST_CASE("pictures of the scene before are not measured, and results against th
   w.show(1.1f, 2, 1);
   REQUIRE(w.measures());
   CHECK(w.accuracy.curves(Half::current).earlier().empty());
-  CHECK(w.error() == close(0.01 / 1.01));
+  CHECK(w.error() == about(0.01 / 1.01));
   Watched other;
   other.refer_to(1);
   other.show(1.1f, 1, 1);  // is being measured
   other.refer_to(0.5f);
   REQUIRE(other.measures());
-  CHECK(other.error() == close(0.36 / 0.26));
+  CHECK(other.error() == about(0.36 / 0.26));
 }
 
 TEST_CASE("maps come for the view that is on, and follow the pictures") {
@@ -120,7 +120,7 @@ TEST_CASE("maps come for the view that is on, and follow the pictures") {
   w.accuracy.set_view(ErrorView::error);
   REQUIRE(w.comes_true([&] { return map() != nullptr; }));
   CHECK(map()->width == columns);
-  CHECK(map()->rgba[0] == close(std::sqrt(0.01 / 1.01)));
+  CHECK(map()->rgba[0] == about(std::sqrt(0.01 / 1.01)));
   w.show(1.2f, 1, 2);
   REQUIRE(w.comes_true([&] { return map()->rgba[0] > 0.15f; }));
   w.accuracy.set_view(ErrorView::flip);
@@ -139,12 +139,12 @@ TEST_CASE("halves are measured against each other, and each against the referenc
   w.show(1, 1, 1, Half::kept);
   w.show(1.2f, 1, 1);
   REQUIRE(w.comes_true([&] { return difference() && w.accuracy.pair().flip; }));
-  CHECK(*difference() == close(0.04 / 1.01));
+  CHECK(*difference() == about(0.04 / 1.01));
   CHECK(w.lines().starts_with("B against A: relMSE 0.04 · FLIP 0"));
   w.refer_to(1.1f);
   REQUIRE(w.comes_true([&] { return !w.points().empty() && !w.points(Half::kept).empty(); }));
-  CHECK(w.error() == close(0.01 / 1.22, 1e-3));
-  CHECK(w.error(Half::kept) == close(0.01 / 1.22, 1e-3));
+  CHECK(w.error() == about(0.01 / 1.22, 1e-3));
+  CHECK(w.error(Half::kept) == about(0.01 / 1.22, 1e-3));
   w.show(1, 1, 2, Half::kept);  // the other half shows nothing new
   w.show(1.5f, 1, 2);
   REQUIRE(w.comes_true([&] { return difference() && *difference() > 0.2; }));

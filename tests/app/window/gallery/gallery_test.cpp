@@ -139,7 +139,7 @@ TEST_CASE("the small picture of a camera: means of what is shown, in the picture
   CHECK(small.height == 48);
   const auto& rgb = small.rgb;
   REQUIRE(rgb.size() == 96 * 48 * 3);
-  CHECK(rgb[3 * (10 * 96 + 10)] == close(188, 0.05));
+  CHECK(rgb[3 * (10 * 96 + 10)] == about(188, 0.05));
   CHECK(rgb[3 * (10 * 96 + 80)] == 0);
   frame.view = View::noise;
   CHECK(small_picture(frame, {}).rgb.empty());  // the picture itself is not there yet

@@ -46,16 +46,16 @@ TEST_CASE("in the camera's plane the object stays under the mouse; along an axis
   Scene scene = example();
   scene.camera.look_from = {4, 3, 8};
   const Scene moved = dragged(scene, drag_by(HandleKind::plane, 120, -80));
-  CHECK(seen(moved).x == close(120, 0.01));
-  CHECK(seen(moved).y == close(-80, 0.01));
-  CHECK(Projection(moved).depth_of(center(moved)) == close(target_distance(scene.camera), 1e-3));
+  CHECK(seen(moved).x == about(120, 0.01));
+  CHECK(seen(moved).y == about(-80, 0.01));
+  CHECK(Projection(moved).depth_of(center(moved)) == about(target_distance(scene.camera), 1e-3));
   Scene right = example();
   CHECK(apply_drag(right, frame(right), drag_by(HandleKind::along_x, 100, 40)).starts_with("x +"));
-  CHECK(seen(right).x == close(100, 0.01));
+  CHECK(seen(right).x == about(100, 0.01));
   const double x = center(right).x;
   CHECK(center(right) == Vec3d{std::round(x * 100) / 100, 0, 0});
   const Scene up = dragged(example(), drag_by(HandleKind::along_y, 30, -100));
-  CHECK(seen(up).y == close(-100, 0.01));
+  CHECK(seen(up).y == about(-100, 0.01));
   CHECK(center(up).x == 0);
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("snapping rounds the number itself, not the way; fine snaps ten times 
   CHECK(center(dragged(scene, drag)).x == 2);
   drag.fine = true;
   const double fine = center(dragged(scene, drag)).x;
-  CHECK(fine == close(1.98, 0.011));
+  CHECK(fine == about(1.98, 0.011));
   CHECK(fine == std::round(fine * 50) / 50);
   drag = drag_by(HandleKind::along_z, 100, 0);
   drag.typed = -1.25;
@@ -96,8 +96,8 @@ TEST_CASE("an axis that is seen nearly from its end has a short arrow, which mov
   };
   const double near = z_after(40);
   CHECK(near > 0.5);
-  CHECK(z_after(-40) == close(-near, 0.02));
-  CHECK(z_after(-280) == close(-7 * near, 0.02));  // the horizon
+  CHECK(z_after(-40) == about(-near, 0.02));
+  CHECK(z_after(-280) == about(-7 * near, 0.02));  // the horizon
 }
 
 TEST_CASE("all selected objects go the same way, each by the numbers that it has") {
@@ -105,7 +105,7 @@ TEST_CASE("all selected objects go the same way, each by the numbers that it has
   drag.selected = {{0}, {1}};
   const Scene scene = dragged(example(), drag);
   const Vec3d shift = std::get<Translate>(scene.objects[1].transform.back()).offset;
-  CHECK(shift.x - 3 == close(center(scene).x, 1e-12));
+  CHECK(shift.x - 3 == about(center(scene).x, 1e-12));
   CHECK(shift.y == 1);
   Scene grouped = example();
   grouped.objects.push_back({"turned", Group{{grouped.objects[1]}}, {RotateY{90}}});
@@ -134,7 +134,7 @@ TEST_CASE("size follows the mouse along the grip's way, and stops above 0") {
   const WindowPoint at = grip.points[0];
   HandleDrag drag{grip, {{0}}, {0, 0, 0}, at, {at.x + 40, at.y + 40}, false, false, {}};
   const double before = std::hypot(at.x - 500, at.y - 300);
-  CHECK(shape(dragged(scene, drag)).radius == close((before + std::hypot(40, 40)) / before, 0.02));
+  CHECK(shape(dragged(scene, drag)).radius == about((before + std::hypot(40, 40)) / before, 0.02));
   drag.to = {0, 0};
   const double smallest = shape(dragged(scene, drag)).radius;
   CHECK(smallest > 0);

@@ -79,7 +79,7 @@ class TestColumn {
     aim(name, to);
   }
   void write(const char* text) {
-    test::write(text);
+    type_text(text);
     draw();
   }
   void type(const std::string& name, const char* text) {

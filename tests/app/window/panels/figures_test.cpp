@@ -41,8 +41,8 @@ TEST_CASE("chart: axes give back what they were given, and hold all curves and t
   CHECK(axes.x(100) == doctest::Approx(400));
   CHECK(axes.y(1) == doctest::Approx(50));
   CHECK(axes.y(1e-6) == doctest::Approx(350));
-  CHECK(axes.seconds(axes.x(3.5)) == close(3.5));
-  CHECK(axes.rel_mse(axes.y(0.002)) == close(0.002));
+  CHECK(axes.seconds(axes.x(3.5)) == about(3.5));
+  CHECK(axes.rel_mse(axes.y(0.002)) == about(0.002));
   const ErrorCurve run = falling(0.5, 0.02, 30), low = falling(1e-6, 1, 1);
   const ErrorCurve* runs[] = {&run, &low};
   const ChartAxes found = axes_for(runs, axes.frame);
@@ -61,7 +61,7 @@ TEST_CASE("chart: the nearest curve at a time is found, a curve's end also a lit
   const auto low = at(axes.x(0.5), 1e-3), end = at(axes.x(1) + 8, 1e-3);
   REQUIRE(low);
   CHECK(low->curve == 2);
-  CHECK(low->at.rel_mse == close(0.002, 1e-3));
+  CHECK(low->at.rel_mse == about(0.002, 1e-3));
   REQUIRE(end);
   CHECK(end->curve == 2);
   CHECK(end->at.seconds == 1);
@@ -101,14 +101,14 @@ TEST_CASE("histogram: of a large picture a part of the pixels is counted, from a
   const Histogram histogram = histogram_of(picture_of(greys), {});
   CHECK(histogram.pixels > 10000);
   CHECK(histogram.pixels < 20000);
-  CHECK(histogram.white == close(0.25, 0.02));
+  CHECK(histogram.white == about(0.25, 0.02));
 }
 
 TEST_CASE("what fuzz loses and fog sends on is the integral over the directions") {
   for (const double fuzz : {0.05, 0.18, 0.5, 1.0})
-    CHECK(fuzz_loss(fuzz) == close(mean(20000, [&](double c) { return 2 * c * (1 - metal_survival(fuzz, c)); })));
+    CHECK(fuzz_loss(fuzz) == about(mean(20000, [&](double c) { return 2 * c * (1 - metal_survival(fuzz, c)); })));
   for (const double g : {-0.8, -0.1, 0.0005, 0.3, 0.9})
-    CHECK(forward_fraction(g) == close(mean(200000, [&](double c) { return 2 * pi * henyey_greenstein_pdf(g, c); })));
+    CHECK(forward_fraction(g) == about(mean(200000, [&](double c) { return 2 * pi * henyey_greenstein_pdf(g, c); })));
   CHECK(forward_fraction(0) == 0.5);
 }
 
@@ -144,7 +144,7 @@ TEST_CASE("the sharp range: its ends blur to one pixel") {
   const SharpRange range = sharp_range(camera, 800);
   const double lens = 5 * std::tan(pi / 360), pixel = 2 * std::tan(15 * pi / 180) / 800;
   for (const double depth : {range.near, range.far})  // size of the blur disc, seen from the lens
-    CHECK(2 * lens * std::abs(1 / depth - 1 / 5.0) == close(pixel, 1e-9));
+    CHECK(2 * lens * std::abs(1 / depth - 1 / 5.0) == about(pixel, 1e-9));
   CHECK(range.near < 5);
   CHECK(range.far > 5);
   camera.defocus_angle = 1e-3;

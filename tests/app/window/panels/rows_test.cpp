@@ -34,7 +34,7 @@ TEST_CASE("drawing changes nothing, nor does a click into a number; a drawing in
 TEST_CASE("a slider follows the mouse, from end to end; a negative radius stays negative") {
   TestColumn column;
   column.drag("gold.fuzz", 0.01, 0.5);
-  CHECK(column.fuzz() == close(0.5, 0.02));
+  CHECK(column.fuzz() == about(0.5, 0.02));
   column.aim("gold.fuzz", 3);
   CHECK(column.fuzz() == 1);
   column.aim("gold.fuzz", -2);
@@ -154,7 +154,7 @@ TEST_CASE("on sliders and numbers Shift drags a tenth as far, Ctrl snaps, and Es
       CHECK_FALSE(column.has_keyboard());
     }
     CHECK(way[0] > 0.03);
-    CHECK(way[1] == close(way[0] / 10, 0.1));
+    CHECK(way[1] == about(way[0] / 10, 0.1));
   }
   TestColumn column;
   column.drag("gold.fuzz", 0.3, 0.3);

@@ -77,8 +77,8 @@ TEST_CASE("zoom: what is under the cursor stays there, down to where all is show
   for (const float factor : {1.25f, 2.0f, 3.0f, 0.7f}) {
     const auto before = pixel();
     large.zoom.enlarge(factor, 300, 200);
-    CHECK(pixel().first == close(before.first, 0.01));
-    CHECK(pixel().second == close(before.second, 0.01));
+    CHECK(pixel().first == about(before.first, 0.01));
+    CHECK(pixel().second == about(before.second, 0.01));
     CHECK(large.place().width() / large.place().height() == doctest::Approx(1.6));
   }
   CHECK(large.zoom.dots_a_pixel() == doctest::Approx(0.5625 * 1.25 * 2 * 3 * 0.7));
@@ -106,8 +106,8 @@ TEST_CASE("zoom: actual size is one pixel for each of the screen's, on whole pix
     CHECK(image.x0 * dots == doctest::Approx(std::round(image.x0 * dots)));
     CHECK(picture.zoom.dots_a_pixel() == 1);
     picture.zoom.move(10, -20);
-    CHECK(picture.place().x0 == close(image.x0 + 10, 0.001));
-    CHECK(picture.place().y0 == close(image.y0 - 20, 0.001));
+    CHECK(picture.place().x0 == about(image.x0 + 10, 0.001));
+    CHECK(picture.place().y0 == about(image.y0 - 20, 0.001));
     picture.zoom.move(1e6f, 1e6f);  // it cannot be moved out of sight
     CHECK(overlap(picture.place(), area).width() > 100);
     picture.zoom.toggle(0, 0);

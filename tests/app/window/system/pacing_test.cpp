@@ -88,7 +88,7 @@ TEST_CASE("the picture keeps its aspect in the middle of what the column leaves;
   const Layout layout = make_layout(1600, 900, 1280, 800, 1, column_width);
   CHECK(layout.column.width() == column_width);
   CHECK(layout.status.height() == status_height);
-  CHECK(layout.image.width() / layout.image.height() == close(1.6, 0.002));
+  CHECK(layout.image.width() / layout.image.height() == about(1.6, 0.002));
   CHECK(layout.image.x1 <= layout.column.x0);
   CHECK(layout.image.y1 <= layout.status.y0);
   const Layout exact = make_layout(1280 + column_width, 800 + status_height, 1280, 800, 1, column_width);

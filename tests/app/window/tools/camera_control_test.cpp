@@ -44,7 +44,7 @@ TEST_CASE("grains are 1, 2 or 5 times a power of ten; rounded numbers are those 
   CHECK(rounded(1234.6, DragRounding{2, 1}) == 1240);
   CHECK_FALSE(std::signbit(rounded(-0.001, DragRounding{1, -2})));
   CHECK(without_noise(0.1 + 0.2) == 0.3);
-  CHECK(without_noise(1e-7 / 3) == close(1e-7 / 3, 1e-11));
+  CHECK(without_noise(1e-7 / 3) == about(1e-7 / 3, 1e-11));
   CHECK(without_noise(0) == 0);
 }
 
@@ -66,8 +66,8 @@ TEST_CASE("orbit keeps target and distance, the scene follows the mouse, and it 
   const Vec3d near = before.look_at - 0.5 * axes_of(before).forward;
   const Camera right = orbit(before, 0.3, 0), down = orbit(before, 0, 0.3);
   CHECK(right.look_at == before.look_at);
-  CHECK(target_distance(right) == close(target_distance(before)));
-  CHECK(target_distance(down) == close(target_distance(before)));
+  CHECK(target_distance(right) == about(target_distance(before)));
+  CHECK(target_distance(down) == about(target_distance(before)));
   CHECK(in_camera_frame(right, near).x > 0.1);
   CHECK(in_camera_frame(down, near).y < -0.1);
   CHECK(down.look_from.y > before.look_from.y);
@@ -83,10 +83,10 @@ TEST_CASE("orbit keeps target and distance, the scene follows the mouse, and it 
 TEST_CASE("pan moves by the picture's height, dolly scales the distance and never arrives, zoom has its limits") {
   const Camera before = example(), after = pan(before, 0, 1);
   const double height = 2 * std::tan(17 * pi / 180) * target_distance(before);
-  CHECK(length(after.look_at - before.look_at) == close(height));
-  CHECK(dot(after.look_at - before.look_at, axes_of(before).up) == close(height));
-  CHECK(target_distance(after) == close(target_distance(before)));
-  CHECK(target_distance(dolly(before, 0.5)) == close(0.5 * target_distance(before)));
+  CHECK(length(after.look_at - before.look_at) == about(height));
+  CHECK(dot(after.look_at - before.look_at, axes_of(before).up) == about(height));
+  CHECK(target_distance(after) == about(target_distance(before)));
+  CHECK(target_distance(dolly(before, 0.5)) == about(0.5 * target_distance(before)));
   const Camera near = repeated(before, 200, [](const Camera& camera) { return dolly(camera, 1e-3); });
   CHECK(valid(near));
   CHECK(valid(repeated(near, 20, [](const Camera& camera) { return dolly(camera, 1e3); })));
@@ -106,7 +106,7 @@ TEST_CASE("focusing keeps the lens, or the blur of what is far away") {
   const auto lens = [](const Camera& c) { return focus_distance(c) * std::tan(c.defocus_angle * pi / 360); };
   const Camera plain = focus(camera, 4, false), same_blur = focus(camera, 4, true);
   CHECK(plain.focus_distance == doctest::Approx(4));
-  CHECK(lens(plain) == close(lens(camera)));
+  CHECK(lens(plain) == about(lens(camera)));
   CHECK(same_blur.focus_distance == doctest::Approx(4));
   CHECK(same_blur.defocus_angle == 2);
   camera.defocus_angle = 0;
@@ -117,7 +117,7 @@ TEST_CASE("a framed ball fits the picture, wide or tall, seen from the same dire
   for (const double aspect : {1.6, 0.5}) {
     const Camera camera = frame_sphere(example(), {5, 6, 7}, 2, aspect);
     CHECK(camera.look_at == Vec3d{5, 6, 7});
-    CHECK(dot(axes_of(camera).forward, axes_of(example()).forward) == close(1, 1e-6));
+    CHECK(dot(axes_of(camera).forward, axes_of(example()).forward) == about(1, 1e-6));
     const double half_angle = std::asin(2 / target_distance(camera));
     const double room = std::atan(std::tan(17 * pi / 180) * std::min(1.0, aspect));
     CHECK(half_angle < room);

@@ -74,9 +74,9 @@ TEST_CASE("outlines are tangents, and the outer edges of boxes; what is behind t
     }
   // Half of the outline's width, in heights of the picture.
   const double half = std::tan(std::asin(0.1)) / std::tan(std::acos(-1) / 6) / 2;
-  CHECK(bottom == close(half, 1e-3));
-  CHECK(top == close(half, 1e-3));
-  CHECK(right == close(half / 2, 1e-3));
+  CHECK(bottom == about(half, 1e-3));
+  CHECK(top == about(half, 1e-3));
+  CHECK(right == about(half / 2, 1e-3));
   Scene scene = seen({solid(Box<>{{-1, -1, -1}, {1, 1, 1}})});
   CHECK(outline(scene, {0}).size() == 4);
   scene.camera.look_from = {8, 7, 9};
