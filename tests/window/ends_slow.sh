@@ -44,6 +44,7 @@ finish
 # A state folder that cannot be made; and a scene that came by standard input, which has no place.
 XDG_STATE_HOME=/dev/null/x begin scene.json
 edit_and_end 0.5 'the edits of scene.json are kept in ' '.scene.json.unsaved-1 and come back at the next start'
+rm .scene.json.unsaved-1
 piped_window() { # COMMAND...: a window over standard input, which the command starts
   run_window "$@" view - --ui-log "$scratch/log" <scene.json
   find_window

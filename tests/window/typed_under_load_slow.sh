@@ -18,13 +18,19 @@ click_at() { # CONTROL COMMANDS...: a click and the commands, at once
   at_once mousemove "$x" "$y" click 1 "${@:2}"
 }
 
-# Into number boxes: a click on another one, or on the same, ends the first; Tab goes on to the next.
-click_at gold.fuzz.value type --delay 0 0.25
+# Into number boxes: a click on another one ends the first; Tab goes on to the next.
+for text in 0.25 0.375; do
+  click_at gold.fuzz.value type --delay 0 "$text"
+  wait_until has_keyboard control
+  xdotool key Return
+  wait_until has_value gold.fuzz "$text"
+done
 click_at gold.fuzz.value type --delay 0 0.125
 click_at camera.vfov.value type --delay 0 35
 wait_until has_value gold.fuzz 0.125
-click_at camera.look_from.x type --delay 0 $'0.5\t1.25'
+xdotool key Return
 wait_until has_value camera.vfov 35
+click_at camera.look_from.x type --delay 0 $'0.5\t1.25'
 wait_until has_value camera.look_from.x 0.5
 xdotool key Return
 wait_until has_value camera.look_from.y 1.25
