@@ -22,7 +22,7 @@ if [ -z "${IN_XVFB:-}" ]; then
   # A folder of this run alone: the screen of the run before may still be ending, and then removes its own picture.
   screen=$scratch/screen.$$
   rm -rf "${scratch:?}"/* && mkdir -p "$screen"
-  IN_XVFB=$screen exec xvfb-run -a -s "-r -noreset -screen 0 1280x2700x24 -nolisten tcp -fbdir $screen" \
+  IN_XVFB=$screen exec xvfb-run -a -s "-r -noreset -screen 0 ${screen_size:-1280x2700}x24 -nolisten tcp -fbdir $screen" \
     bash "$script" "$tyndall" "$scratch" "$root"
 fi
 screen=$IN_XVFB
@@ -43,27 +43,8 @@ fail() {
 
 # A small scene with a metal ball, a lamp and fog; $1: the file, $2: fuzz, $3: samples a pixel.
 write_scene() {
-  cat >"$1.new" <<SCENE
-// A comment that saving loses.
-{
-  "tyndall": 1,
-  "image": { "width": 320, "height": 200 },
-  "camera": { "look_from": [0, 1, 6], "look_at": [0, 0.5, 0], "vfov": 40 },
-  "background": { "type": "gradient", "bottom": [0.9, 0.9, 0.9], "top": [0.2, 0.3, 0.5] },
-  "render": { "spp": ${3:-16}, "integrator": "path", "sampler": "random" },
-  "materials": {
-    "floor": { "type": "lambertian", "albedo": [0.4, 0.4, 0.4] },
-    "gold": { "type": "metal", "albedo": [0.9, 0.6, 0.3], "fuzz": $2 },
-    "lamp": { "type": "light", "radiance": [4, 4, 4] }
-  },
-  "objects": [
-    { "name": "floor", "type": "sphere", "center": [0, -1000, 0], "radius": 1000, "material": "floor" },
-    { "name": "ball", "type": "sphere", "center": [0, 0.8, 0], "radius": 0.8, "material": "gold" },
-    { "name": "fog", "type": "medium", "boundary": { "type": "sphere", "center": [2, 0.6, 0], "radius": 0.6 }, "density": 1.1, "albedo": [1, 1, 1] },
-    { "name": "lamp", "type": "quad", "corner": [-2, 4, -1], "u": [4, 0, 0], "v": [0, 0, 2], "material": "lamp" }
-  ]
-}
-SCENE
+  sed -e 's/"width": 32, "height": 20/"width": 320, "height": 200/' -e "s/\"fuzz\": 0.2/\"fuzz\": $2/" \
+    -e "s/\"spp\": 2/\"spp\": ${3:-16}/" "$root/tests/window/scene.json" >"$1.new"
   mv "$1.new" "$1"
 }
 
@@ -92,9 +73,6 @@ wait_for() { wait_until logged "$1" "${2:-1}"; }
 
 # The number of lines in the log and one, for wait_for's second argument.
 here() { echo $(($(wc -l <"$scratch/log") + 1)); }
-
-# The number of edits that were submitted.
-submits() { grep -c '^submit' "$scratch/log"; }
 
 # Waits until the window is at rest: all that was sent to it is shown, the picture is finished.
 # What was sent must have arrived before; the helpers below see to that.
@@ -125,12 +103,16 @@ drawn_after() {
     < <(tail -n "+$3" "$scratch/log")
 }
 
-# open_window ARGUMENTS: opens the window as it comes, and waits for its first picture.
-open_window() {
+# run_window COMMAND...: a program that opens a window with that log, which --ui-log or TYNDALL_UI_LOG names.
+run_window() {
   : >"$scratch/log"
-  "$tyndall" view "$@" --ui-log "$scratch/log" 2>"$scratch/errors" &
+  "$@" <&0 2>"$scratch/errors" &
   pid=$!
   trap 'kill $pid 2>/dev/null || true' EXIT
+}
+# open_window ARGUMENTS: opens the window as it comes, and waits for its first picture.
+open_window() {
+  run_window "$tyndall" view "$@" --ui-log "$scratch/log"
   find_window
 }
 find_window() {
@@ -151,14 +133,10 @@ start() {
 
 # at NAME ACROSS [DOWN]: window coordinates of a point of a control; ACROSS and DOWN in percent.
 at() {
-  local line
-  line=$(grep -E "^(widget|gone) ${1//./\\.}( |$)" "$scratch/log" | tail -1)
-  case $line in widget*) ;; *) fail "there is no control $1" ;; esac
-  # shellcheck disable=SC2086
-  set -- $line "$2" "${3:-50}"
-  local down=${!#} across
-  across=$(eval "echo \${$(($# - 1))}")
-  echo $(($3 + ($5 - $3) * across / 100)) $(($4 + ($6 - $4) * down / 100))
+  local kind x0 y0 x1 y1 _
+  read -r kind _ x0 y0 x1 y1 _ < <(grep -E "^(widget|gone) ${1//./\\.}( |$)" "$scratch/log" | tail -1) || true
+  [ "$kind" = widget ] || fail "there is no control $1"
+  echo $((x0 + (x1 - x0) * $2 / 100)) $((y0 + (y1 - y0) * ${3:-50} / 100))
 }
 
 # The value that a control had last.
@@ -187,8 +165,6 @@ click() {
   press 1
   release 1
 }
-# A step of the wheel over the picture.
-roll() { sends 1 '^wheel ' xdotool click 4; }
 hold() { sends 1 '^key ' xdotool keydown "$1"; }
 key() {
   hold "$1"
@@ -213,31 +189,16 @@ type_value() {
   enter
 }
 
-# Mean of the screen's red, green and blue within a control's rectangle. The X server puts a drawing on the screen some
-# time after the log has told of it: what is expected of the screen is waited for.
-brightness() {
-  local line
-  line=$(grep -E "^widget ${1//./\\.} " "$scratch/log" | tail -1)
-  # shellcheck disable=SC2086
-  set -- $line
-  python3 - "$screen/Xvfb_screen0" "$3" "$4" "$5" "$6" <<'PY'
-import struct, sys
-data = open(sys.argv[1], "rb").read()
-x0, y0, x1, y1 = map(int, sys.argv[2:6])
-header = struct.unpack(">25I", data[:100])
-stride, start = header[12], header[0] + 12 * header[19]
-total = count = 0
-for y in range(y0, y1):
-    row = data[start + y * stride + 4 * x0 : start + y * stride + 4 * x1]
-    for c in range(3):
-        total += sum(row[c::4])
-    count += 3 * (x1 - x0)
-print(round(total / count, 2))
-PY
+# on_screen NAME COMMAND [PICTURE]: what the screen shows in a control's rectangle, see _screen.py. The X server puts a
+# drawing on the screen some time after the log has told of it: what is expected of the screen is waited for.
+on_screen() {
+  local x0 y0 x1 y1 _
+  read -r _ _ x0 y0 x1 y1 _ < <(grep -E "^widget ${1//./\\.} " "$scratch/log" | tail -1)
+  python3 -B "$root/tests/window/_screen.py" "$screen/Xvfb_screen0" "$x0" "$y0" "$x1" "$y1" "${@:2}"
 }
 
-# compares A OPERATOR B: Python's comparison of two numbers.
-compares() { python3 -c "import sys; sys.exit(not ($*))"; }
+# compares CONDITION: awk's comparison of numbers.
+compares() { awk "BEGIN { exit !($*) }"; }
 
 # ends_with STATUS TEXT...: the window ends with that status, and its last line has each text.
 ends_with() {
@@ -245,9 +206,10 @@ ends_with() {
   wait "$pid" || status=$?
   trap - EXIT
   [ "$status" = "$1" ] || fail "exit code $status, expected $1"
-  shift
-  for text in "$@"; do tail -1 "$scratch/errors" | grep -qF -- "$text" || fail "the last line lacks '$text'"; done
+  for text in "${@:2}"; do tail -1 "$scratch/errors" | grep -qF -- "$text" || fail "the last line lacks '$text'"; done
 }
+# Asks it to close, as the button in its title bar does.
+press_close_button() { python3 -B "$root/tests/window/_close.py" "$window"; }
 
 # Closes with Ctrl+Q, without saving, and checks how it ended.
 finish() {

@@ -20,7 +20,7 @@ latency() {
   local count median most
   read -r count median most < <(awk -v kind="$1" '$1 == "latency" && $2 == kind { print $4, $6, $8 }' log)
   echo "$scene, $1: $count pictures, half within $median ms, 95 % within $most ms"
-  compares "$count >= $4 and $median <= $2 and $most <= $3" || fail "$scene, $1: slower than its limits"
+  compares "$count >= $4 && $median <= $2 && $most <= $3" || fail "$scene, $1: slower than its limits"
 }
 
 rm -r "$XDG_CONFIG_HOME" # as on a first start: with the clean view

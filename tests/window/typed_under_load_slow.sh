@@ -12,39 +12,33 @@ at_once() { # COMMANDS of xdotool, which the program sees all at once
   xdotool "$@"
   kill -CONT "$pid"
 }
-click_at() { echo mousemove "$1" "$2" click 1; }
+click_at() { # CONTROL COMMANDS...: a click and the commands, at once
+  local x y
+  read -r x y < <(at "$1" 50 45)
+  at_once mousemove "$x" "$y" click 1 "${@:2}"
+}
 
-# Into a number box, twice: the second click ends the first box.
+# Into number boxes: a click on another one ends the first; Tab goes on to the next.
 for text in 0.25 0.375; do
-  # shellcheck disable=SC2046
-  at_once $(click_at $(at gold.fuzz.value 50)) type --delay 0 "$text"
+  click_at gold.fuzz.value type --delay 0 "$text"
   wait_until has_keyboard control
   xdotool key Return
   wait_until has_value gold.fuzz "$text"
 done
-settle
-[ "$(last_of view)" = "" ] || fail "a digit went to the views"
-
-# Two boxes in one go: the click on the second one ends the first.
-# shellcheck disable=SC2046
-at_once $(click_at $(at gold.fuzz.value 50)) type --delay 0 "0.125"
-# shellcheck disable=SC2046
-at_once $(click_at $(at camera.vfov.value 50)) type --delay 0 "35"
+click_at gold.fuzz.value type --delay 0 0.125
+click_at camera.vfov.value type --delay 0 35
 wait_until has_value gold.fuzz 0.125
 xdotool key Return
 wait_until has_value camera.vfov 35
-
-# Click, number, Tab and number at once.
-# shellcheck disable=SC2046
-at_once $(click_at $(at camera.look_from.x 50)) type --delay 0 $'0.5\t1.25'
+click_at camera.look_from.x type --delay 0 $'0.5\t1.25'
 wait_until has_value camera.look_from.x 0.5
 xdotool key Return
 wait_until has_value camera.look_from.y 1.25
 settle
+[ "$(last_of view)" = "" ] || fail "a digit went to the views"
 
 # A click beside the controls, then a shortcut: it is one.
-# shellcheck disable=SC2046
-at_once $(click_at $(at picture 50 45)) key f
+click_at picture key f
 wait_until has_value camera.look_at.y 0.8
 settle
 
@@ -65,17 +59,16 @@ wait_for '^widget picture .* Baaaaa$'
 
 # So it is with the mouse: the field of view by Ctrl + wheel, the focus by Shift + click; and a key of flight that is
 # tapped within one drawing flies.
-settle
-vfov=$(value camera.vfov)
+changes() { # CONTROL COMMANDS...
+  local before
+  settle
+  before=$(value "$1")
+  at_once "${@:2}"
+  wait_until has_other_value "$1" "$before"
+}
 point picture 20 80
-at_once keydown Control_L click 4 keyup Control_L
-wait_until has_other_value camera.vfov "$vfov"
-at=$(value camera.look_from.z)
-at_once key w
-wait_until has_other_value camera.look_from.z "$at"
-settle
-focus=$(value camera.focus_distance)
+changes camera.vfov keydown Control_L click 4 keyup Control_L
+changes camera.look_from.z key w
 point picture 50 45
-at_once keydown Shift_L click 1 keyup Shift_L
-wait_until has_other_value camera.focus_distance "$focus"
+changes camera.focus_distance keydown Shift_L click 1 keyup Shift_L
 finish

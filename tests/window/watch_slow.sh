@@ -7,18 +7,23 @@ library=$(dirname "$tyndall")
 ${CXX:-c++} -std=c++17 -O1 -I"$root/app/watch" "$root/tests/app/watch/probe.cpp" -o probe -L"$library" -ltyndall-watch \
   -Wl,-rpath,"$library" -pthread
 
+export TYNDALL_UI_LOG=$scratch/log
 # probe_window ARGUMENTS: the program, with its window as it comes.
 probe_window() {
-  : >"$scratch/log"
-  TYNDALL_UI_LOG=$scratch/log ./probe "$@" >out 2>"$scratch/errors" &
-  pid=$!
-  trap 'kill $pid 2>/dev/null || true' EXIT
+  run_window ./probe "$@" >out
   find_window
 }
 # ends CODE: the window is closed, and the program ends with that code.
 ends() {
-  python3 "$root/tests/window/_close.py" "$window"
+  press_close_button
   ends_with "$1"
+}
+# logs PATTERN COMMAND...: the command makes the log have such a line.
+logs() {
+  local lines
+  lines=$(here)
+  "${@:2}"
+  wait_for "$1" "$lines"
 }
 
 # As any picture: finished, read, compared with a reference of the same values, saved. A window remembers nothing.
@@ -32,41 +37,29 @@ key i
 point picture 51 51
 wait_until says 'red +20( |$)'
 key i
-lines=$(here)
-key 5
-wait_for '^widget legend .*relative error' "$lines"
-key 6
-wait_for '^widget legend .*samples' "$lines"
+logs '^widget legend .*relative error' key 5
+logs '^widget legend .*samples' key 6
 key 1
 ! grep -q '^message this is a picture' log || fail 'noise and samples are no views of a scene'
 for part in camera.vfov render.spp tab.Camera tab.Objects image.clean; do
   ! grep -q "^widget $part " log || fail "there is $part"
 done
-key 2
-wait_for '^message this is a picture without a scene' "$lines"
-lines=$(here)
-chord ctrl p
-wait_for '^message saved image-001.png' "$lines"
+logs '^message this is a picture without a scene' key 2
+logs '^message saved image-001.png' chord ctrl p
 [ ! -e image-001.exr ] || "$tyndall" compare image-001.exr image-001.exr --max-rmse 0 >/dev/null || fail 'the snapshot'
 settle
 ends 0
 [ ! -s "$scratch/errors" ] || fail 'it complained'
 [ -z "$(find "$XDG_STATE_HOME" -type f 2>/dev/null)" ] || fail "it keeps $(find "$XDG_STATE_HOME" -type f)"
-same=$(cat "$XDG_CONFIG_HOME/tyndall/window.txt")
-[ "$same" = 'clean off' ] || fail "the preferences were changed: $same"
+[ "$(cat "$XDG_CONFIG_HOME/tyndall/window.txt")" = 'clean off' ] || fail 'the preferences were changed'
 
 # Paused, gone on with, restarted.
 probe_window slow - 0.0001
 wait_for '^state rendering$'
+logs '^state paused$' key space
+logs '^state rendering$' key space
 lines=$(here)
-key space
-wait_for '^state paused$' "$lines"
-lines=$(here)
-key space
-wait_for '^state rendering$' "$lines"
-lines=$(here)
-key r
-wait_for '^did start over' "$lines"
+logs '^did start over' key r
 wait_for '^state finished$' "$lines"
 ends 0
 
@@ -93,7 +86,7 @@ ends 0
 probe_window twice -
 wait_for '^state finished$'
 : >"$scratch/log"
-python3 "$root/tests/window/_close.py" "$window"
+press_close_button
 find_window # which begins the log anew
 ends 0
 probe_window process -

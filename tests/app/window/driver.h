@@ -1,7 +1,7 @@
 #pragma once
 #include "app/window/main_window.h"
 #include "tests/app/window/null_platform.h"
-#include "tests/support/paths.h"
+#include "tests/support/scratch.h"
 
 #include <doctest/doctest.h>
 
@@ -18,20 +18,8 @@
 /// The whole window within a test: no display, no OpenGL, input by the names that controls have in its log.
 namespace tyndall::test {
 
-inline constexpr const char* scene_text = R"({ "tyndall": 1,
-  "image": { "width": 32, "height": 20 },
-  "camera": { "look_from": [0, 1, 6], "look_at": [0, 0.5, 0], "vfov": 40 },
-  "background": { "type": "gradient", "bottom": [0.9, 0.9, 0.9], "top": [0.2, 0.3, 0.5] },
-  "render": { "spp": 2, "integrator": "path", "sampler": "random" },
-  "materials": { "floor": { "type": "lambertian", "albedo": [0.4, 0.4, 0.4] },
-    "gold": { "type": "metal", "albedo": [0.9, 0.6, 0.3], "fuzz": 0.2 },
-    "lamp": { "type": "light", "radiance": [4, 4, 4] } },
-  "objects": [
-    { "name": "floor", "type": "sphere", "center": [0, -1000, 0], "radius": 1000, "material": "floor" },
-    { "name": "ball", "type": "sphere", "center": [0, 0.8, 0], "radius": 0.8, "material": "gold" },
-    { "name": "fog", "type": "medium", "boundary": { "type": "sphere", "center": [2, 0.6, 0], "radius": 0.6 },
-      "density": 1.1, "albedo": [1, 1, 1] },
-    { "name": "lamp", "type": "quad", "corner": [-2, 4, -1], "u": [4, 0, 0], "v": [0, 0, 2], "material": "lamp" }] })";
+/// Of a small scene: a metal ball, fog and a lamp.
+inline const std::string scene_text = read_text(tests_folder() / "window" / "scene.json");
 
 /// A window over a scene file, and hands for it.
 class Driver {
@@ -62,6 +50,7 @@ class Driver {
   void click(const std::string& name, double across = 0.5, double down = 0.5, int button = 0) {
     push(name, across, down, button), settle();
   }
+  void click_ball() { click("picture", 0.5, 0.45); }
   /// The same without waiting for a picture.
   void push(const std::string& name, double across = 0.5, double down = 0.5, int button = 0) {
     point(name, across, down);
@@ -97,11 +86,18 @@ class Driver {
     platform_->events.keys.push_back({code, modifiers, ImGui::GetIO().WantTextInput});
     step();
   }
+  /// A key of Dear ImGui's own, for the control that has the keyboard.
+  void strike(ImGuiKey key, int times = 1) {
+    for (int k = 0; k < 2 * times; ++k) {
+      compat::key(ImGui::GetIO(), key, k % 2 == 0);
+      step();
+    }
+  }
   void escape() {
     strike(ImGuiKey_Escape);  // for a control that has the keyboard
     key(256);
   }
-  void undo() { key('Z', {.control = true}); }
+  void undo() { chord('Z'); }
   /// Characters, as shortcuts get them.
   void press_characters(const std::string& text) {
     for (const char c : text) platform_->events.keys.push_back({0, {}, false, c});
@@ -109,7 +105,7 @@ class Driver {
   }
   /// Into the control that has the keyboard.
   void write(const std::string& text) {
-    for (const char c : text) ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(c));
+    type_text(text.c_str());
     step();
   }
   /// The same in place of all that it holds, and Enter.
@@ -128,11 +124,27 @@ class Driver {
   }
   /// What Ctrl + K finds first is carried out.
   void find(const std::string& words) {
-    key('K', {.control = true});
+    chord('K');
     type(words);
   }
+  /// Ctrl + Z and the like.
+  void chord(int code, bool shift = false) { key(code, {.control = true, .shift = shift}); }
   /// Lets the window go on until that is so.
   void wait_until(const std::function<bool()>& is_so);
+  /// Until the newest line of a kind begins so; until the value of a control has these words.
+  void await(const std::string& kind, const std::string& begin) {
+    wait_until([&] { return last(kind).starts_with(begin) && (!begin.empty() || last(kind).empty()); });
+  }
+  void await_value(const std::string& control, const std::string& words) {
+    wait_until([&] { return value(control).find(words) != std::string::npos; });
+  }
+  void await_gone(const std::string& control) {
+    wait_until([&] { return !has(control); });
+  }
+  void save() {
+    chord('S');
+    await("saved", "scene.json");
+  }
 
   /// Whether a control is on the screen, and its value as the log has it.
   bool has(const std::string& control) const { return widgets_.contains(control); }
@@ -149,6 +161,8 @@ class Driver {
     const auto found = last_.find(kind);
     return found == last_.end() ? "" : found->second;
   }
+  /// Whether the window has not been closed.
+  bool is_open() const { return open_; }
   /// How many edits were sent to the renderer.
   int submits() const { return submits_; }
   NullPlatform& platform() { return *platform_; }
@@ -161,25 +175,18 @@ class Driver {
   };
   void pass() {
     skipped_seconds = skipped_seconds + echo_interval;  // drawings keep a distance
-    window_->step();
+    open_ = window_->step();
     read_log();
   }
   /// A drawing, as after input.
   void step() {
     const int before = drawn_;
     platform_->events.any = true;
-    for (int k = 0; k < 100 && drawn_ == before; ++k) pass();
+    for (int k = 0; k < 100 && drawn_ == before && open_; ++k) pass();
   }
   void hold(int button, bool down) {
     compat::mouse_button(ImGui::GetIO(), button, down);
     step();
-  }
-  /// A key of Dear ImGui's own.
-  void strike(ImGuiKey key) {
-    for (const bool down : {true, false}) {
-      compat::key(ImGui::GetIO(), key, down);
-      step();
-    }
   }
   void read_log();
 
@@ -192,6 +199,7 @@ class Driver {
   std::string newest_;              ///< the last line
   int drawn_ = 0;                   ///< how often
   int submits_ = 0, settled_ = -1;  ///< now, and when it had settled last
+  bool open_ = true;
 };
 
 inline Driver::Driver(const std::string& name, const std::function<void(WindowOptions&)>& adjust)
@@ -227,7 +235,8 @@ inline void Driver::settle() {
   const float before = std::exchange(ImGui::GetIO().DeltaTime, 1.0f);  // tooltips that wait for a moment come now
   step();
   ImGui::GetIO().DeltaTime = before;
-  if (std::exchange(settled_, submits_) == submits_) return;
+  const bool comes = last("state").starts_with("row ");  // a picture that is still being written
+  if (std::exchange(settled_, submits_) == submits_ || comes) return;
   for (int k = 0; k < 2000 && newest_ != "rest"; ++k) {  // without skipping time, in which messages would go
     window_->step();
     read_log();

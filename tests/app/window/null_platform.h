@@ -1,6 +1,6 @@
 #pragma once
 #include "app/window/system/platform.h"
-#include "tests/app/window/panels/null_imgui.h"
+#include "tests/app/window/null_imgui.h"
 
 #include <glad/gl.h>
 

@@ -1,15 +1,15 @@
 #pragma once
 #include "app/window/session.h"
+#include "tests/app/window/scenes.h"
 #include "tests/support/news.h"
 #include "tests/support/paths.h"
+#include "tests/support/scratch.h"
 
 #include <atomic>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
+#include <functional>
 #include <memory>
 #include <mutex>
-#include <string>
 
 /// A window's session for tests: everything but the window.
 namespace tyndall::test {
@@ -17,14 +17,14 @@ namespace tyndall::test {
 /// A session over a small scene file in a folder of its own, which is the current folder while this lives.
 class OpenedSession {
  public:
-  explicit OpenedSession(const std::string& name) : folder_(scratch_folder() / ("session_" + name)) {
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-    before_ = std::filesystem::current_path();
-    std::filesystem::current_path(folder_);
-    setenv("XDG_STATE_HOME", (folder_ / "state").c_str(), 1);
+  /// adjust(options): what the command line would say.
+  explicit OpenedSession(const std::string& name, const std::function<void(WindowOptions&)>& adjust = {})
+      : before_(std::filesystem::current_path()) {
+    const std::filesystem::path folder = scratch_folder("session_" + name);
+    std::filesystem::current_path(folder);
+    setenv("XDG_STATE_HOME", (folder / "state").c_str(), 1);
     write(0.25);
-    open();
+    open(adjust);
   }
   ~OpenedSession() {
     session.reset();
@@ -32,39 +32,55 @@ class OpenedSession {
   }
 
   /// Begins a session over what the file holds now.
-  void open() {
+  void open(const std::function<void(WindowOptions&)>& adjust = {}) {
+    session.reset();
     WindowOptions options;
     options.scene = load_scene("scene.json");
     options.threads = 1;
+    if (adjust) adjust(options);
+    const auto on_frame = [this] {
+      ++frames;
+      news.tell();
+      const std::lock_guard wait(gate);
+    };
     session = std::make_unique<Session>(
-        options, [this] { news.tell(); },
-        [this] {
-          ++frames;
-          news.tell();
-          const std::lock_guard wait(gate);
-        },
-        nullptr);
+        options, [this] { news.tell(); }, on_frame, nullptr);
   }
   /// Ends the session and begins another one, as the next start of the program does.
-  void reopen() {
+  void reopen(const std::function<void(WindowOptions&)>& adjust = {}) {
     session->keep_edits();
-    session.reset();
-    open();
+    open(adjust);
   }
 
-  static void write(double fuzz, const std::string& file = "scene.json") {
-    std::ofstream(file) << R"({ "tyndall": 1, "image": { "width": 8, "height": 8 }, "background": [1, 1, 1],
+  static std::string text(double fuzz) {
+    return R"({ "tyndall": 1, "image": { "width": 8, "height": 8 }, "background": [1, 1, 1],
       "render": { "spp": 4, "integrator": "path", "sampler": "random" },
-      "materials": { "gold": { "type": "metal", "albedo": [1, 1, 1], "fuzz": )"
-                        << fuzz << R"( } },
+      "materials": { "gold": { "type": "metal", "albedo": [1, 1, 1], "fuzz": )" +
+           std::to_string(fuzz) + R"( } },
       "objects": [{ "type": "sphere", "center": [0, 0, -2], "radius": 1, "material": "gold" }] })";
   }
-  double fuzz() const { return std::get<Metal<>>(session->editor.scene().materials[0].kind).fuzz; }
-  void set_fuzz(double fuzz, std::uint64_t gesture = 0) {
-    Scene scene = session->editor.scene();
-    std::get<Metal<>>(scene.materials[0].kind).fuzz = fuzz;
-    session->editor.edit(scene, gesture);
+  static void write(double fuzz, const std::string& file = "scene.json") { write_text(file, text(fuzz)); }
+  static double fuzz_of(const Scene& scene) { return std::get<Metal<>>(scene.materials[0].kind).fuzz; }
+  static double fuzz_in(const std::string& file) { return fuzz_of(load_scene(file).scene); }
+
+  Editor& editor() const { return session->editor; }
+  const Scene& scene() const { return editor().scene(); }
+  double fuzz() const { return fuzz_of(scene()); }
+  /// Makes an edit of what change(scene) does.
+  template <class Change>
+  void edit(const Change& change, std::uint64_t gesture = 0) {
+    Scene next = scene();
+    change(next);
+    editor().edit(std::move(next), gesture);
   }
+  void set_fuzz(double fuzz, std::uint64_t gesture = 0) {
+    edit([&](Scene& next) { std::get<Metal<>>(next.materials[0].kind).fuzz = fuzz; }, gesture);
+  }
+  std::uint64_t sent() const { return session->renderers.edit(Half::current); }
+  std::shared_ptr<const Frame> frame(Half half = Half::current) const { return session->renderers.latest(half); }
+  void show(Half half = Half::current) { session->shown(half, frame(half)); }
+  std::string message() const { return session->messages.current().text; }
+
   template <class Condition>
   bool comes_true(const Condition& condition) {
     return news.wait_until([&] {
@@ -74,11 +90,26 @@ class OpenedSession {
       return condition();
     });
   }
+  bool becomes(double expected) {
+    return comes_true([&] { return fuzz() == expected; });
+  }
+  bool opens(const std::string& file, double expected) {
+    editor().open(std::filesystem::absolute(file).string());
+    return becomes(expected);
+  }
+  bool says(const std::string& begin) {
+    return comes_true([&] { return message().starts_with(begin); });
+  }
+  bool complains() {
+    return comes_true([&] { return session->messages.current().error; });
+  }
+  bool appears(const std::string& file) {
+    return comes_true([&] { return std::filesystem::exists(file) && session->saving.idle(); });
+  }
   bool finishes() {
     return comes_true([&] {
-      const auto frame = session->renderers.latest(Half::current);
-      return frame && frame->finished && frame->edit == session->renderers.edit(Half::current) &&
-             session->timer.latest() > 1e100;
+      const auto now = frame();
+      return now && now->finished && now->edit == sent() && session->timer.latest() > 1e100;
     });
   }
 
@@ -88,7 +119,7 @@ class OpenedSession {
   std::unique_ptr<Session> session;
 
  private:
-  std::filesystem::path folder_, before_;
+  std::filesystem::path before_;
 };
 
 }  // namespace tyndall::test

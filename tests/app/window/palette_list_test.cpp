@@ -1,9 +1,8 @@
 #include "app/window/command.h"
-
+#include "app/window/menus/menu.h"
 #include "tests/app/window/panels/column.h"
 #include "tests/support/skies.h"
 
-#include <algorithm>
 #include <set>
 #include <sstream>
 
@@ -22,21 +21,24 @@ Scene varied_scene() {
                      {"wall", TextureIndex{1}, Metal<>{0.5}},        {"paint", TextureIndex{2}, Lambertian<>{}},
                      {"globe", TextureIndex{3}, Lambertian<>{}},     {"lamp", Vec3d{4, 4, 4}, Light<>{}},
                      {"screen", TextureIndex{3}, Light<>{}}};
-  const Sphere<> ball{{0, 0, 0}, 0.7, {}}, moving{{2, 0, 0}, 0.5, Vec3d{2, 1, 0}};
-  scene.objects = {{"gold", Solid3d{ball, 0}, {}},
-                   {"gold box", Solid3d{Box<>{}, 0}, {}},
-                   {"glass", Solid3d{ball, 1}, {Translate{{1, 0, 0}}}},
-                   {"matt", Solid3d{moving, 2}, {}},
-                   {"floor", Solid3d{Quad<>{}, 3}, {}},
-                   {"wall", Solid3d{Box<>{}, 4}, {RotateY{30}}},
-                   {"paint", Solid3d{ball, 5}, {}},
-                   {"globe", Solid3d{ball, 6}, {}},
-                   {"lamp", Solid3d{Quad<>{}, 7}, {}},
-                   {"screen", Solid3d{Quad<>{}, 8}, {}},
-                   {"fog", Volume{Box<>{}, {RotateY{10}}, Medium<>{1.1, 0}, Vec3d{1, 1, 1}}, {}},
-                   {"tiled fog", Volume{ball, {}, Medium<>{1.1, 0}, TextureIndex{0}}, {}},
-                   {"ring", Solid3d{Disk<>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.5}, 2}, {}},
-                   {"group", Group{{{"inner", Solid3d{ball, 2}, {}}}}, {Translate{}}}};
+  const Sphere<> round{{0, 0, 0}, 0.7, {}};
+  scene.objects = {solid(round, {}, 0),
+                   solid(Box<>{}, {}, 0),
+                   solid(round, {Translate{{1, 0, 0}}}, 1),
+                   solid(Sphere<>{{2, 0, 0}, 0.5, Vec3d{2, 1, 0}}, {}, 2),
+                   solid(Quad<>{}, {}, 3),
+                   solid(Box<>{}, {RotateY{30}}, 4),
+                   solid(round, {}, 5),
+                   solid(round, {}, 6),
+                   solid(Quad<>{}, {}, 7),
+                   solid(Quad<>{}, {}, 8),
+                   {"", Volume{Box<>{}, {RotateY{10}}, Medium<>{1.1, 0}, Vec3d{1, 1, 1}}, {}},
+                   {"", Volume{round, {}, Medium<>{1.1, 0}, TextureIndex{0}}, {}},
+                   solid(Disk<>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.5}, {}, 2),
+                   {"group", Group{{solid(round, {}, 2)}}, {Translate{}}}};
+  const char* names[] = {"gold",  "gold box", "glass",  "matt", "floor",     "wall", "paint",
+                         "globe", "lamp",     "screen", "fog",  "tiled fog", "ring"};
+  for (std::size_t k = 0; k < std::size(names); ++k) scene.objects[k].name = names[k];
   return scene;
 }
 
@@ -45,7 +47,7 @@ struct VariedColumn : TestColumn {
   VariedColumn() {
     saved = varied_scene();
     scene() = saved;
-    for (int k = 0; k < 3; ++k) draw();
+    draw(3);
   }
   /// What the palette lists while this is selected.
   std::vector<ListedRow> rows(const ObjectPath& selected) {
@@ -63,132 +65,145 @@ struct VariedColumn : TestColumn {
     problem.clear();
     ui.edit = {};
     seek_row(ui, {row.part, row.label});
-    for (int k = 0; k < 7; ++k) draw();
+    draw(7);
   }
 };
 
+/// Words that are divided by ", ".
+std::vector<std::string> split(const std::string& words) {
+  std::vector<std::string> result;
+  std::istringstream parts(words);
+  for (std::string word; std::getline(parts >> std::ws, word, ',');) result.push_back(word);
+  return result;
+}
+/// What Return carries out when this is typed.
+std::string first_found(const std::vector<PaletteItem>& items, const std::string& typed) {
+  const std::vector<int> found = matching_items(items, typed);
+  return found.empty() ? "" : items[static_cast<std::size_t>(found[0])].label;
+}
+
 }  // namespace
 
-TEST_CASE("the words of other programs lead to the action or row that is meant there") {
-  const std::pair<const char*, const char*> meant[] = {
-      {"split", "split view"},
-      {"A/B", "split view"},
-      {"fullscreen", "full screen"},
-      {"full-screen", "full screen"},
-      {"Full Screen", "full screen"},
-      {"denoise", "clean view on or off"},
-      {"screenshot", "snapshot"},
-      {"screen shot", "snapshot"},
-      {"undo", "undo"},
-      {"render region", "refine a rectangle first"},
-      {"save as", "save as"},
-      {"ior", "go to: Refractive index"},
-      {"index of refraction", "go to: Refractive index"},
-      {"roughness", "go to: Fuzz"},
-      {"aperture", "go to: Defocus"},
-      {"f-stop", "go to: Defocus"},
-      {"depth of field", "go to: Defocus"},
-      {"emission", "go to: Power"},
-      {"intensity", "go to: Power"},
-      {"fov", "go to: Field of view"},
-      {"focal", "go to: Field of view"},
-      {"focal length", "go to: Field of view"},
-      {"focus distance", "go to: Focus"},
-      {"exposure", "go to: Exposure"},
-      {"bounces", "go to: Depth"},
-      {"samples", "go to: Limit"},
-      {"spp", "go to: Limit"},
-      {"albedo", "go to: Albedo"},
-      {"color", "go to: Albedo"},
-      {"base colour", "go to: Albedo"},
-      {"density", "go to: Density"},
-      {"anisotropy", "go to: Asymmetry g"},
-      {"resolution", "go to: Image size"},
-      {"threads", "go to: Threads"},
-      {"tone mapping", "go to: Tone map"},
-      {"inner radius", "go to: Hole"},
-      {"environment", "go to: Background kind"},
-      {"histogram", "go to: Histogram"},
-      {"noise", "view: noise"},
-      {"false color", "view: false colour"},
-      {"render", "go to: Render"},
-      {"cover", "open: cover"},
+TEST_CASE("items are found by all words, in any order and case, other words too; those that begin so come first") {
+  const std::vector<PaletteItem> items{{"save the scene", "Ctrl + S", "", {"save the scene"}},
+                                       {"save as", "", "", {"save as"}},
+                                       {"add a lamp", "", "", {"add a lamp"}},
+                                       {"undo", "Ctrl + Z", "", {"undo"}}};
+  CHECK(matching_items(items, "") == std::vector<int>{0, 1, 2, 3});
+  CHECK(matching_items(items, "SAVE") == std::vector<int>{0, 1});
+  CHECK(matching_items(items, "scene save") == std::vector<int>{0});
+  CHECK(matching_items(items, "a") == std::vector<int>{2, 0, 1});
+  CHECK(matching_items(items, "nothing").empty());
+  const std::vector<PaletteItem> others{
+      {"larger text", "", "font size, preferences"}, {"full screen", "", ""}, {"size of the film", "", ""}};
+  CHECK(matching_items(others, "font") == std::vector<int>{0});
+  CHECK(matching_items(others, "larger font") == std::vector<int>{0});
+  CHECK(matching_items(others, "size") == std::vector<int>{2, 0});
+  CHECK(matching_items({{"clean view on or off", "", "denoise"}, {"view: noise", "", ""}}, "view noise") ==
+        std::vector<int>{1, 0});
+}
+
+TEST_CASE("what cannot be done in a menu is passed over by keys, and does nothing when it is clicked") {
+  NullImGui imgui;
+  Ui ui;
+  Menu menu;
+  std::optional<Request> chosen;
+  const auto draw = [&] {
+    imgui.frame([&] {
+      if (const auto now = menu.draw(ui, {0, 0, 900, 700})) chosen = now;
+    });
   };
+  menu.open(100, 100, "ball", {{"no", "", "it cannot"}});
+  draw();
+  for (float y = 100; y < 200; y += 3) {
+    compat::mouse_pos(ImGui::GetIO(), 130, y);
+    for (const bool down : {true, false}) {
+      compat::mouse_button(ImGui::GetIO(), 0, down);
+      draw();
+    }
+  }
+  CHECK_FALSE(chosen);
+  menu.open(100, 100, "ball", {{"no", "", "it cannot"}, {"undo", "", ""}});
+  CHECK(menu.take_key(264));  // down
+  CHECK(menu.take_key(257));  // Enter
+  draw();
+  CHECK(chosen == Request{"undo"});
+}
+
+TEST_CASE("the words of other programs lead to the action or row that is meant there") {
+  const std::pair<const char*, const char*> meant[] = {{"split view", "split, A/B"},
+                                                       {"full screen", "fullscreen, full-screen, Full Screen"},
+                                                       {"clean view on or off", "denoise"},
+                                                       {"snapshot", "screenshot, screen shot"},
+                                                       {"undo", "undo"},
+                                                       {"refine a rectangle first", "render region"},
+                                                       {"save as", "save as"},
+                                                       {"go to: Refractive index", "ior, index of refraction"},
+                                                       {"go to: Fuzz", "roughness"},
+                                                       {"go to: Defocus", "aperture, f-stop, depth of field"},
+                                                       {"go to: Power", "emission, intensity"},
+                                                       {"go to: Field of view", "fov, focal, focal length"},
+                                                       {"go to: Focus", "focus distance"},
+                                                       {"go to: Exposure", "exposure"},
+                                                       {"go to: Depth", "bounces"},
+                                                       {"go to: Limit", "samples, spp"},
+                                                       {"go to: Albedo", "albedo, color, base colour"},
+                                                       {"go to: Density", "density"},
+                                                       {"go to: Asymmetry g", "anisotropy"},
+                                                       {"go to: Image size", "resolution"},
+                                                       {"go to: Threads", "threads"},
+                                                       {"go to: Tone map", "tone mapping"},
+                                                       {"go to: Hole", "inner radius"},
+                                                       {"go to: Background kind", "environment"},
+                                                       {"go to: Histogram", "histogram"},
+                                                       {"view: noise", "noise"},
+                                                       {"view: false colour", "false color"},
+                                                       {"go to: Render", "render"},
+                                                       {"open: cover", "cover"}};
   VariedColumn column;
   const std::vector<PaletteItem> items = palette_items(column.rows({}), {"cover", "showroom"});
-  for (const auto& [text, label] : meant) {
-    const std::string typed = text;
-    const std::vector<int> found = matching_items(items, typed);
-    REQUIRE_MESSAGE(!found.empty(), typed);
-    CHECK_MESSAGE(items[static_cast<std::size_t>(found[0])].label == label, typed);  // Return carries it out
-  }
+  for (const auto& [label, words] : meant)
+    for (const std::string& word : split(words)) CHECK_MESSAGE(first_found(items, word) == label, word);
 }
 
-TEST_CASE(
-    "no two lines of the palette have the same name, each row has other words, and each other word leads to its own "
-    "line") {
+TEST_CASE("no two lines of the palette have the same name, and each other word leads to its own line") {
   VariedColumn column;
   for (const ObjectPath& selected : {ObjectPath{}, ObjectPath{0}, ObjectPath{10}}) {
+    std::set<std::string> labels;
     const std::vector<PaletteItem> items = palette_items(column.rows(selected), {});
-    for (std::size_t k = 0; k < items.size(); ++k) {
-      const bool is_row = items[k].label.starts_with("go to:");
-      CHECK_MESSAGE((!is_row || !items[k].also.empty()), items[k].label);
-      for (std::size_t other = 0; other < k; ++other) CHECK(items[other].label != items[k].label);
-      std::istringstream words(items[k].also);
-      for (std::string word; std::getline(words, word, ',');) {
-        const std::vector<int> found = matching_items(items, word);
-        REQUIRE_MESSAGE(!found.empty(), word);
-        CHECK_MESSAGE(items[static_cast<std::size_t>(found[0])].label == items[k].label, word);
-      }
+    for (const PaletteItem& item : items) {
+      CHECK_MESSAGE(labels.insert(item.label).second, item.label);
+      CHECK_MESSAGE((!item.label.starts_with("go to:") || !item.also.empty()), item.label);
+      for (const std::string& word : split(item.also)) CHECK_MESSAGE(first_found(items, word) == item.label, word);
     }
   }
 }
 
-TEST_CASE("each row is brought up and takes the keyboard, or it is said what to do first, for whatever is selected") {
+TEST_CASE("the palette has every row that is drawn; it takes the keyboard, or it is said what to do first") {
   VariedColumn column;
-  const std::size_t count = column.scene().objects.size();
   column.scene().animation.emplace();
   std::set<std::string> reached, all;
-  for (std::size_t k = 0; k <= count; ++k) {
-    column.state.selected = k < count ? ObjectPath{static_cast<int>(k)} : ObjectPath{};
-    for (int drawing = 0; drawing < 3; ++drawing) column.draw();
-    for (const ListedRow& listed : column.rows(column.state.selected)) {
-      const RowEntry& row = listed.row;
-      column.go(row);
-      const bool shown = listed.missing.empty();
-      CHECK_MESSAGE(shown == column.problem.empty(), k, ": ", row.part, ": ", row.label);
-      if (shown && !row.label.empty()) {
-        const bool has_keyboard = column.ui.edit.id != 0 || column.ui.sought.has_keys;
-        CHECK_MESSAGE(has_keyboard, row.label);
-      }
-      if (shown) reached.insert(row.part + row.label);
-      if (row.part != "Background") all.insert(row.part + row.label);
-    }
-  }
-  for (const std::string& row : all) CHECK_MESSAGE(reached.contains(row), row);
-}
-
-TEST_CASE("the palette has every row that the column draws, whatever is selected") {
-  VariedColumn column;
-  column.scene().animation.emplace();
-  const int count = static_cast<int>(column.scene().objects.size());
-  for (int k = -1; k < count; ++k) {
-    column.state.selected = k < 0 ? ObjectPath{} : ObjectPath{k};
-    column.draw();
+  for (int k = -1; k < static_cast<int>(column.scene().objects.size()); ++k) {
+    column.select(k < 0 ? ObjectPath{} : ObjectPath{k});
     std::vector<RowEntry> drawn;
     column.ui.rows = &drawn;
     column.draw();
     column.ui.rows = nullptr;
     CHECK(drawn.size() > 30);
-    const auto rows = column.rows(column.state.selected);
-    for (const RowEntry& place : drawn)
-      CHECK_MESSAGE(std::any_of(rows.begin(), rows.end(),
-                                [&](const ListedRow& one) {
-                                  return one.row.part == place.part && one.row.label == place.label &&
-                                         one.missing.empty();
-                                }),
-                    k, ": ", place.part, ": ", place.label);
+    std::set<std::string> listed;
+    for (const auto& [row, missing] : column.rows(column.state.selected)) {
+      const std::string name = row.part + ": " + row.label;
+      column.go(row);
+      CHECK_MESSAGE(missing.empty() == column.problem.empty(), k, ": ", name);
+      if (row.part != "Background") all.insert(name);
+      if (!missing.empty()) continue;
+      CHECK_MESSAGE((row.label.empty() || column.has_keyboard() || column.ui.sought.has_keys), name);
+      listed.insert(name);
+    }
+    for (const RowEntry& row : drawn) CHECK_MESSAGE(listed.contains(row.part + ": " + row.label), k, ": ", row.label);
+    reached.merge(listed);
   }
+  CHECK(std::includes(reached.begin(), reached.end(), all.begin(), all.end()));
 }
 
 TEST_CASE("the rows of each kind of background are reached") {
@@ -201,30 +216,28 @@ TEST_CASE("the rows of each kind of background are reached") {
     column.scene().background = background;
     column.go({"Background", label, "", ""});
     CHECK(column.problem.empty());
-    CHECK(column.ui.edit.id != 0);
+    CHECK(column.has_keyboard());
   }
 }
 
 TEST_CASE("a row in a folded section, far down, is opened and scrolled to, and what is typed goes into it") {
   VariedColumn column;
   column.height = 420;
-  column.state.selected = {0};
   for (const char* section : {"Gold", "Camera", "Render"}) column.ui.folded.insert(section);
-  for (int k = 0; k < 3; ++k) column.draw();
+  column.select({0});
   const auto type = [&](const char* label, const char* part, const char* text) {
     column.go({part, label, "", ""});
-    for (const char* c = text; *c; ++c) ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(*c));
-    column.draw();
+    column.write(text);
     column.press(ImGuiKey_Enter);
   };
   type("Seed", "Render", "77");
   CHECK(column.scene().render.seed == 77);
   CHECK(column.has("render.seed"));
-  CHECK(column_sections()[static_cast<std::size_t>(column.state.tabs.lit)].name == std::string("Render"));
+  CHECK(column.lit() == "Render");
   CHECK_FALSE(column.ui.folded.contains("Render"));
   CHECK(column.ui.folded.contains("Camera"));
   type("Fuzz", "Object", "0.75");
-  CHECK(std::get<Metal<>>(column.scene().materials[0].kind).fuzz == 0.75);
+  CHECK(column.fuzz() == 0.75);
   CHECK(column.has("gold.fuzz"));
   column.scene().objects[0].transform = {RotateY{30}, RotateY{5}};
   type("Turn", "Object", "45");  // the first of two
@@ -259,8 +272,7 @@ TEST_CASE("the arrow keys go through the choices of a row that was gone to, unti
   CHECK_FALSE(column.ui.sought.has_keys);
   column.press(ImGuiKey_RightArrow);
   CHECK(column.scene().display.tone_map == ToneMap::srgb);
-  column.state.selected = {0};
-  column.draw();
+  column.select({0});
   column.go(column.row_named("Material", "Object", {0}).row);
   column.press(ImGuiKey_DownArrow);
   CHECK(std::get<Solid3d>(column.scene().objects[0].kind).material == 1);

@@ -3,15 +3,10 @@
 #include "app/window/document/document.h"
 #include "app/window/gallery/gallery.h"
 #include "tests/app/window/opened_session.h"
-#include "tests/support/paths.h"
-
-#include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace tyndall::test::session_programs_slow_test {
-using test::OpenedSession;
 namespace fs = std::filesystem;
 
 namespace {
@@ -34,19 +29,16 @@ struct OpenedProgram : OpenedSession {
     open_program();
   }
   void open_program() {
-    SceneRequest request;
-    request.what = "main.cc";
-    request.program.allowed = request.program.trusted = true;
-    WindowOptions options;
-    options.scene = open_scene(request);
-    options.reload = [request](const std::function<bool()>& go_on) mutable {
-      request.program.go_on = go_on;
-      return open_scene(request);
-    };
-    options.threads = 1;
-    session.reset();
-    session = std::make_unique<Session>(
-        options, [this] { news.tell(); }, [this] { news.tell(); }, nullptr);
+    open([](WindowOptions& options) {
+      SceneRequest request;
+      request.what = "main.cc";
+      request.program.allowed = request.program.trusted = true;
+      options.scene = open_scene(request);
+      options.reload = [request](const std::function<bool()>& go_on) mutable {
+        request.program.go_on = go_on;
+        return open_scene(request);
+      };
+    });
   }
 };
 
@@ -54,7 +46,7 @@ struct OpenedProgram : OpenedSession {
 class FailingCompiler {
  public:
   FailingCompiler() {
-    std::ofstream("compiler") << "#!/bin/sh\necho \"$PWD: error: the failing compiler\" >&2\nexit 1\n";
+    write_text("compiler", "#!/bin/sh\necho \"$PWD: error: the failing compiler\" >&2\nexit 1\n");
     fs::permissions("compiler", fs::perms::owner_all);
     const char* now = std::getenv("CXX");
     before_ = now ? now : "";
@@ -74,14 +66,14 @@ TEST_CASE("a program is compiled again when it is saved; an error leaves the las
   OpenedProgram opened("program");
   CHECK(opened.fuzz() == 0.25);
   write_program("0.5");
-  REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.5; }));
+  REQUIRE(opened.becomes(0.5));
   write_program("nonsense");
-  REQUIRE(opened.comes_true([&] { return opened.session->messages.current().error; }));
-  CHECK(opened.session->messages.current().text.find("main.cc:4:") == 0);
-  CHECK(opened.session->messages.current().text.find("'nonsense'") != std::string::npos);
+  REQUIRE(opened.complains());
+  CHECK(opened.message().starts_with("main.cc:4:"));
+  CHECK(opened.message().find("'nonsense'") != std::string::npos);
   CHECK(opened.fuzz() == 0.5);
   write_program("0.75");
-  REQUIRE(opened.comes_true([&] { return opened.fuzz() == 0.75; }));
+  REQUIRE(opened.becomes(0.75));
   CHECK_FALSE(opened.session->messages.current().error);
 }
 
@@ -97,15 +89,15 @@ TEST_CASE("a window that closes does not wait for a program that has no end") {
 
 TEST_CASE("saving never replaces a program: it asks for the name of a scene file, which is watched from then on") {
   OpenedProgram opened("program_saved");
-  const Document before = opened.session->editor.document();
+  const Document before = opened.editor().document();
   CHECK(before.origin->file.empty());
   const std::vector<fs::path> watched = watched_files(before);  // with the headers that it includes
   CHECK(watched.front() == fs::absolute("main.cc"));
   CHECK(std::find(watched.begin(), watched.end(), tests_folder() / "book/headers/books.h") != watched.end());
   opened.set_fuzz(0.5);
-  REQUIRE(opened.session->editor.save("main.json"));
-  CHECK(watched_files(opened.session->editor.document()) == std::vector<fs::path>{"main.json"});
-  CHECK(load_scene("main.json").scene == opened.session->editor.scene());
+  REQUIRE(opened.editor().save("main.json"));
+  CHECK(watched_files(opened.editor().document()) == std::vector<fs::path>{"main.json"});
+  CHECK(load_scene("main.json").scene == opened.editor().scene());
   write_program("0.75");
   opened.session->collect();
   CHECK(opened.fuzz() == 0.5);
@@ -114,13 +106,13 @@ TEST_CASE("saving never replaces a program: it asks for the name of a scene file
 TEST_CASE("edits of a program's scene are kept as a scene, and come back without compiling") {
   OpenedProgram opened("program_kept");
   opened.set_fuzz(0.5);
-  const Document edited = opened.session->editor.document();
-  std::ofstream("kept.json") << kept_text(edited.scene, *edited.origin, ".");
+  const Document edited = opened.editor().document();
+  write_text("kept.json", kept_text(edited.scene, *edited.origin, "."));
   CHECK(load_scene("kept.json").scene == edited.scene);
   opened.session->keep_edits();
   opened.open_program();  // as "tyndall main.cc" does
   CHECK(opened.fuzz() == 0.5);
-  opened.session->editor.undo();
+  opened.editor().undo();
   CHECK(opened.fuzz() == 0.25);
   const FailingCompiler compiler;
   const Kept kept = read_kept("kept.json", [](const std::string& what) { return load_scene(what); });
@@ -136,17 +128,16 @@ TEST_CASE("no other program is compiled: dropped, from the list of recent files,
   opened.session->references.open_dropped(other);
   const std::string refused =
       "other.cc is a program, which is compiled and run only where it is named on the command line: tyndall other.cc";
-  REQUIRE(opened.comes_true([&] { return opened.session->messages.current().text == refused; }));
+  REQUIRE(opened.comes_true([&] { return opened.message() == refused; }));
   opened.session->messages.dismiss();
   add_recent_file("recent.txt", other);
-  for (const fs::path& file : read_recent_files("recent.txt")) opened.session->editor.open(file.string());
-  CHECK(opened.session->messages.current().text == refused);
+  for (const fs::path& file : read_recent_files("recent.txt")) opened.editor().open(file.string());
+  CHECK(opened.message() == refused);
   CHECK_THROWS_AS(load_scene(other), SceneError);  // what small pictures and references are made by
   CHECK(opened.fuzz() == 0.25);
 
-  opened.session->editor.open(fs::absolute("main.cc").string());  // the one that was named
-  const auto failed = [&] { return opened.session->messages.current().text.find("the failing compiler"); };
-  REQUIRE(opened.comes_true([&] { return failed() != std::string::npos; }));
+  opened.editor().open(fs::absolute("main.cc").string());  // the one that was named
+  REQUIRE(opened.comes_true([&] { return opened.message().find("the failing compiler") != std::string::npos; }));
 }
 
 }  // namespace tyndall::test::session_programs_slow_test

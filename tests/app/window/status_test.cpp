@@ -1,6 +1,5 @@
 #include "app/window/overlays.h"
-
-#include <doctest/doctest.h>
+#include "tests/app/window/scenes.h"
 
 #include <limits>
 
@@ -23,20 +22,24 @@ struct Shown : Context {
     frame = std::make_shared<const Frame>(picture);
     return status_cells(*this, scene);
   }
-  std::string text();
+  std::string text() {
+    std::string text;
+    for (const StatusCell& cell : cells()) text += cell.key + "=" + cell.value + ";";
+    return text;
+  }
+  /// Whether the line has all of these cells; they are divided by bars.
+  void has(const std::string& expected) {
+    std::istringstream parts(expected);
+    for (std::string part; std::getline(parts, part, '|');) CHECK_MESSAGE(text().find(part) != std::string::npos, part);
+  }
+  void lacks(const std::string& words) { CHECK_MESSAGE(text().find(words) == std::string::npos, words); }
 };
 
-std::string text_of(const std::vector<StatusCell>& cells) {
-  std::string text;
-  for (const StatusCell& cell : cells) text += cell.key + "=" + cell.value + ";";
-  return text;
-}
-
-std::string Shown::text() { return text_of(cells()); }
+ErrorCurve run(double rel_mse, std::uint64_t edit = 3) { return {"", {{10, rel_mse}}, edit}; }
 
 }  // namespace
 
-TEST_CASE("the status line tells what is on the screen") {
+TEST_CASE("the status line tells what is on the screen, and leaves out what is not known yet") {
   Shown shown;
   Frame& frame = shown.picture;
   frame.spp = 1024;
@@ -47,47 +50,43 @@ TEST_CASE("the status line tells what is on the screen") {
   frame.lanes = 32;
   frame.threads = 2;
   frame.film_bytes = 103'000'000;
-  const ErrorCurve run{"", {{10, 1.23e-4}}, 0};
-  shown.run = &run;
-  const std::string text = shown.text();
-  for (const char* part : {"=rendering;", "spp=1,024;", "error=1.1 %;", "to 1 %=2.3 s;", "=148 Mrays/s;",
-                           "avx512 x32=2 threads;", "film=103 MB;", "rejected=0;", "=mis · sobol;", "showroom.json=;"})
-    CHECK_MESSAGE(text.find(part) != std::string::npos, part << " in " << text);
+  const ErrorCurve curve = run(1.23e-4, 0);
+  shown.run = &curve;
+  shown.has("=rendering;|spp=1,024;|error=1.1 %;|to 1 %=2.3 s;|=148 Mrays/s;|avx512 x32=2 threads;|film=103 MB;");
+  shown.has("rejected=0;|=mis · sobol;|showroom.json=;");
+  Shown begun;
+  begun.picture.step = 8;
+  begun.picture.relative_error = std::numeric_limits<double>::infinity();
+  begun.wanted.paused = true;
+  begun.has("=paused;|spp=1/64;|error=?;|to 1 %=?;");
+  CHECK(status_cells(Context{}, Scene{}).front().value == "starting");
 }
 
-TEST_CASE("the status line tells the errors of the clean view and of the raw picture") {
+TEST_CASE("the status line tells the errors of both pictures, the true ones, and what is only estimated") {
   Shown shown;
   Frame& frame = shown.picture;
   frame.edit = 3;
   frame.spp = 20;
   frame.relative_error = 0.041;
+  const ErrorCurve raw = run(1.6e-3), filtered = run(1e-4);
+  shown.is_true = true, shown.run = &raw;
+  shown.has("true error=4 %;estimated=4.1 %;");
+  frame.edit = 4;  // this edit's error has not been measured yet
+  shown.has("true error=?;estimated=4.1 %;");
+  frame.edit = 3;
+  shown.split = true;
+  CHECK(shown.text().starts_with("B=rendering;"));
+  shown.split = shown.is_true = false;
   auto clean = std::make_shared<CleanFrame>();
   clean->relative_error = 0.009;
   clean->spp = 16;
   frame.clean = clean;
-  std::string text = shown.text();
-  for (const char* part : {"clean=0.9 %;", "raw=4.1 %;"}) CHECK_MESSAGE(text.find(part) != std::string::npos, text);
-  CHECK(text.find("rough") == std::string::npos);
+  shown.has("clean=0.9 %;|raw=4.1 %;");
+  shown.lacks("rough");
   clean->spp = 8;
-  text = shown.text();
-  CHECK_MESSAGE(text.find("=rough below 16 spp;") != std::string::npos, text);
-  const ErrorCurve raw{"", {{10, 1.6e-3}}, 3}, filtered{"", {{10, 1e-4}}, 3};
-  shown.is_true = true, shown.run = &raw, shown.clean_run = &filtered;
-  text = shown.text();
-  for (const char* part : {"true clean=1 %;", "true raw=4 %;", "estimated=4.1 %;"})
-    CHECK_MESSAGE(text.find(part) != std::string::npos, text);
-}
-
-TEST_CASE("the status line leaves out what is not known yet") {
-  Shown shown;
-  Frame& frame = shown.picture;
-  frame.step = 8;
-  frame.relative_error = std::numeric_limits<double>::infinity();
-  shown.wanted.paused = true;
-  const std::string text = shown.text();
-  for (const char* part : {"=paused;", "spp=1/64;", "error=?;", "to 1 %=?;"})
-    CHECK_MESSAGE(text.find(part) != std::string::npos, part << " in " << text);
-  CHECK(text_of(status_cells(Context{}, Scene{})).find("=starting;") == 0);
+  shown.has("=rough below 16 spp;");
+  shown.is_true = true, shown.clean_run = &filtered;
+  shown.has("true clean=1 %;|true raw=4 %;|estimated=4.1 %;");
 }
 
 TEST_CASE("rejected samples and approximations are warnings, edits are shown") {
@@ -97,33 +96,14 @@ TEST_CASE("rejected samples and approximations are warnings, edits are shown") {
   frame.rejected = 3;
   shown.edited = true;
   shown.scene.render.fresnel = FresnelKind::schlick;
-  int warnings = 0;
   const std::vector<StatusCell> cells = shown.cells();
-  for (const StatusCell& cell : cells) warnings += cell.warning;
-  CHECK(warnings == 2);
-  frame.cut_throughput = 0.02;
-  CHECK(shown.text().find("cut off=2 %;") != std::string::npos);
-  frame.cut_throughput = 1e-5;
-  CHECK(shown.text().find("cut off") == std::string::npos);
+  CHECK(std::count_if(cells.begin(), cells.end(), [](const StatusCell& cell) { return cell.warning; }) == 2);
   CHECK(cells.front().value == "finished");
   CHECK(cells.back().value == "edited");
-}
-
-TEST_CASE("against a reference the true error is told, and what is only estimated") {
-  Shown shown;
-  Frame& frame = shown.picture;
-  frame.edit = 3;
-  frame.spp = 64;
-  frame.relative_error = 0.011;
-  const ErrorCurve run{"", {{1, 4e-4}}, 3};
-  shown.is_true = true, shown.run = &run;
-  std::string text = shown.text();
-  CHECK(text.find("true error=2 %;estimated=1.1 %;") != std::string::npos);
-  frame.edit = 4;  // this edit's error has not been measured yet
-  text = shown.text();
-  CHECK(text.find("true error=?;estimated=1.1 %;") != std::string::npos);
-  shown.split = true;
-  CHECK(shown.text().find("B=rendering;") == 0);
+  frame.cut_throughput = 0.02;
+  shown.has("cut off=2 %;");
+  frame.cut_throughput = 1e-5;
+  shown.lacks("cut off");
 }
 
 TEST_CASE("without room the least important cells go first, and the state always stays") {
@@ -137,32 +117,26 @@ TEST_CASE("without room the least important cells go first, and the state always
 
 TEST_CASE("a scene without light says what it lacks, and not that its error is 0 %") {
   Shown shown;
-  Frame& frame = shown.picture;
-  frame.spp = 4;
+  shown.picture.spp = 4;
   shown.scene.background = Vec3d{0, 0, 0};
-  std::string text = shown.text();
-  CHECK_MESSAGE(text.find("=empty scene: add an object and a lamp;") != std::string::npos, text);
-  CHECK(text.find("error") == std::string::npos);
+  shown.has("=empty scene: add an object and a lamp;");
+  shown.lacks("error");
   shown.scene.materials = {{"grey", Vec3d{0.5, 0.5, 0.5}, Lambertian<>{}}};
-  shown.scene.objects = {Object{"", Solid3d{Sphere<>{{0, 0, -2}, 1, {}}, 0}, {}}};
-  text = shown.text();
-  CHECK_MESSAGE(text.find("=no light in this scene: add a lamp;") != std::string::npos, text);
+  shown.scene.objects = {ball("", {0, 0, -2})};
+  shown.has("=no light in this scene: add a lamp;");
   shown.scene.materials[0].kind = Light<>{};
-  CHECK(shown.text().find("error=") != std::string::npos);
+  shown.has("error=");
 }
 
 TEST_CASE("the status line of a picture that a program writes tells how much is there, and nothing of rendering") {
   Shown shown;
-  Frame& frame = shown.picture;
-  frame.edit = 3;
-  frame.width = 40, frame.height = 30;
+  shown.picture.edit = 3;
+  shown.picture.width = 40, shown.picture.height = 30;
   shown.arrived = "row 7 of 30";
-  const std::string text = shown.text();
-  CHECK(text == "=row 7 of 30;=40 x 30 pixels;showroom.json=;");
-  const ErrorCurve run{"", {{1, 1e-4}}, 3};
-  shown.is_true = true, shown.run = &run;
-  const std::string compared = shown.text();
-  CHECK(compared.find("true error=1 %;") != std::string::npos);
+  CHECK(shown.text() == "=row 7 of 30;=40 x 30 pixels;showroom.json=;");
+  const ErrorCurve curve = run(1e-4);
+  shown.is_true = true, shown.run = &curve;
+  shown.has("true error=1 %;");
 }
 
 }  // namespace tyndall::test::status_test

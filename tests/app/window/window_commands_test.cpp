@@ -3,10 +3,8 @@
 
 namespace tyndall::test::window_commands_test {
 
-using Seen = bool (*)(const Driver& d);
-
 /// What is to be seen of a command that does more than the log says of each.
-const std::map<std::string, Seen> effects = {
+const std::map<std::string, bool (*)(const Driver&)> effects = {
     {"deselect", [](const Driver& d) { return !d.has("Ball.name"); }},
     {"add an object", [](const Driver& d) { return d.has("menu.add_a_sphere"); }},
     {"duplicate", [](const Driver& d) { return d.value("picture") == "Ball 2"; }},
@@ -49,7 +47,7 @@ void begin(Driver& driver) {
   if (driver.value("image.clean.off") != "on") driver.click("image.clean.off");
   if (driver.has("split.b")) driver.find("split view");
   if (driver.value("window.theme.dark") != "on") driver.click("window.theme.dark");
-  driver.key('0', {.control = true});  // the usual text
+  driver.chord('0');  // the usual text
   for (int k = 0; k < 5 && driver.has("objects.4"); ++k) driver.undo();
   if (!driver.has("objects.3")) driver.undo();
   driver.escape();
@@ -98,14 +96,6 @@ TEST_CASE("the window: commands in the menus of Insert and of a right click") {
   }
 }
 
-TEST_CASE("the window: exposure needs no new picture") {
-  Driver driver("exposure");
-  const int before = driver.submits();
-  driver.click("image.exposure", 0.7);
-  CHECK(driver.value("image.exposure") != "0");
-  CHECK(driver.submits() == before);
-}
-
 TEST_CASE("the window: nothing is rendered while nobody sees it, and then what was wanted before") {
   Driver driver("rests");
   driver.settle();
@@ -133,15 +123,86 @@ TEST_CASE("the window: each view comes by its key, or says what it needs") {
   }
 }
 
-TEST_CASE("the window: what changes no picture starts nothing over") {
+TEST_CASE("the window: what changes no picture starts nothing over, but can be undone") {
   Driver driver("nothing_restarts");
   driver.click("image.tone_map.aces");
+  driver.click("image.exposure", 0.7);
+  CHECK(driver.value("image.exposure") != "0");
+  driver.undo();
+  CHECK(driver.value("image.exposure") == "0");
   driver.set("gold.fuzz", "0.2");
   driver.set("gold.fuzz", "0.200");
   driver.set("gold.fuzz", "1.5");
   CHECK(driver.last("message") == "fuzz: found 1.5, expected a number in [0, 1]");
   CHECK(driver.value("gold.fuzz") == "0.2");
   CHECK(driver.submits() == 1);
+}
+
+TEST_CASE("the window: the palette leads to rows and commands, or says what to do first") {
+  Driver driver("palette");
+  driver.click("section.Render");
+  driver.find("bounces");
+  driver.type("17");
+  CHECK(driver.value("render.max_depth") == "17");
+  driver.find("emission");
+  CHECK(driver.last("message") == "Power: select a lamp first");
+  driver.find("A/B");
+  CHECK(driver.value("render.split.on") == "on");
+}
+
+TEST_CASE("the window: what is typed into the palette is no shortcut, goes on without a match, and is forgotten") {
+  Driver driver("palette_typing");
+  const auto begin = [&](const char* text) {
+    driver.chord('K');
+    driver.write(text);
+    driver.settle();
+  };
+  driver.find("nor");
+  CHECK(driver.value("image.view.normal") == "on");
+  begin("1");
+  CHECK(driver.value("palette") == "1");
+  CHECK(driver.value("image.view.normal") == "on");
+  driver.type("sabe");  // there is no such thing
+  CHECK(driver.has("palette"));
+  driver.strike(ImGuiKey_Backspace, 2);
+  driver.write("xx");
+  driver.click("palette", 0.5, 0.5);
+  REQUIRE(driver.has("palette"));
+  driver.strike(ImGuiKey_Backspace, 2);
+  driver.write("ve");
+  driver.key(264);  // down, to the second line
+  driver.strike(ImGuiKey_Enter);
+  driver.settle();
+  CHECK(driver.last("did") == "save as");
+  driver.escape();
+  begin("tone");
+  driver.click("picture", 0.05, 0.95);  // beside it
+  CHECK_FALSE(driver.has("palette"));
+  begin("");
+  driver.hold({.control = true});
+  driver.strike(ImGuiKey_Z);
+  driver.strike(ImGuiKey_Y);
+  driver.hold({});
+  driver.settle();
+  CHECK(driver.value("palette").empty());
+}
+
+TEST_CASE("the window: what the palette adds comes where the mouse was when it opened") {
+  Driver driver("palette_add");
+  double heights[2] = {};
+  for (const int low : {0, 1}) {
+    driver.point("picture", low ? 0.2 : 0.5, low ? 0.8 : 0.1);
+    driver.find("add a sphere");
+    REQUIRE(driver.value("picture") == "Ball 2");
+    heights[low] = driver.number("Ball_2.center.y");
+    driver.undo();
+  }
+  CHECK(heights[0] > heights[1] + 0.5);
+  driver.chord('K');
+  driver.write("add lamp");
+  driver.settle();
+  driver.click("palette.add_a_lamp");
+  CHECK(driver.value("picture") == "Lamp 2");
 }
 
 }  // namespace tyndall::test::window_commands_test

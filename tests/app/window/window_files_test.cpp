@@ -8,27 +8,39 @@ namespace tyndall::test::window_files_test {
 TEST_CASE("the window: files are opened by a typed name, from the list of recent ones, and by the palette") {
   Driver driver("files");
   std::ofstream("two.json") << scene_text;
-  const auto opens = [&](const std::string& title) {
-    driver.wait_until([&] { return driver.last("message") == "opened " + title; });
-  };
-  driver.key('O', {.control = true});
+  driver.chord('O');
+  driver.type("none.json");
+  driver.await("message", "none.json: ");
+  driver.escape();
+  driver.chord('O');
   driver.type("two.json");
-  opens("two.json");
+  driver.await("message", "opened two.json");
+  CHECK(driver.platform().title.starts_with("two.json"));
+  driver.undo();
+  CHECK(driver.platform().title.starts_with("scene.json"));
   driver.settle();
   driver.click("scenes.recent.1");
-  opens("scene.json");
+  driver.await("message", "opened scene.json");
   driver.find("quads");
-  opens("quads");
+  driver.await("message", "opened quads");
   driver.find("two.json");
-  opens("two.json");
+  driver.await("message", "opened two.json");
 }
 
 TEST_CASE("the window: a name that was typed stays where the scene cannot be saved there") {
   Driver driver("nowhere");
-  driver.key('S', {.control = true, .shift = true});
+  driver.chord('S', true);
   driver.type("nowhere/quads.json");
   driver.wait_until([&] { return driver.last("message").find("nowhere") != std::string::npos; });
   CHECK(driver.value("dialog.name") == "nowhere/quads.json");
+}
+
+/// The first line of the scene's file.
+std::string first_line() {
+  std::ifstream file("scene.json");
+  std::string line;
+  std::getline(file, line);
+  return line;
 }
 
 TEST_CASE("the window: saving asks before a file loses its comments") {
@@ -36,32 +48,86 @@ TEST_CASE("the window: saving asks before a file loses its comments") {
     std::ofstream("scene.json") << "// A comment.\n" << scene_text;
     options.scene = load_scene("scene.json");
   });
-  const auto has_comment = [] {
-    std::ifstream file("scene.json");
-    std::string first;
-    return std::getline(file, first) && first == "// A comment.";
-  };
   for (const bool saves : {false, true}) {
     driver.set("gold.fuzz", "0.25");
-    driver.key('S', {.control = true});
+    driver.chord('S');
     driver.click(saves ? "dialog.save" : "dialog.cancel");
-    driver.wait_until([&] { return has_comment() != saves; });
+    driver.wait_until([&] { return (first_line() == "// A comment.") != saves; });
   }
   CHECK(driver.last("saved") == "scene.json");
 }
 
-TEST_CASE("the window: tabs bring parts of the column to the head of a low window") {
-  Driver driver("tabs");
-  driver.platform().height = 640;
+TEST_CASE("the window: closing asks while there are edits, answers come by mouse and by keys, and Save writes") {
+  Driver driver("closing");
+  driver.set("gold.fuzz", "0.25");
+  driver.chord('Q');
+  driver.click("gold.fuzz.value");  // the column takes no clicks meanwhile
+  CHECK(driver.last("keyboard") == "shortcuts");
+  driver.click("dialog.cancel");
+  CHECK_FALSE(driver.has("dialog.discard"));
+  driver.chord('Q');
+  CHECK(driver.has("dialog.discard"));
+  driver.escape();
+  CHECK_FALSE(driver.has("dialog.discard"));
+  driver.chord('Q');
+  driver.strike(ImGuiKey_Tab);  // marks the next answer, with Shift the one before
+  driver.hold({.shift = true});
+  driver.strike(ImGuiKey_Tab);
+  driver.hold({});
+  driver.strike(ImGuiKey_LeftArrow);  // round and round: Cancel
+  driver.strike(ImGuiKey_Enter);
   driver.settle();
-  for (const std::string part : {"Scenes", "Objects", "Render", "Camera", "Image", "Object"}) {
-    driver.click("tab." + part);
-    driver.wait_until([&] { return driver.value("tab." + part) == "on"; });
-  }
-  driver.click("tab.Objects");
-  driver.click("picture", 0.5, 0.45);
-  driver.wait_until([&] { return driver.value("tab.Object") == "on"; });
-  CHECK(driver.has("section.Ball"));
+  CHECK_FALSE(driver.has("dialog.discard"));
+  CHECK(driver.is_open());
+  driver.chord('Q');
+  driver.push("dialog.save");
+  driver.wait_until([&] { return !driver.is_open(); });
+  CHECK(std::get<Metal<>>(load_scene("scene.json").scene.materials[1].kind).fuzz == 0.25);
+}
+
+TEST_CASE("the window: closing asks nothing where there are no edits") {
+  Driver driver("closing_at_once");
+  driver.send_key('Q', {.control = true});
+  driver.wait_until([&] { return !driver.is_open(); });
+}
+
+TEST_CASE(
+    "the window: the file is read again when it changes; with edits it is asked about, and not replaced unasked") {
+  Driver driver("changed");
+  const auto change = [](const std::string& fuzz) {
+    std::string text = scene_text;
+    std::ofstream("scene.json") << text.replace(text.find("\"fuzz\": 0.2"), 11, "\"fuzz\": " + fuzz);
+  };
+  const auto answer = [&](const std::string& name) {
+    driver.wait_until([&] { return driver.has("dialog." + name); });
+    driver.click("dialog." + name);
+  };
+  change("0.3");
+  driver.await_value("gold.fuzz", "0.3");
+  driver.set("gold.fuzz", "0.6");
+  change("0.7");
+  answer("keep");
+  CHECK(driver.value("gold.fuzz") == "0.6");
+  change("0.8");
+  answer("take");
+  CHECK(driver.value("gold.fuzz") == "0.8");
+  driver.undo();
+  CHECK(driver.value("gold.fuzz") == "0.6");
+  change("broken");
+  driver.await("message", "scene.json:");
+  driver.set("gold.fuzz", "0.61");
+  CHECK(driver.last("message").starts_with("scene.json:"));  // until it is mended
+  driver.chord('S');
+  driver.click("dialog.cancel");
+  CHECK_THROWS(load_scene("scene.json"));
+  driver.chord('S');
+  driver.click("dialog.save");
+  driver.await("saved", "scene.json");
+  CHECK(std::get<Metal<>>(load_scene("scene.json").scene.materials[1].kind).fuzz == 0.61);
+  driver.set("gold.fuzz", "0.62");
+  CHECK_FALSE(driver.last("message").starts_with("scene.json:"));
+  driver.chord('S');
+  CHECK_FALSE(driver.has("dialog.save"));
 }
 
 TEST_CASE("the window: theme, size of texts, width of the column and folded sections are kept") {
@@ -80,10 +146,13 @@ TEST_CASE("the window: theme, size of texts, width of the column and folded sect
   CHECK(ImGui::GetStyle().Colors[ImGuiCol_WindowBg].x > dark + 0.5f);
   driver.click("section.Camera");
   written("folded Camera");
-  driver.key('+', {.control = true});
-  written("text-size 1.1");
+  CHECK_FALSE(driver.has("camera.vfov"));
+  driver.click("section.Camera");
+  CHECK(driver.has("camera.vfov"));
+  driver.click("window.text.125");
+  written("text-size 1.25");
   CHECK(driver.width("gold.fuzz.value") > usual);
-  driver.key('0', {.control = true});
+  driver.chord('0');
   written("text-size 1");
   driver.point("column.edge");
   driver.press();
@@ -98,12 +167,19 @@ TEST_CASE("the window: the clean view is on at a first start") {
   CHECK(driver.value("image.clean.on") == "on");
 }
 
-TEST_CASE("the window: a damaged file of preferences is told of, and not believed") {
-  Driver driver("damaged",
-                [](WindowOptions&) { std::ofstream("config/tyndall/window.txt") << "theme light\ncolumn wide\n"; });
-  CHECK(driver.last("message").find("window.txt is damaged") != std::string::npos);
-  CHECK(driver.value("window.theme.dark") == "on");
-  CHECK(std::filesystem::exists("config/tyndall/window.txt.damaged"));
+TEST_CASE("the window: a damaged file of preferences is told of, not believed, and moved away if it can be") {
+  for (const bool in_the_way : {false, true}) {
+    Driver driver("damaged", [&](WindowOptions&) {
+      std::ofstream("config/tyndall/window.txt") << "theme light\ncolumn wide\n";
+      if (in_the_way) std::filesystem::create_directories("config/tyndall/window.txt.damaged/in the way");
+    });
+    const std::filesystem::path file = std::filesystem::absolute("config/tyndall/window.txt");
+    CHECK(driver.last("message") ==
+          file.string() + " is damaged; the window begins with its defaults, " +
+              (in_the_way ? "and the file cannot be moved out of the way" : "the file is now window.txt.damaged"));
+    CHECK(std::filesystem::exists(file) == in_the_way);
+    CHECK(driver.value("window.theme.dark") == "on");
+  }
 }
 
 TEST_CASE("the window: a picture pauses by itself at an error or a time; an edit or Space goes on") {
@@ -112,7 +188,7 @@ TEST_CASE("the window: a picture pauses by itself at an error or a time; an edit
       options.scene.scene.render.spp = 1000000;
       (by_error ? options.limits.error : options.limits.seconds) = 0.4;
     });
-    const auto is = [&](const std::string& state) { driver.wait_until([&] { return driver.last("state") == state; }); };
+    const auto is = [&](const std::string& state) { driver.await("state", state); };
     is("paused");
     CHECK(driver.last("message").starts_with(by_error ? "paused at the error" : "paused at the time limit"));
     driver.push("gold.fuzz", 0.7);
@@ -123,43 +199,31 @@ TEST_CASE("the window: a picture pauses by itself at an error or a time; an edit
   }
 }
 
-TEST_CASE("the window: names that hold anything stand in one line, in the title, too") {
-  const std::string odd = "line\nfeed \x01\x1b[31m %s ## ###";
-  Driver driver("odd_names", [&](WindowOptions& options) {
-    options.scene.source = options.scene.name = "odd\n\x1b[31m %s ##x.json";
-    options.scene.scene.objects[1].name = odd;
-  });
-  driver.click("picture", 0.5, 0.45);
-  CHECK(driver.value("picture") == "Line\\nfeed \\u0001\\u001b[31m %s ## ###");
-  CHECK(driver.platform().title.find('\n') == std::string::npos);
-  CHECK(driver.platform().title.find("odd\\n\\u001b[31m %s ##x.json") == 0);
-}
-
 TEST_CASE("the window: a reference picture is loaded, refused, of another scene after an edit, and dropped") {
   Driver driver("reference");
-  const auto says = [&](const char* kind, const std::string& text) {
-    driver.wait_until([&] { return driver.last(kind).starts_with(text); });
-  };
   for (const auto& [file, width, height] : {std::tuple{"small.pfm", 10, 6}, {"reference.pfm", 32, 20}})
     write_pfm(file, {width, height, std::vector<float>(static_cast<std::size_t>(3 * width * height), 0.5f)});
   driver.click("chart.reference");
   driver.type("small.pfm");
-  says("message", "small.pfm: found 10x6 pixels, expected 32x20 as the picture has");
+  driver.await("message", "small.pfm: found 10x6 pixels, expected 32x20 as the picture has");
   driver.escape();
   driver.click("chart.reference");
   driver.type("reference.pfm");
-  says("message", "reference: reference.pfm");
-  says("accuracy", "against reference.pfm · FLIP 0.");
+  driver.await("message", "reference: reference.pfm");
+  driver.await("accuracy", "against reference.pfm · FLIP 0.");
   driver.key('8');
-  driver.wait_until([&] { return driver.value("image.view.error") == "on"; });
+  driver.await_value("image.view.error", "on");
   CHECK(driver.submits() == 1);
+  driver.click("chart.export");
+  driver.await("saved", "scene-chart-001");
   driver.set("gold.fuzz", "0.5");
-  says("accuracy", "reference of another scene: reference.pfm");
+  driver.await("accuracy", "reference of another scene: reference.pfm");
   driver.undo();
-  says("accuracy", "against reference.pfm");
+  driver.await("accuracy", "against reference.pfm");
   driver.click("chart.reference");
   driver.click("dialog.drop");
-  driver.wait_until([&] { return driver.value("image.view.beauty") == "on" && driver.last("accuracy").empty(); });
+  driver.await_value("image.view.beauty", "on");
+  driver.await("accuracy", "");
 }
 
 }  // namespace tyndall::test::window_files_test

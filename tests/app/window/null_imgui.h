@@ -1,7 +1,9 @@
 #pragma once
 #include "app/window/system/imgui_compat.h"
 
-/// Dear ImGui 1.86 and later versions without a window, for tests.
+#include <utility>
+
+/// Dear ImGui 1.86 and later versions without a window or a display, for tests.
 namespace tyndall::compat {
 
 // Input. Before 1.87 there is no event queue: the fields are written directly, before ImGui::NewFrame().
@@ -63,3 +65,46 @@ inline void textures_without_window() {
 }
 
 }  // namespace tyndall::compat
+
+namespace tyndall::test {
+
+/// Frames are built and thrown away; input is what a test's hands do.
+class NullImGui {
+ public:
+  explicit NullImGui(float width = 1280, float height = 720) : context_(ImGui::CreateContext()) {
+    ImGui::SetCurrentContext(context_);
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.LogFilename = nullptr;
+    io.DisplaySize = {width, height};
+    io.DeltaTime = 1.0f / 60;
+    compat::init_without_window(io);
+    compat::mouse_pos(io, -1, -1);
+  }
+  ~NullImGui() {
+#if IMGUI_VERSION_NUM >= 19200
+    for (ImTextureData* texture : ImGui::GetPlatformIO().Textures) texture->SetStatus(ImTextureStatus_Destroyed);
+#endif
+    ImGui::DestroyContext(context_);
+  }
+  NullImGui(const NullImGui&) = delete;
+  NullImGui& operator=(const NullImGui&) = delete;
+
+  template <class F>
+  void frame(F&& draw) {
+    compat::new_frame();
+    std::forward<F>(draw)();
+    ImGui::Render();
+    compat::textures_without_window();
+  }
+
+ private:
+  ImGuiContext* context_;
+};
+
+/// Characters for the control that has the keyboard.
+inline void type_text(const char* text) {
+  for (const char* c = text; *c; ++c) ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(*c));
+}
+
+}  // namespace tyndall::test
