@@ -11,8 +11,8 @@ namespace tyndall {
 namespace {
 
 // Heights of the parts of the scale, in pixels, from its top: a gap, the colours, the marks, the text.
-constexpr int gap = 4, bar = 8, mark = 3, dot = 2;
-static_assert(gap + bar + mark + 5 * dot + 1 == heat_scale_rows);
+constexpr int gap = 4, bar = 8, mark = 3, dot_size = 2;
+static_assert(gap + bar + mark + 5 * dot_size + 1 == heat_scale_rows);
 
 /// The texts of the scale.
 using Dots = std::array<std::string_view, 5>;
@@ -31,11 +31,11 @@ void draw_scale(LinearImage& image, int top) {
       set(image, x, top + gap + y, heat(static_cast<float>(x) / static_cast<float>(std::max(last, 1))));
   // Marks a place; the text begins so many of its halves to the left of `from`.
   const auto label = [&](int at, const Dots& rows, int from, int halves) {
-    const int width = dot * static_cast<int>(rows[0].size());
+    const int width = dot_size * static_cast<int>(rows[0].size());
     for (int y = 0; y < mark; ++y) set(image, at, top + gap + bar + y);
-    for (int y = 0; y < 5 * dot; ++y)
+    for (int y = 0; y < 5 * dot_size; ++y)
       for (int x = 0; x < width; ++x)
-        if (rows[static_cast<std::size_t>(y / dot)][static_cast<std::size_t>(x / dot)] == '#')
+        if (rows[static_cast<std::size_t>(y / dot_size)][static_cast<std::size_t>(x / dot_size)] == '#')
           set(image, from - halves * width / 2 + x, text + y);
   };
   label(0, zero, 0, 0);
