@@ -314,8 +314,10 @@ void take_over(session& s) { take_samples(s); }
   using material = {};
   using texture = {};
   static bool hit(const shape& o, const ray& in, double low, double high, record& record) {{ return {}; }}
-  static scatter_answer scatter(const material& m, const ray& in, record& record) {{ (void)m, (void)in, (void)record; {} }}
-  template <class P> static vector emitted(const material& m, const ray& in, record& record, double u, double v, const P& p) {{
+  static scatter_answer scatter(const material& m, const ray& in, record& record) {{
+    (void)m, (void)in, (void)record; {} }}
+  template <class P>
+  static vector emitted(const material& m, const ray& in, record& record, double u, double v, const P& p) {{
     (void)m, (void)in, (void)record, (void)u, (void)v, (void)p; {} }}
   template <class P> static vector value(const texture& t, double u, double v, const P& p) {{
     (void)t, (void)u, (void)v, (void)p; {} }}

@@ -17,7 +17,8 @@ class Ray { public: Ray(int a) : b{a}, c(a) { } int b, c; };
 struct Hit { double t; };
 class Shape { public: virtual ~Shape() = default; virtual bool hit(const Ray& r, double low, double high, Hit& h) const = 0; };
 template <class T> class Many : public Shape { };
-class Ball final : public Shape { bool hit(const Ray& a, double low, double high, Hit& b) const override { return true; } };
+class Ball final : public Shape {
+  bool hit(const Ray& a, double low, double high, Hit& b) const override { return true; } };
 inline std::ostream& operator<<(std::ostream& out, const Ray& r) { return out; }
 struct Camera { Ray get_ray(double u, double v) const { return Ray(int(u)); } };
 }
