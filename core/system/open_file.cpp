@@ -119,7 +119,8 @@ bool OpenFile::has_name() const {
 }
 
 int OpenFile::take_mode_and_owner(const std::filesystem::path& other) const {
-  struct stat now {}, old {};
+  struct stat now {};
+  struct stat old {};
   if (fstat(descriptor_, &now) != 0) return errno;
   if (stat(other.c_str(), &old) != 0) return errno == ENOENT ? 0 : errno;
   mode_t mode = old.st_mode & 07777u;
