@@ -107,13 +107,6 @@ TEST_CASE("metal: the share that leaves, for a blur within the ball") {
     }
 }
 
-TEST_CASE("metal: cosine-weighted, a tenth of fuzz squared is lost") {
-  for (const double fuzz : {0.0, 0.1, 0.3, 0.5, 1.0}) {
-    const double kept = integrate([&](double mu) { return metal_survival(fuzz, mu) * 2 * mu; }, 0, 1);
-    CHECK(kept == doctest::Approx(1 - fuzz * fuzz / 10).epsilon(1e-7).scale(0));
-  }
-}
-
 TEST_CASE("metal: without fuzz a mirror, from both sides") {
   Directions directions;
   for (std::uint32_t i = 0; i < 100000; ++i) {

@@ -62,18 +62,6 @@ TEST_CASE("medium: the generator's extreme numbers give finite flights; long fli
   CHECK(std::isfinite(free_flight(1e-30f, minimum)));
 }
 
-TEST_CASE("medium: streams of one event are independent") {
-  Moments product;
-  for (std::uint32_t i = 0; i < 500000; ++i) {
-    const Sampler<float> d = sampler<float>(i);
-    const auto centred = [&](std::uint32_t stream) {
-      return static_cast<double>(d.open(dimension::free_flight, stream)) - 0.5;
-    };
-    product.add(12 * centred(0) * centred(1));
-  }
-  CHECK(std::abs(product.estimate().mean) <= 4 * product.estimate().error);
-}
-
 TEST_CASE("medium: transmittance is Beer's and Lambert's law") {
   CHECK(transmittance(0.0f) == 1.0f);
   for (const double depth : {1e-6, 0.01, 0.5, 1.0, 5.0, 20.0})

@@ -1,5 +1,4 @@
 #include "core/targets/kernels.h"
-#include "tests/support/capture.h"
 #include "tests/support/pictures.h"
 #include "tests/support/probe.h"
 
