@@ -131,9 +131,9 @@ class Driver {
   void chord(int code, bool shift = false) { key(code, {.control = true, .shift = shift}); }
   /// Lets the window go on until that is so.
   void wait_until(const std::function<bool()>& is_so);
-  /// Until the newest line of a kind begins so; until the value of a control has these words.
-  void await(const std::string& kind, const std::string& begin) {
-    wait_until([&] { return last(kind).starts_with(begin) && (!begin.empty() || last(kind).empty()); });
+  /// Until the newest line of a kind has these words, "": there is none; until the value of a control has them.
+  void await(const std::string& kind, const std::string& words) {
+    wait_until([&] { return words.empty() ? last(kind).empty() : last(kind).find(words) != std::string::npos; });
   }
   void await_value(const std::string& control, const std::string& words) {
     wait_until([&] { return value(control).find(words) != std::string::npos; });

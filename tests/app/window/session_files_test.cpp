@@ -8,6 +8,39 @@
 namespace tyndall::test::session_files_test {
 namespace fs = std::filesystem;
 
+TEST_CASE("the file is read again when it changes, also from a broken one; with edits the user is asked first") {
+  OpenedSession opened("reload");
+  OpenedSession::write(0.625);
+  REQUIRE(opened.becomes(0.625));
+  opened.set_fuzz(0.5);
+  Editor& editor = opened.editor();
+  const auto answers = [&](double changed_to, bool takes) {
+    OpenedSession::write(changed_to);
+    REQUIRE(opened.comes_true([&] { return editor.offers_reload(); }));
+    CHECK(opened.fuzz() == 0.5);
+    editor.answer_about_file(takes);
+    CHECK(opened.fuzz() == (takes ? changed_to : 0.5));
+    CHECK(OpenedSession::fuzz_of(editor.document().origin->saved) == changed_to);
+    CHECK(editor.edited() != takes);
+  };
+  answers(0.75, false);
+  answers(0.875, true);
+  editor.undo();
+  CHECK(opened.fuzz() == 0.5);
+  CHECK_FALSE(file_differs(*editor.document().origin));
+  write_text("scene.json", "{");
+  REQUIRE(opened.complains());
+  const std::string told = opened.message();
+  opened.set_fuzz(0.75);
+  CHECK(opened.message() == told);
+  CHECK(opened.fuzz() == 0.75);
+  CHECK(file_differs(*editor.document().origin));
+  editor.save(editor.document().origin->file);  // as the user wished, after being asked
+  CHECK_FALSE(file_differs(*editor.document().origin));
+  opened.set_fuzz(0.625);
+  CHECK_FALSE(opened.session->messages.current().error);
+}
+
 TEST_CASE("edits that are not saved come back in the next session, and one undo goes back to the file") {
   OpenedSession opened("restore");
   opened.set_fuzz(0.5);

@@ -34,6 +34,7 @@ TEST_CASE("the window: the mouse orbits, pans and moves the camera, each a step 
     driver.wheel(1);
     const std::string once = driver.value("camera.look_from.z");
     skipped_seconds = skipped_seconds + 1;
+    driver.point("picture");
     driver.wheel(1);
     driver.undo();
     CHECK(driver.value("camera.look_from.z") == once);  // steps that are not quick are undone one by one

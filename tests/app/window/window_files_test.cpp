@@ -10,7 +10,7 @@ TEST_CASE("the window: files are opened by a typed name, from the list of recent
   std::ofstream("two.json") << scene_text;
   driver.chord('O');
   driver.type("none.json");
-  driver.await("message", "none.json: ");
+  driver.await("message", "none.json");
   driver.escape();
   driver.chord('O');
   driver.type("two.json");
@@ -111,8 +111,6 @@ TEST_CASE(
   change("0.8");
   answer("take");
   CHECK(driver.value("gold.fuzz") == "0.8");
-  driver.undo();
-  CHECK(driver.value("gold.fuzz") == "0.6");
   change("broken");
   driver.await("message", "scene.json:");
   driver.set("gold.fuzz", "0.61");
