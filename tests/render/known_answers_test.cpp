@@ -25,7 +25,7 @@ const VerifyCase& known_answer(const std::string& name) {
   throw std::invalid_argument("no known answer: " + name);
 }
 
-Scene scene_of(const VerifyCase& answer) { return load_scene(answer.scene.string(), answer.overrides).scene; }
+Scene scene_of(const VerifyCase& answer) { return load_scene(answer.scene, answer.overrides).scene; }
 
 /// Of each kind of answer some that are measured soon.
 constexpr const char* quick =

@@ -4,6 +4,7 @@
 #include "tests/support/news.h"
 
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include <memory>
 #include <string>
@@ -17,7 +18,9 @@ struct Pipe {
   OpenFile reader, writer;
 
   explicit Pipe(const std::string& begin) {
-    std::tie(reader, writer) = OpenFile::pipe();
+    int ends[2];
+    REQUIRE(::pipe(ends) == 0);
+    reader = OpenFile(ends[0]), writer = OpenFile(ends[1]);
     write(begin);
   }
   void write(const std::string& text) const { REQUIRE(writer.write(text.data(), text.size()) == 0); }

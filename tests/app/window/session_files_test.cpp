@@ -25,9 +25,9 @@ TEST_CASE("the file is read again when it changes, also from a broken one; with 
   };
   answers(0.75, false);
   answers(0.875, true);
+  CHECK_FALSE(file_differs(*editor.document().origin));
   editor.undo();
   CHECK(opened.fuzz() == 0.5);
-  CHECK_FALSE(file_differs(*editor.document().origin));
   write_text("scene.json", "{");
   REQUIRE(opened.complains());
   const std::string told = opened.message();

@@ -173,7 +173,7 @@ TEST_CASE("the window: ten tasks of somebody who sees it for the first time, by 
   driver.await("saved", "mine.json");
   driver.set("camera.vfov", "50");  // 8: and come back to
   driver.click("scenes.recent.0");
-  driver.await("message", "read again: mine.json");
+  driver.await("message", "opened mine.json");
   driver.settle();
   CHECK(driver.value("camera.vfov") != "50");
   for (const auto& [row, pixels] : {std::pair{"render.size.width", "384"}, {"render.size.height", "216"}}) {
