@@ -118,7 +118,7 @@ void finish(CommandRequest& request) {
     if (found(request)) refuse("{}", text);
 }
 
-Command read(const CommandText& text, Arguments arguments) {
+ParsedCommand read(const CommandText& text, Arguments arguments) {
   CommandRequest request;
   request.command = text.name();
   request.run = text.run;
@@ -162,7 +162,7 @@ void refuse_misspelt_option(Text argument) {
   if (!hint.empty()) refuse("unknown option {}{} (see tyndall --help)", in_quotes(argument), hint);
 }
 
-Command read_help(Arguments arguments) {
+ParsedCommand read_help(Arguments arguments) {
   if (arguments.empty()) return PrintCommand{overview()};
   constexpr std::string (*writers[])(const std::vector<CommandRow>&) = {man_page, bash_completion, zsh_completion,
                                                                         fish_completion};
@@ -188,7 +188,7 @@ CommandRequest read_method(const std::string& text) {
   return method;
 }
 
-Command read_command(const std::vector<std::string>& arguments) {
+ParsedCommand read_command(const std::vector<std::string>& arguments) {
   const std::vector<CommandText>& commands = command_texts();
   if (arguments.empty()) return read(commands.front(), {});
   const std::string& first = arguments.front();
@@ -206,7 +206,7 @@ Command read_command(const std::vector<std::string>& arguments) {
   return read(commands.front(), arguments);
 }
 
-int run(const Command& command) {
+int run(const ParsedCommand& command) {
   if (const auto* print = std::get_if<PrintCommand>(&command)) {
     write_standard_output(print->text);
     return 0;

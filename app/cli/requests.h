@@ -81,8 +81,8 @@ struct PrintCommand {
 /// The command line as a whole: a command's request, or what is to be printed. arguments[0] is what follows the
 /// program's name. Throws UsageError. Of files only the existence is looked at, to tell a misspelt command from a
 /// scene's file.
-using Command = std::variant<CommandRequest, PrintCommand>;
-Command read_command(const std::vector<std::string>& arguments);
+using ParsedCommand = std::variant<CommandRequest, PrintCommand>;
+ParsedCommand read_command(const std::vector<std::string>& arguments);
 
 /// The exit code of a command that computed a picture and could not write all of it.
 inline constexpr int output_failed = 3;
@@ -94,7 +94,7 @@ template <class... Part>
 }
 
 /// Runs the command that was read, or prints the text.
-int run(const Command& command);
+int run(const ParsedCommand& command);
 
 /// The commands. Each returns the program's exit code: 0 when done, 1 if a check failed, output_failed, or 130 and 143
 /// if interrupted. For everything else they throw: UsageError, SceneError and MergeError where the user is at fault,

@@ -2,7 +2,7 @@
 
 /// Elementary functions that pictures depend on, by IEEE 754 operations alone, so that a scene is compiled to the same
 /// bits by every C library. Those of libraries differ in the last bit. Errors are below one unit in the last place
-/// (tests/base/elementary_test.cpp).
+/// (tests/base/math_test.cpp).
 namespace tyndall {
 
 /// Of an angle in radians, up to 2^20 on either side of 0. Beyond, the error is larger.

@@ -1,12 +1,16 @@
 #include "core/base/lanes.h"
 
 #include "core/base/vec.h"
+#include "core/targets/kernels.h"
+#include "tests/base/lanes_report.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <limits>
 #include <random>
+#include <string>
+#include <tyndall_targets.h>
 
 using namespace tyndall;  // its functions are called by their full names: the C library has the same ones
 
@@ -89,4 +93,24 @@ TEST_CASE("vectors: products, reflection and points along a line") {
   CHECK(point_at(Vec3d{1, 1, 1}, 2.0, Vec3d{1, 0, -1}) == Vec3d{3, 1, -1});
   CHECK(max_component(Vec3d{1, 7, 3}) == 7);
   CHECK(select(false, x, y) == y);
+}
+
+TEST_CASE("lanes: every wide operation does what it does on float, lane by lane") {
+  for (const Target target : available_targets()) {
+    if (target == Target::scalar) continue;
+    const auto report = use_target<TYNDALL_BUILT_TARGETS>(target, [](auto built) -> test::LanesReport {
+      if constexpr (built() == Target::scalar)
+        return {};
+      else
+        return test::lanes_report_for<built()>();
+    });
+    CAPTURE(std::string(name_of(target)));
+    CHECK(report.lanes == floats_in(target) * (floats_in(target) >= 8 ? 2 : 1));
+    CHECK(report.lanes == choose_kernels(name_of(target))->lanes);
+    CHECK(report.arithmetic == 0);
+    CHECK(report.whole_numbers == 0);
+    CHECK(report.masks == 0);
+    CHECK(report.memory == 0);
+    CHECK(report.functions <= 2);  // float and lanes may each err by what the function promises
+  }
 }

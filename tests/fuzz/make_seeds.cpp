@@ -1,7 +1,7 @@
 // Writes what fuzzing starts from: make_seeds FOLDER, which gets a folder for each format.
 #include "core/image/image_io.h"
 #include "tests/support/exr_files.h"
-#include "tests/support/jpeg_files.h"
+#include "tests/support/picture_files.h"
 
 #include <OpenEXR/ImfStandardAttributes.h>
 

@@ -1,7 +1,6 @@
-#include "tests/support/jpeg_files.h"
 #include "tests/support/peak_memory.h"
 #include "tests/support/picture_bytes.h"
-#include "tests/support/png_files.h"
+#include "tests/support/picture_files.h"
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 APP = [
     ("a difference takes away all that follows", "app/text/numbers.cpp", "const double right = «part() → terms(signs)»;", "app/text/numbers"),
     ("a comma before the first digit", "app/text/numbers.cpp", "for (std::size_t at = text.size(); at > «3 → 2»; at -= 3)", "app/text/numbers"),
-    ("a line end in CSV without quotes", "app/text/markup.cpp", "if (text.find_first_of(«\",\\\"\\r\\n\" → \",\\\"\\r\"»)", "app/text/markup"),
+    ("a line end in CSV without quotes", "app/text/markup.cpp", "if (text.find_first_of(«\",\\\"\\r\\n\" → \",\\\"\\r\"»)", "app/text/values"),
     ("an empty range of samples is taken", "app/text/values.cpp", "«range.first >= range.last → range.first > range.last»)\n"
      "    refuse(text, \"A:B with whole numbers 0 <= A < B, such as \" + example)", "app/text/values"),
     ("a value with a slash names a folder", "app/text/values.cpp", "«std::replace(value.begin(), value.end(), '/', '_'); → »", "app/text/values"),
@@ -12,8 +12,8 @@ APP = [
     ("last words that end in empty lines are lost", "app/book/load_program.cpp",
      "«while (!text.empty() && (text.back() == '\\n' || text.back() == '\\r' || text.back() == ' ')) text.pop_back(); → »", "book/programs.sh"),
     ("a guarded program that is given up is no failure", "app/book/run_guarded.cpp",
-     "«if (end.given_up) throw ProgramInterrupted(task.name + \": given up while \" + doing, signal_terminate); → »", "app/book/run_guarded"),
-    ("the guard that there is is not taken", "app/book/run_guarded.cpp", "«plan.guard = available_guard(); → »", "app/book/run_guarded book/safety.sh"),
+     "«if (end.given_up) throw ProgramInterrupted(task.name + \": given up while \" + doing, signal_terminate); → »", "app/book/load_program"),
+    ("the guard that there is is not taken", "app/book/run_guarded.cpp", "«plan.guard = available_guard(); → »", "app/book/load_program book/safety.sh"),
     ("functions that are defined outside of their class belong to none", "app/book/program_outline.cpp",
      "if (outline_.classes[k].name == tokens_[name - 2]) one.owner = «static_cast<int>(k) → -1»;", "app/book/program_outline"),
     ("a file with the ending .cxx is no program", "app/book/load_program.cpp", "|| «ending == \".cxx\" → false»;", "app/book/load_program"),
@@ -29,11 +29,11 @@ APP = [
     ("memory for films that are read beside the sum is not counted", "app/files/memory.cpp", "part = «plan.parts ? film : 0 → 0»;", "app/files/memory"),
 
     ("the time that is left grows with the error, not its square", "app/curves/curve.cpp",
-     "known.rel_mse / («target * target → target»)", "app/curves/curve app/curves/convergence"),
-    ("noise of heavy tails passes as bias", "app/curves/curve.cpp", "bias > «0.7 → 0.0» * rest(*before)", "app/curves/convergence app/curves/curve"),
-    ("how many times slower, not faster", "app/curves/curve.cpp", "return «*slow / *fast → *fast / *slow»;", "app/curves/curve"),
+     "known.rel_mse / («target * target → target»)", "app/curves/chart app/curves/chart"),
+    ("noise of heavy tails passes as bias", "app/curves/curve.cpp", "bias > «0.7 → 0.0» * rest(*before)", "app/curves/chart app/curves/chart"),
+    ("how many times slower, not faster", "app/curves/curve.cpp", "return «*slow / *fast → *fast / *slow»;", "app/curves/chart"),
     ("between two points always the middle one", "app/curves/curve.cpp",
-     "const double part = «part_between(a.seconds, b.seconds, seconds) → 0.5»;", "app/curves/curve"),
+     "const double part = «part_between(a.seconds, b.seconds, seconds) → 0.5»;", "app/curves/chart"),
     ("a chart that cannot be written is no error", "app/curves/chart.cpp", "«if (!problem.empty()) throw ImageFileError(problem); → »", "commands/measured_slow"),
 
     ("a light that moves is written at rest", "app/export/foreign_scene.cpp",
@@ -48,9 +48,9 @@ APP = [
 
     ("a ring is a disk", "app/report/contents.cpp", "has_hole = «disk && disk->inner > 0 → false»;", "app/report/contents"),
     ("a box of light is one lamp", "app/report/contents.cpp", "std::holds_alternative<Box<>>(solid.shape) ? «6 → 1» : 1;", "app/report/contents"),
-    ("the noise of halves is twice that of their mean", "app/report/film_difference.cpp", "const Vec3f deviates = «0.5f → 1.0f» * (a - b);", "app/report/film_difference"),
+    ("the noise of halves is twice that of their mean", "app/report/film_difference.cpp", "const Vec3f deviates = «0.5f → 1.0f» * (a - b);", "app/report/gain"),
     ("the squared difference has the noise of one half in it", "app/report/film_difference.cpp",
-     "squares += sum_of(a * «b → a»);", "app/report/film_difference"),
+     "squares += sum_of(a * «b → a»);", "app/report/gain"),
     ("what is not a number is white", "app/report/heat_map.cpp", "«if (std::isnan(value)) return {0, 1, 0}; → »", "app/report/heat_map"),
     ("colours of heat end early", "app/report/heat_map.cpp", "std::clamp(value, 0.0f, 1.0f) * «4 → 5»;", "app/report/heat_map"),
 
@@ -63,7 +63,7 @@ APP = [
      "«if (bytes > 0 && preferences.others.size() == bytes) return {}; → »", "app/window/system/preferences"),
     ("a quantile one value too high", "app/window/system/ui_log.cpp", "static_cast<double>(values.size())) - «1 → 0»;", "app/window/system/preferences"),
 
-    ("two drags are one step to undo", "app/window/document/history.cpp", "gesture != 0 && «gesture == gesture_ → true»)", "app/window/document/history"),
+    ("two drags are one step to undo", "app/window/document/history.cpp", "gesture != 0 && «gesture == gesture_ → true»)", "app/window/document/document"),
     ("a question about the file stays after saving", "app/window/document/editor.cpp",
      "«changed_file_.reset(); → »\n    messages_.say(saved);", "app/window/document/document app/window/session_files"),
     ("older kept edits stay beside newer ones", "app/window/document/autosave.cpp",
@@ -73,14 +73,14 @@ APP = [
     ("keys stay with the number of their object", "app/window/document/document.cpp",
      "for (std::size_t k = 0; k < path.size(); ++k) «steps[2 * k + 1] = std::to_string(now[0][k]); → »", "app/window/document/document"),
     ("an edit loses the selection", "app/window/document/history.cpp",
-     "«select(std::move(selected)); → »\n  gesture_ = gesture;", "app/window/document/history"),
+     "«select(std::move(selected)); → »\n  gesture_ = gesture;", "app/window/document/document"),
 
     ("the camera turns over the pole", "app/window/tools/camera_control.cpp",
      "const double wanted = «std::clamp(from_pole - pitch, degree, pi - degree) → from_pole - pitch»;", "app/window/tools/camera_control"),
     ("a click with a trembling hand is a drag", "app/window/tools/pointer.cpp", "moved_ = std::hypot(dx, dy) > «4 * scale → 0 * scale»;", "app/window/tools/pointer"),
     ("a flight leaps after a slow picture", "app/window/tools/camera_control.cpp", "«std::min(now - last_, 0.1) → now - last_» : 0;", "app/window/tools/camera_control"),
     ("fog is picked where its boundary was before it was placed", "app/window/tools/selection.cpp",
-     "if (const Volume* volume = std::get_if<Volume>(&object.kind))\n      «result = compose(result, placement_of(volume->boundary_transform)); → »", "app/window/tools/selection"),
+     "if (const Volume* volume = std::get_if<Volume>(&object.kind))\n      «result = compose(result, placement_of(volume->boundary_transform)); → »", "app/window/tools/pointer"),
     ("to focus without blur changes the far blur", "app/window/tools/camera_control.cpp", "if («!keep_blur → true» && camera.defocus_angle > 0)", "app/window/tools/camera_control"),
     ("what is nearest is taken, not what is seen", "app/window/tools/pointer.cpp", "return o.path == «pick.object → selected»; });\n  const auto now", "app/window/tools/pointer"),
 
@@ -199,13 +199,13 @@ APP = [
      "«if (options.spp > max_samples) refuse(fmt::format(\"spp: found {}, expected at most {}\", options.spp, max_samples)); → »", "commands/installed"),
     ("options of an older header are read behind their end", "app/watch/watch.cpp", "std::memcpy(&options, given, «std::min(given->size, sizeof options) → sizeof options»);", "commands/installed"),
 
-    ("swapped red and blue are not tried", "app/check/reading.cpp", "picture.numbers[at + («reading.swapped ? 2 - c : c → c»)];", "app/check/statistics"),
-    ("a mean product in place of a covariance", "app/check/statistics.cpp", "(products - «a * b / count → 0.0») / (count - 1)", "app/check/statistics"),
+    ("swapped red and blue are not tried", "app/check/reading.cpp", "picture.numbers[at + («reading.swapped ? 2 - c : c → c»)];", "app/check/explain"),
+    ("a mean product in place of a covariance", "app/check/statistics.cpp", "(products - «a * b / count → 0.0») / (count - 1)", "app/check/explain"),
     ("what a mistake explains is what it adds", "app/check/expectation.h",
      "return seen > min_seen * amount() ? 1 - «amount_of(after.all, all) → amount_of(all, after.all)» / seen : 0;", "app/check/explain"),
     ("a picture of too few samples agrees", "app/check/explain.cpp", "findings_.too_few = agree && «findings_.unseen > max_unseen → false»;", "app/check/explain"),
     ("light of a depth alone, not up to it", "app/check/statistics.cpp", "for (std::size_t k = 1; k < light.size(); ++k) «light[k] += light[k - 1]; → »",
-     "app/check/statistics"),
+     "app/check/explain"),
 
     ("parts of adaptive renders are merged", "app/cli/merge.cpp", "if («part.scene.render.adaptive → false»)", "commands/refusals"),
     ("one value is varied twice", "app/cli/options.cpp", "&& «axes[0].pointer == axes[1].pointer → false»)", "commands/refusals"),

@@ -7,7 +7,7 @@ statement. Tests go by their names in CTest.
 
 CORE = [
     ("the second Sobol' dimension without its first step", "core/base/random.h",
-     "«x = x ^ shift_left<16>(x); → »\n  x = x ^ shift_left<8>(x & U(0x00ff00ffu));", "base/sobol"),
+     "«x = x ^ shift_left<16>(x); → »\n  x = x ^ shift_left<8>(x & U(0x00ff00ffu));", "base/random"),
     ("random numbers up to 2", "core/base/random.h", "* F(«0x1p-24f → 0x1p-23f»)", "base/random"),
     ("a hemisphere in place of a sphere", "core/base/sampling.h", "mul_add(F(«-2.0f → -1.0f»), u.x, F(1.0f))", "base/sampling"),
     ("points of a disc crowd in its middle", "core/base/sampling.h", "const F r = «sqrt(u.x) → u.x»;", "base/sampling"),
@@ -66,14 +66,14 @@ CORE = [
      "{has(\"Y\"), «has(\"RY\") → has(\"BY\")», has(\"BY\")}", "image/image_io_exr_header"),
     ("the white of an EXR is not adapted", "core/image/image_io_exr_read.cpp",
      "matrix = «matrix * adaptation(neutral, rec709.white) → matrix»;", "image/image_io_exr_header"),
-    ("PFM with the top row first", "core/image/image_io_pnm.cpp", "subspan(«left - row → image.rgb.size() - left», row)", "image/image_io_pfm"),
+    ("PFM with the top row first", "core/image/image_io_pnm.cpp", "subspan(«left - row → image.rgb.size() - left», row)", "image/image_io_hdr"),
     ("PFM files of the other byte order are read as they are", "core/image/image_io_pnm.cpp",
-     "&pixels[at], «scale > 0 → false»));", "image/image_io_pfm image/image_io_hostile"),
+     "&pixels[at], «scale > 0 → false»));", "image/image_io_hdr image/image_io_hostile"),
 
     ("black pixels dominate", "core/accuracy/error.cpp", "(square(ref) + «floor_of_square → 1e-6»)", "accuracy/error"),
     ("the noise of halves counted twice", "core/accuracy/error.cpp",
      "(grey(half_mean(film, pixel, 0)) - grey(half_mean(film, pixel, 1))) / «2 → 1»", "accuracy/error"),
-    ("a wrong power in FLIP", "core/accuracy/flip.cpp", ", «0.7 → 0.75»);", "accuracy/flip_values"),
+    ("a wrong power in FLIP", "core/accuracy/flip.cpp", ", «0.7 → 0.75»);", "accuracy/error"),
     ("the estimate takes half of the noise", "core/accuracy/estimate.cpp", "(a - b) * (a - b) / «4 → 8»", "accuracy/estimate"),
 
     ("pixels choose by their own noise", "core/clean/choice.h", "return beyond <= «hole_reach → -1» ||", "clean/clean clean/choice"),
@@ -86,10 +86,10 @@ CORE = [
     ("memory for another height is kept", "core/clean/clean.cpp",
      "if (cells_x_ == cells_in(width) && «cells_y_ == cells_in(height) → true») return;", "clean/clean"),
 
-    ("keys with a slash are not escaped", "core/scene/place.cpp", "c == '/' ? «\"~1\" → \"~0\"» : std::string(1, c);", "scene/check scene/override"),
+    ("keys with a slash are not escaped", "core/scene/place.cpp", "c == '/' ? «\"~1\" → \"~0\"» : std::string(1, c);", "scene/bad_scenes scene/slots"),
     ("the third component is not checked", "core/scene/check.cpp",
-     "for (std::size_t i = 0; i < «3 → 2»; ++i) check_value({at, i}, meaning, components[i]);", "scene/check"),
-    ("two materials may have one name", "core/scene/check.cpp", "if («!names.insert(thing.name).second → false»)", "scene/check scene/bad_scenes"),
+     "for (std::size_t i = 0; i < «3 → 2»; ++i) check_value({at, i}, meaning, components[i]);", "scene/bad_scenes"),
+    ("two materials may have one name", "core/scene/check.cpp", "if («!names.insert(thing.name).second → false»)", "scene/bad_scenes scene/bad_scenes"),
     ("the weights of two slopes swapped", "core/scene/frames.cpp", "const double w0 = «h0 + 2 * h1 → 2 * h0 + h1»,", "scene/animation"),
     ("a second key of a frame in place of a new value", "core/scene/frames.cpp", "&& «place->frame == key.frame → false»)", "scene/animation"),
     ("absolute names of pictures are moved, too", "core/scene/load.cpp",
@@ -123,9 +123,9 @@ CORE = [
      "drawn.probability = «drawn.probability * weight → drawn.probability»;", "guide/guide"),
     ("copies of light paths add to their light", "core/guide/light_paths.cpp", "«for (const std::size_t i : landed) landings[i].weight *= kept; → »", "guide/guide"),
 
-    ("the inside of a closed pane is open", "core/specular/specular_slab.h", "return equal(«met → I(0)» & slab.closed, I(0));", "specular/slab_faces"),
+    ("the inside of a closed pane is open", "core/specular/specular_slab.h", "return equal(«met → I(0)» & slab.closed, I(0));", "specular/specular_slab"),
     ("a pane's faces in a wrong order", "core/specular/specular_slab.h",
-     "const I entry = select(«less(F(0.0f), s.near.height) → less(s.near.height, F(0.0f))», I(2), I(1));", "specular/slab_faces"),
+     "const I entry = select(«less(F(0.0f), s.near.height) → less(s.near.height, F(0.0f))», I(2), I(1));", "specular/specular_slab"),
     ("a wrong chance of reflections off the outside", "core/specular/specular_slab.h",
      "return {select(none, F(0.0f), through), select(none, «off → off * F(0.5f)», chance)};", "specular/specular_slab"),
     ("samples of a light's image count by its width alone", "core/specular/find_subpixel_lights.cpp",
@@ -158,7 +158,7 @@ CORE = [
      "branches_.push_back(static_cast<std::int32_t>(path_.vertices.size()) - «1 → 2»)", "targets/replay"),
     ("replayed paths forget what fog has left", "core/targets/scalar.cpp",
      "«if (s.has_media()) v.kept = transmitted_by_absorbers(s, p.ray, p.sampler, hit.t, true); → »", "targets/replay"),
-    ("distances in place of the red of what is seen first", "core/targets/entry.h", "h.albedo = {column[«0 → 6»][k]", "targets/first_hits"),
+    ("distances in place of the red of what is seen first", "core/targets/entry.h", "h.albedo = {column[«0 → 6»][k]", "targets/render_tile"),
     ("light of earlier branches is left out of a replay", "core/targets/scalar.cpp",
      "path_.radiance = «ended_ + v.radiance → v.radiance»;", "targets/replay"),
 

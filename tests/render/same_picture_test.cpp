@@ -25,6 +25,7 @@ Film shard(const RenderScene& scene, const Kernels& kernels, std::uint32_t first
 }  // namespace
 
 TEST_CASE("same picture: for any number of threads and any tiles, on every instruction set") {
+  if (thorough()) check_threads_and_tiles({{7, 1}, {2, 0}, {2, 8}, {2, 64}, {2, 1000}, {7, 5}, {7, 8}, {7, 1000}});
   check_threads_and_tiles({{7, 5}, {2, 64}});
 }
 
@@ -47,8 +48,8 @@ TEST_CASE("same picture: shards added in any order, whatever their sizes and til
     }
 }
 
-TEST_CASE("same picture: the parts of four random scenes of glass, mirrors and slabs are those of the whole") {
-  check_cuts(1, 4);
+TEST_CASE("same picture: the parts of random scenes of glass, mirrors and slabs are those of the whole") {
+  check_cuts(1, thorough() ? 300 : 4);
 }
 
 TEST_CASE("same picture: by long and short passes, and continued from a film") {

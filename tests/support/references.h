@@ -1,13 +1,14 @@
 #pragma once
 #include "core/accuracy/error.h"
+#include "core/base/fnv1a.h"
 #include "core/image/image_io.h"
 #include "core/scene/load.h"
-#include "tests/support/fingerprint.h"
 #include "tests/support/paths.h"
 #include "tests/support/prepared.h"
 
 #include <cassert>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 /// Long renders that slow tests compare with, kept between runs.
@@ -26,7 +27,7 @@ inline Reference reference_of(Scene scene, std::uint32_t spp) {
   scene.render.adaptive = false;
   const std::filesystem::path folder = references_folder();
   std::filesystem::create_directories(folder);
-  const std::string name = "halves-" + fingerprint(write_scene(scene));
+  const std::string name = "halves-" + std::to_string(fnv1a(write_scene(scene)));
   const std::filesystem::path files[2] = {folder / (name + "-a.pfm"), folder / (name + "-b.pfm")};
   Reference reference;
   if (std::filesystem::exists(files[0]) && std::filesystem::exists(files[1])) {
@@ -44,8 +45,9 @@ inline Reference reference_of(Scene scene, std::uint32_t spp) {
   return reference;
 }
 
-/// relMSE of a picture against the truth, without the noise of the reference: the mean of (x - a)(x - b) / (ref² + 0.01),
-/// where a and b are the halves of the reference. May be negative where the picture is better than the reference.
+/// relMSE of a picture against the truth, without the noise of the reference: the mean of (x - a)(x - b) / (ref² +
+/// 0.01), where a and b are the halves of the reference. May be negative where the picture is better than the
+/// reference.
 inline double true_relative_mse(const std::vector<float>& image, const Reference& reference) {
   assert(image.size() == reference.half[0].size());
   double sum = 0;

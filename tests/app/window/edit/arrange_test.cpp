@@ -45,7 +45,7 @@ TEST_CASE("turning keeps the middle where it is, and puts a plain shape around t
   for (const auto& [by, angle] : {Turn{30, 30}, {340, 10}, {180, -170}, {170, 0}}) {
     rotate_object(scene, {0}, by);
     CHECK(angle_of(scene, {0}) == angle);
-    CHECK(length(middle_of(scene, {0}) - middle) < 1e-9);
+    CHECK(length(middle_of(scene, {0}) - middle) < 1e-12);
     CHECK(shape<Box<>>(scene) == Box<>{{-1, 0, -2}, {1, 1, 2}});
     if (by == 30) CHECK(scene.objects[0].transform == Transform{RotateY{30}, Translate{{2, 0, 4}}});
   }

@@ -2,8 +2,9 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
-/// PNG files for tests of the reader, put together chunk by chunk.
+/// PNG files for tests of the reader, put together chunk by chunk, and JPEG files.
 namespace tyndall::test {
 
 /// A number of 4 bytes, highest byte first, as chunks hold them.
@@ -29,5 +30,17 @@ inline constexpr int srgb_primaries[9] = {4360, 2225, 139, 3851, 7169, 971, 1431
 std::string srgb_icc_curve();
 /// The chunk iCCP that holds a profile.
 std::string iccp_chunk(const std::string& profile);
+
+struct JpegKind {
+  int channels = 3;  ///< 1: grey, 3: RGB, 4: CMYK
+  bool progressive = false;
+  bool arithmetic = false;
+  bool untransformed = false;  ///< RGB as it is, which only the marker of Adobe says
+  std::string exif{};          ///< a TIFF with EXIF; empty: none
+  std::string profile{};       ///< colour profile (ICC); empty: none
+};
+
+/// A JPEG file's bytes. pixels: 8 bits a channel, row by row, top row first.
+std::string jpeg_bytes(int width, int height, const std::vector<std::uint8_t>& pixels, JpegKind kind);
 
 }  // namespace tyndall::test
