@@ -12,8 +12,8 @@
 namespace tyndall {
 
 /// Throws UsageError for an ending that is no image's, EXR in a build without it, a file named twice, or --gamma2
-/// without a PPM; and if a format for standard output is missing, or given though no image goes there, or if the figures
-/// (`stats`) go there, too.
+/// without a PPM; and if a format for standard output is missing, or given though no image goes there, or if the
+/// figures (`stats`) go there, too.
 void check_image_names(const std::vector<std::filesystem::path>& files, const ImageForm& form = {},
                        const std::filesystem::path& stats = {});
 

@@ -36,8 +36,7 @@ Y4mFile::Y4mFile(const std::filesystem::path& file, const Y4mFormat& format, boo
                           format.height, format.rate, format.rate_divisor, format.mark)),
       frame_bytes_(frame_header.size() +
                    std::uint64_t{3} * static_cast<unsigned>(format.width) * static_cast<unsigned>(format.height)),
-      bytes_(file == "-" ? OpenFile(standard_output)
-                         : OpenFile(file, stream_ ? OpenFor::writing : OpenFor::changing)) {
+      bytes_(file == "-" ? OpenFile(standard_output) : OpenFile(file, stream_ ? OpenFor::writing : OpenFor::changing)) {
   check(bytes_.error());
   if (stream_) {
     write(header_);
