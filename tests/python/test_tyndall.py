@@ -127,7 +127,7 @@ def test_other_threads_run_meanwhile():
             counted[0] += 1
             time.sleep(0.001)
 
-    thread = threading.Thread(target=count)
+    thread = threading.Thread(target=count, daemon=True)
     thread.start()
     small("next-week").render(time=0.5)
     done.set()
