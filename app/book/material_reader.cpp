@@ -47,7 +47,7 @@ class MaterialReader {
       return "{\"type\":\"light\",\"radiance\":" + colour + "}";
     }
     for (const std::size_t count : {2000U, 40000U})  // what 2,000 rays leave open, more decide
-      if (const std::string made = scattering(scatter(slanted, count)); !made.empty()) return made;
+      if (std::string made = scattering(scatter(slanted, count)); !made.empty()) return made;
     o_.refuse("no such material in Tyndall");
   }
   std::string medium_albedo() {
@@ -212,7 +212,7 @@ class TextureReader {
     const std::vector<std::string> colours = colours_of();
     for (const std::string& even : colours)
       for (const std::string& odd : colours)
-        if (const std::string made = checker(even, odd); &even != &odd && !made.empty()) return made;
+        if (std::string made = checker(even, odd); &even != &odd && !made.empty()) return made;
     return noise();
   }
 

@@ -68,7 +68,7 @@ void OwnProgram::exchange(const tyndall_book::question& head, const void* questi
 
 std::vector<double> OwnProgram::samples(const std::vector<double>& places) {
   std::vector<double> colours(places.size() / 2 * 3);
-  const double count = static_cast<double>(places.size() / 2);
+  const double count = static_cast<double>(places.size()) / 2;
   exchange({'p', 0, count, count}, places.data(), places.size() * sizeof(double), colours.data(),
            colours.size() * sizeof(double));
   return colours;

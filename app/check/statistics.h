@@ -31,7 +31,7 @@ struct Reading {
     return curve != TransferCurve::none && curve != TransferCurve::gamma2_twice && !upside_down && !mirrored &&
            !swapped;
   }
-  auto operator<=>(const Reading&) const = default;
+  auto operator<=>(const Reading&) const = default;  // NOLINT(modernize-use-nullptr): means the comparison with 0
 };
 
 /// The readings that are tried for a picture, the right ones or those with mistakes.

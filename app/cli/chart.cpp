@@ -105,7 +105,8 @@ int run_chart(const CommandRequest& command) {
     report.finish("charted " + name);
     whole = written_or_told([&] { write_chart(chart, file_of(name)); }) && whole;
     const std::string table = chart_table(chart);
-    whole = written_or_told([&] { write_standard_output(all ? name + "\n" + table + "\n" : table); }) && whole;
+    whole =
+        written_or_told([&] { write_standard_output(all ? fmt::format("{}\n{}\n", name, table) : table); }) && whole;
     if (signals.received() != 0) break;
   }
   if (!whole) return output_failed;

@@ -53,7 +53,8 @@ LinearImage square_sky(const Background& background) {
   return picture_of(edge, edge, [&](int x, int y) {
     Vec3d sum;
     for (int k = 0; k < parts * parts; ++k) {
-      const double column = x + (k % parts + 0.5) / parts, row = y + (k / parts + 0.5) / parts;
+      const int across = k % parts, down = k / parts;
+      const double column = x + (across + 0.5) / parts, row = y + (down + 0.5) / parts;
       sum = sum + sky_towards<double>(sky, direction_of(column / edge, row / edge)).radiance;
     }
     return 1.0 / (parts * parts) * sum;

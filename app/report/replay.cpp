@@ -32,7 +32,7 @@ double luminance(Vec3f light) {
 
 /// What a path met at one place and what became of it there, in a few words: "ball (gold), goes on".
 std::string vertex_text(const Scene& scene, const RenderScene& compiled, const PathVertex& vertex) {
-  const std::string fate = fates[static_cast<std::size_t>(vertex.fate)];
+  std::string fate = fates[static_cast<std::size_t>(vertex.fate)];
   if (vertex.met == Met::nothing) return fate;
   const std::string met =
       vertex.met == Met::medium

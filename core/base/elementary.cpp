@@ -65,14 +65,15 @@ constexpr Pair log_of_2{0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56};
 constexpr Pair third{0x1.5555555555555p-2, 0x1.5555555555555p-56};
 
 /// 1 / k!, of factorials that are doubles.
-struct OverFactorials {
-  double of[19] = {1};
+struct OverFactorial {
+  double all[19] = {1};
+  constexpr double operator()(int k) const { return all[k]; }
 };
-constexpr OverFactorials over_factorials = [] {
-  OverFactorials all;
+constexpr OverFactorial over_factorial = [] {
+  OverFactorial over;
   double factorial = 1;
-  for (int k = 1; k < 19; ++k) all.of[k] = 1 / (factorial *= k);
-  return all;
+  for (int k = 1; k < 19; ++k) over.all[k] = 1 / (factorial *= k);
+  return over;
 }();
 
 /// The sum of term(k) z^k for k from first to last, the largest power first.
@@ -86,12 +87,12 @@ double series(double z, int first, int last, const Term& term) {
 /// Taylor's series of the sine and cosine for |x| <= π/4, whose next terms are below 2^-63 of them; the first terms are
 /// exact.
 Pair small_sine(Pair x) {
-  const auto term = [](int k) { return (k % 2 == 0 ? 1 : -1) * over_factorials.of[2 * k + 1]; };
+  const auto term = [](int k) { return (k % 2 == 0 ? 1 : -1) * over_factorial(2 * k + 1); };
   const double z = x.high * x.high;
   return quick_sum(x.high, x.high * z * series(z, 1, 8, term) + x.low * (1 - 0.5 * z));
 }
 Pair small_cosine(Pair x) {
-  const auto term = [](int k) { return (k % 2 == 0 ? 1 : -1) * over_factorials.of[2 * k]; };
+  const auto term = [](int k) { return (k % 2 == 0 ? 1 : -1) * over_factorial(2 * k); };
   const Pair square = product_of(x.high, x.high);
   const double z = square.high;
   const Pair begin = sum_of(1, -0.5 * z);
@@ -141,7 +142,7 @@ Pair binary_logarithm_of(double x) {
 double power_of_2(Pair x) {
   const double whole = std::nearbyint(x.high);
   const Pair r = (x + Pair{-whole}) * log_of_2;
-  const auto term = [](int k) { return over_factorials.of[k]; };
+  const auto term = [](int k) { return over_factorial(k); };
   const Pair begin = sum_of(1, r.high);
   const double more = begin.low + (r.low + r.high * r.high * series(r.high, 2, 15, term) + r.low * r.high);
   return std::ldexp(begin.high + more, static_cast<int>(whole));
