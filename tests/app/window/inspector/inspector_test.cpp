@@ -85,6 +85,15 @@ TEST_CASE("the facts of a pixel: value, error, what is shown and seen") {
   CHECK(has("no samples yet", {.x = 0, .y = 0}));
 }
 
+TEST_CASE("legends: numbers where a view shows numbers, none where it shows colours") {
+  CHECK(legend_of(view_named("samples"), 8).numbers == std::vector<std::string>{"0", "4", "8"});
+  CHECK(legend_of(view_named("noise"), 1).numbers.back() == "100 %");
+  CHECK(legend_of(view_named("albedo"), 1).title.empty());
+  const Legend stops = legend_of(view_named("false colour"), 1);
+  CHECK(stops.numbers.size() == stops.colours.size());
+  CHECK(stops.numbers[6] == "0");
+}
+
 TEST_CASE("a rectangle is drawn from corner to corner in any direction; a click gives an empty one") {
   const Rect image{100, 100, 300, 200};
   const auto draw = [&](float x0, float y0, float x1, float y1) {
