@@ -5,17 +5,12 @@ import json
 import os
 import re
 import shutil
-import subprocess
-import sys
 
 import pytest
-from program import ROOT, load, pfm, read, run, write
+from program import load, pfm, read, run, write
+from well_formed import well_formed
 
 GREY, REFERENCE_LIMITS = (0.5, 0.5, 0.5), ("", "--max-relmse 1e30")
-
-
-def well_formed(*names):
-    subprocess.run([sys.executable, "-B", ROOT / "tests/app/_well_formed.py", *names], check=True)
 
 
 def fails(pixels, place):

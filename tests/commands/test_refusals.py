@@ -244,6 +244,7 @@ REFUSED_FILMS = [
         ("compare 0.exr:Albedo 0.exr --max-z 4",),
         ("compare one.exr 0.exr --max-z 4", "one.exr: found pixels with fewer than 2 samples"),
         ("compare one.exr --baseline texts --update --max-z 4", "fewer than 2 samples"),
+        ("chart cornell-box --size 8x8 --budget 1 --reference 0.exr:Albdo -q -o a.svg", '0.exr: cannot read: found no layer'),
         ("chart cornell-box --size 8x8 --budget 1 --reference left.exr -q -o a.svg", "left.exr",
          "data window 0,0,4,8 alone", "display window 0,0,8,8"),
     ]),

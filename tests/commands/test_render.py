@@ -305,6 +305,18 @@ def test_alpha():
     assert "alpha" not in run("inspect quad.json")
 
 
+def test_numbers_of_textures():
+    """All 16 bits count, and what a file says of its pixels is told once."""
+    for name, low in ("low.ppm", 0), ("high.ppm", 255):
+        write(name, b"P6 1 1 65535\n" + bytes([128, low] * 3))
+        write("scene.json", scene_of(name, QUAD))
+        run(f"render scene.json --spp 4 -q -o {name}.pfm")
+    run("compare low.ppm.pfm high.ppm.pfm --max-rmse 0.001", 1)
+    write("beyond.ppm", "P3 1 1 255 256 0 -1\n")
+    write("scene.json", scene_of("beyond.ppm", QUAD))
+    run("render scene.json --spp 4 -q -o a.pfm", 0, "beyond.ppm: 2 of 3 numbers are outside of 0 to 255")
+
+
 LIMITED = ["bash", "-c", 'ulimit -f 200; exec "$0" "$@"']  # kB
 
 

@@ -4,26 +4,22 @@
 . "$(dirname "$0")/../app/_common.sh"
 . "$source_root/tests/farm/_odd_names.sh"
 mkdir bin && cat >bin/sbatch <<'SBATCH' && chmod +x bin/sbatch
-#!/usr/bin/env python3
-import os, re, subprocess, sys
-options, words = {}, sys.argv[1:]
-while words and words[0].startswith("-"):
-    name, _, value = words.pop(0).partition("=")
-    options[name] = value
-symbols = {"a": "%(task)s", "A": "7", "j": "7", "J": "7", "N": "node", "n": "0", "s": "batch", "t": "0", "u": "root", "x": "tyndall"}
-first, last = map(int, options.get("--array", "0-0").split("-"))
-for task in range(first, last + 1):
-    log = os.path.join(os.getcwd(), options["--output"])
-    if "\\" in log:
-        log = log.replace("\\", "")
-    else:
-        log = re.sub(r"%(.)", lambda m: "%" if m[1] == "%" else symbols.get(m[1], "") % {"task": task}, log)
-    environment = dict(os.environ)
-    if "--array" in options:
-        environment.update(SLURM_ARRAY_TASK_ID=str(task), SLURM_ARRAY_JOB_ID="7")
-    with open(log, "ab") as out:
-        subprocess.run(["bash"] + words, env=environment, stdout=out, stderr=out, stdin=subprocess.DEVNULL)
-print(7)
+#!/usr/bin/env bash
+while [[ $1 = -* ]]; do
+  case $1 in
+    --array=*) IFS=- read -r first last <<<"${1#*=}" ;;
+    --output=*) logs=${1#*=} ;;
+  esac
+  shift
+done
+for ((task = ${first:-0}; task <= ${last:-0}; ++task)); do
+  log=${logs//%%/$'\1'} log=${log//%a/$task} log=${log//%[A-Za-z]/7}
+  log=${log//$'\1'/%}
+  [[ $logs != *\\* ]] || log=${logs//\\/}
+  [ -z "$last" ] || export SLURM_ARRAY_TASK_ID=$task SLURM_ARRAY_JOB_ID=7
+  bash "$@" >>"$log" 2>&1 </dev/null
+done
+echo 7
 SBATCH
 export PATH=$PWD/bin:$PATH TYNDALL=$tyndall SHARDS=2 SAMPLES=4 HOME=
 "$tyndall" convert cornell-box --set '/name="two $words {} %s"' -o box.json

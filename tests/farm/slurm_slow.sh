@@ -27,11 +27,11 @@ munged --foreground --force --key-file="$sockets/key" --socket="$sockets/munge" 
   --log-file="$sockets/munge.log" --seed-file="$sockets/seed" >munged.log 2>&1 &
 started+=($!)
 
-port() { python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])'; }
+port=$((20000 + $$ % 10000)) # and the next two: below those that the system gives to connections
 cat >slurm.conf <<MSG
 ClusterName=tyndall
 SlurmctldHost=$host(127.0.0.1)
-SlurmctldPort=$(port)
+SlurmctldPort=$port
 AuthType=auth/munge
 AuthInfo=socket=$sockets/munge
 CredType=cred/munge
@@ -50,8 +50,8 @@ ReturnToService=2
 KillWait=5
 SchedulerParameters=requeue_setup_env_fail
 MessageTimeout=60
-NodeName=one NodeHostname=$host NodeAddr=127.0.0.1 Port=$(port) CPUs=2 State=UNKNOWN
-NodeName=two NodeHostname=$host NodeAddr=127.0.0.1 Port=$(port) CPUs=2 State=UNKNOWN
+NodeName=one NodeHostname=$host NodeAddr=127.0.0.1 Port=$((port + 1)) CPUs=2 State=UNKNOWN
+NodeName=two NodeHostname=$host NodeAddr=127.0.0.1 Port=$((port + 2)) CPUs=2 State=UNKNOWN
 PartitionName=render Nodes=one,two Default=YES MaxTime=INFINITE State=UP OverSubscribe=FORCE:4
 MSG
 export SLURM_CONF=$here/slurm.conf

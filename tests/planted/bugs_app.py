@@ -186,11 +186,11 @@ APP = [
     ("a group's heading above each of its options", "app/manual/page.cpp", "«group = option.heading; → »", "app/manual/page"),
 
     ("tolerances that are kept are not looked at", "app/comparison/baseline.cpp",
-     "return «at == kept.end() || at->second.none() ? usual_tolerance : at->second → usual_tolerance»;", "app/baseline.sh app/baseline_folders.sh"),
+     "return «at == kept.end() || at->second.none() ? usual_tolerance : at->second → usual_tolerance»;", "commands/baselines"),
     ("parts of pictures lie at their upper left corner", "app/comparison/pair.cpp", "std::ptrdiff_t{3} * («part.x0 - place.x0 → 0»);", "app/comparison/pair"),
-    ("what is as large as its limit fails", "app/comparison/comparison.cpp", "if (!limit || «value <= *limit → value < *limit») return;", "app/compare.sh"),
-    ("a picture that cannot be read passes", "app/comparison/baseline.cpp", "«picture.failures.emplace_back(problem.what()); → »", "app/baseline.sh"),
-    ("variances pass as errors", "app/comparison/pair.cpp", "if («squared → false»)\n", "app/max_z.sh"),
+    ("what is as large as its limit fails", "app/comparison/comparison.cpp", "if (!limit || «value <= *limit → value < *limit») return;", "commands/compare"),
+    ("a picture that cannot be read passes", "app/comparison/baseline.cpp", "«picture.failures.emplace_back(problem.what()); → »", "commands/baselines"),
+    ("variances pass as errors", "app/comparison/pair.cpp", "if («squared → false»)\n", "commands/compare"),
 
     ("failed samples are no failure", "app/watch/watch.cpp", "return failures > 0 ? «1 → 0» : 0;", "commands/installed"),
     ("the caller's rounding is lost", "app/watch/watch.cpp", "~Host() {\n    «std::fesetenv(&arithmetic_); → »", "commands/installed"),

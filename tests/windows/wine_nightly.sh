@@ -43,23 +43,30 @@ echo '# names'
 folder='Ördner mit 水'
 mkdir "$folder"
 for name in "$folder/Bild ü 😀.png" "$folder\\zwei.exr" "Z:$(echo "$PWD" | tr / '\\')\\drei.png"; do
-  expect 0 windows render cornell-box --size 16x16 --spp 1 -o "$name" :quiet
+  expect 0 windows render cornell-box --size 16x16 --spp 1 -o "$name"
+  [ ! -s err ] || fail "standard error: $(cat err)"
 done
 ls "$folder/Bild ü 😀.png" "$folder/zwei.exr" drei.png >listed || fail 'a file has another name'
-expect 0 windows convert "$folder/Bild ü 😀.png" -o scene.json :quiet
+expect 0 windows convert "$folder/Bild ü 😀.png" -o scene.json
+[ ! -s err ] || fail "standard error: $(cat err)"
 grep -q $'\r' scene.json && fail 'a scene was written with CR LF'
 sed 's/$/\r/' scene.json >crlf.json
-expect 0 windows render '.\crlf.json' --size 16x16 --spp 1 -o crlf.png :quiet
+expect 0 windows render '.\crlf.json' --size 16x16 --spp 1 -o crlf.png
+[ ! -s err ] || fail "standard error: $(cat err)"
 cmp -s crlf.png "$folder/Bild ü 😀.png" || echo 'the scene with CR LF has its own name inside'
-expect 3 windows render cornell-box --size 8x8 --spp 1 -o NUL.png :: 'NUL.png: cannot write: "NUL.png" is a device of Windows'
-expect 3 windows render cornell-box --size 8x8 --spp 1 -o a.exr:b.exr :: "found ':' in its name"
+expect 3 windows render cornell-box --size 8x8 --spp 1 -o NUL.png
+complains 'NUL.png: cannot write: "NUL.png" is a device of Windows'
+expect 3 windows render cornell-box --size 8x8 --spp 1 -o a.exr:b.exr
+complains "found ':' in its name"
 if [ "$(id -u)" != 0 ]; then # root may write into everything
   echo old >kept.png
   chmod 444 kept.png
-  expect 3 windows render cornell-box --size 8x8 --spp 1 -o kept.png :: 'kept.png: cannot write: it may only be read'
+  expect 3 windows render cornell-box --size 8x8 --spp 1 -o kept.png
+  complains 'kept.png: cannot write: it may only be read'
   [ "$(cat kept.png)" = old ] || fail 'a read-only file was replaced'
 fi
-expect 2 windows render nope -o nope.png :: nope
+expect 2 windows render nope -o nope.png
+complains nope
 
 echo '# ends'
 wine "$windows_program" render cornell-box --size 64x64 --spp 1000000 -t 2 -q -o ended.png >out 2>err </dev/null &
