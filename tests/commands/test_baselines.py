@@ -37,11 +37,12 @@ def test_kept_pictures_and_reports():
     write("new/broken.png", "no picture\n")
     pfm(f"new/{odd}", 8, 8, 0.5, 0.5, 0.5)
     run("render cornell-smoke --size 32x18 --spp 4 -q -o new/box.png", loud=True)
-    run(f"compare new --baseline base {REPORTS}", 1, re.compile(r"\A(tyndall: .*\n){5}\Z"), *[re.compile(line, re.M) for line in (
-        "^tyndall: box.png: FLIP is .*, expected at most 0.05$",
-        "^tyndall: a & <b>.pfm: .*found 8x8 pixels, expected 16x8", "^tyndall: broken.png: ",
-        "^tyndall: gone.png: the baseline has it, and it was not rendered; delete it there if that is meant$",
-        "^tyndall: fresh.png: the baseline lacks it; --update keeps it$")])
+    run(f"compare new --baseline base {REPORTS}", 1, re.compile(r"\A(tyndall: .*\n){5}\Z"), *[
+        re.compile(f"^tyndall: {line}", re.M) for line in (
+            "box.png: FLIP is .*, expected at most 0.05$", "a & <b>.pfm: .*found 8x8 pixels, expected 16x8",
+            "broken.png: ",
+            "gone.png: the baseline has it, and it was not rendered; delete it there if that is meant$",
+            "fresh.png: the baseline lacks it; --update keeps it$")])
     page, suite, pictures = reported()
     assert (suite.get("tests"), suite.get("failures")) == ("5", "5")
     assert {case.get("name") for case in suite} == {"box.png", odd, "gone.png", "fresh.png", "broken.png"}
@@ -69,8 +70,7 @@ def test_nothing_to_compare():
     for folder, baseline in ("none", "none"), ("texts", "none"), ("deep", "none"), ("deep", "deep"):
         run(f"compare {folder} --baseline {baseline} {REPORTS}", 1,
             f"tyndall: no picture: nothing was compared: there is no picture in {folder} ",
-            re.compile("^tyndall: texts: left out, as their names end in none of .png .*: notes.txt$" * (folder == "texts"),
-                       re.M))
+            re.compile("texts: left out, as their names end in none of .png .*: notes.txt\n" * (folder == "texts")))
         page, suite, _ = reported()
         assert (suite.get("tests"), suite.get("failures")) == ("1", "1") and "nothing was compared" in page
 
@@ -93,7 +93,7 @@ def test_folders():
     pfm("r/new/d.pfm", *GREY)
     run("compare r --baseline k", 1, "sub/deeper/c.pfm: the baseline has it, and it was not rendered",
         "new/d.pfm: the baseline lacks it")
-    run("compare r --baseline k --update", 0, "sub/deeper/c.pfm: not rendered this time; the baseline keeps what it has")
+    run("compare r --baseline k --update", 0, "deeper/c.pfm: not rendered this time; the baseline keeps what it has")
     assert read("k/sub/deeper/c.pfm") and read("k/new/d.pfm")
     # What cannot be written is found before the first picture is copied.
     os.remove("k/sub/b.pfm")
@@ -106,8 +106,8 @@ def test_links():
     """To a folder elsewhere, in a circle, to themselves, to nothing."""
     for name in "elsewhere/e.pfm", "r/sub/a.pfm", "k/sub/a.pfm", "k/gone.pfm":
         pfm(name, *GREY)
-    for link, target in {"linked": "../elsewhere", "sub/up": "..", "here": ".", "self": "self", "gone.pfm": "gone"}.items():
-        os.symlink(target, f"r/{link}")
+    for link in "linked ../elsewhere", "sub/up ..", "here .", "self self", "gone.pfm gone":
+        os.symlink(link.split()[1], f"r/{link.split()[0]}")
     run("compare r --baseline k", 1, "linked/e.pfm: the baseline lacks it",
         "r: left out, as links to folders around them: here, sub/up\n",
         re.compile("r: left out, as their names end in none of .*: self$", re.M),

@@ -1,5 +1,5 @@
-"""compare: two pictures, by their numbers and by their noise, and a picture with a scene. accuracy/error, app/comparison/pair
-and app/check/explain have what is found; here is how it is told. What is refused is in refusals."""
+"""compare: two pictures, by their numbers and by their noise, and a picture with a scene. accuracy/error,
+app/comparison/pair and app/check/explain have what is found; here is how it is told. What is refused is in refusals."""
 
 import json
 import os
@@ -63,7 +63,7 @@ def test_parts_and_layers(exr):
 
 
 def test_gamma2():
-    """A PPM as the books' programs write it is right where it is read so; numbers outside of a P3's range are told once."""
+    """A PPM as the books' programs write it is right where it is read so. What is out of its range is told once."""
     run("render showroom --size 32x18 --spp 4 -q --gamma2 -o books.ppm -o a.pfm")
     run("compare books.ppm a.pfm --gamma2 --max-flip 0.02")
     run("compare books.ppm a.pfm --max-flip 0.02", 1, "FLIP is")
@@ -86,8 +86,8 @@ def test_noise_of_pfm():
 
 
 def test_noise_of_films(exr):
-    """Another seed is the same picture, a small change is not, also of a part and without the film. For baselines, too: what
-    FLIP calls a failure is noise."""
+    """Another seed is the same picture, a small change is not, also of a part and without the film. For baselines, too:
+    what FLIP calls a failure is noise."""
     for folder in "new", "other":
         os.mkdir(folder)
     for seed, options in enumerate(["-o new/a.exr", "-o other/a.exr", "--exr-film no -o bare.exr",
