@@ -10,13 +10,13 @@ import pytest
 from program import load, pfm, read, run, write
 from well_formed import well_formed
 
-GREY, REFERENCE_LIMITS = (0.5, 0.5, 0.5), ("", "--max-relmse 1e30")
+GREY, NAN, INF = (0.5, 0.5, 0.5), float("nan"), float("inf")
 
 
 def fails(pixels, place):
     """compare of one picture and of a baseline, with and without limits, in all its forms."""
     line = f"{pixels} of 128 pixels (is|are) not finite, the first at {re.escape(place)}"
-    for limits in REFERENCE_LIMITS:
+    for limits in "", "--max-relmse 1e30":
         run(f"compare r/a.pfm k/a.pfm {limits}", 1, re.compile(f"^tyndall: check failed: [rk]/a.pfm: {line}", re.M))
         run(f"compare r --baseline k {limits} --report report.html --junit junit.xml", 1,
             re.compile(f"^tyndall: a.pfm: [rk]/a.pfm: {line}", re.M), out=re.compile("^FAILED a.pfm", re.M))
@@ -28,21 +28,20 @@ def fails(pixels, place):
     return compared
 
 
-@pytest.mark.parametrize("wrong", ["nan", "inf", "-inf"])
 @pytest.mark.parametrize("rendered, kept, pixels, place", [
-    ({"x3y1": "g", "x2y7": "rgb"}, {}, 2, "3,1 (green is {})"), ({}, {"x0y6": "r"}, 1, "0,6 (red is {})"),
-    ({"x15y0": "b"}, {"x15y0": "b"}, 1, "15,0 (blue is {})")])
-def test_not_finite(wrong, rendered, kept, pixels, place):
+    ({"x3y1": (0, NAN, 0), "x2y7": (NAN, NAN, NAN)}, {}, 2, "3,1 (green is nan)"),
+    ({}, {"x0y6": (-INF, 0, 0)}, 1, "0,6 (red is -inf)"),
+    ({"x15y0": (0, 0, INF)}, {"x15y0": (0, 0, INF)}, 1, "15,0 (blue is inf)")])
+def test_not_finite(rendered, kept, pixels, place):
     """Equal to nothing, wherever it is."""
-    for name, others in ("r/a.pfm", rendered), ("k/a.pfm", kept):
-        pfm(name, 16, 8, *GREY, **{at: [float(wrong) if channel in channels else 0.5 for channel in "rgb"]
-                                   for at, channels in others.items()})
-    fails(pixels, place.format(wrong))
+    pfm("r/a.pfm", 16, 8, *GREY, **rendered)
+    pfm("k/a.pfm", 16, 8, *GREY, **kept)
+    fails(pixels, place)
 
 
 def test_all_not_finite():
     """FLIP takes NaN for black: its map shows it as what differs most."""
-    pfm("r/a.pfm", 16, 8, *[float("nan")] * 3)
+    pfm("r/a.pfm", 16, 8, NAN, NAN, NAN)
     pfm("k/a.pfm", 16, 8, 0, 0, 0)
     assert fails(128, "0,0 (red is nan)")["flip"] == 1
     assert json.loads(run("compare k/a.pfm k/a.pfm --json --max-flip 0"))["not_finite"] == []
@@ -52,14 +51,14 @@ def test_baselines_take_finite_pictures():
     """They are not changed for the good ones beside others."""
     pfm("good/a.pfm", 16, 8, *GREY)
     pfm("r/a.pfm", 16, 8, *GREY)
-    pfm("r/b.pfm", 16, 8, *GREY, x4y2=(0, float("nan"), 0))
+    pfm("r/b.pfm", 16, 8, *GREY, x4y2=(0, NAN, 0))
     run("compare good --baseline k --update --max-flip 0.5")
     for folder in ("k", "new"):
         run(f"compare r --baseline {folder} --update --max-flip 0.1", 2, "r/b.pfm",
             "1 of 128 pixels is not finite, the first at 4,2 (green is nan)", "expected finite values")
     write("r/b.pfm", "none\n")
     run("compare r --baseline k --update --max-flip 0.1", 3, "r/b.pfm")
-    pfm("reference.pfm", 16, 8, 0.5, 0.5, float("inf"))
+    pfm("reference.pfm", 16, 8, 0.5, 0.5, INF)
     run("chart cornell-box --size 16x8 --budget 1 -q -o chart.svg --reference reference.pfm", 2, "reference.pfm",
         "128 of 128 pixels are not finite, the first at 0,0 (blue is inf)")
 
@@ -71,9 +70,6 @@ CLIPPED = re.compile(r"^tyndall: a.pfm: relMSE among the 3 values outside \[0, 1
 @pytest.mark.parametrize("code, kept, rendered, options, words", [
     (1, (5, 5, 5), (6, 5, 5), "", [CLIPPED]),
     (0, (5, 5, 5), (5.5, 5, 5), "", []),  # 0.25 / 25.01 / 3
-    (1, (5, 5, 5), (1, 5, 5), "", []),  # outside in the reference only
-    (1, (1, 1, 1), (1, 1, 1.3), "", []),  # and in the picture only
-    (1, (0, 0, 0), (-1, 0, 0), "", []),  # below 0
     (0, (5, 5, 5), (6, 5, 5), "--max-flip 0.03", []),
     (0, (5, 5, 5), (6, 5, 5), "--max-relmse 1", []),
     (0, (0.5, 0.5, 0.5), (0.51, 0.5, 0.5), "", [])])  # relMSE of 0.01 is not asked of what FLIP sees

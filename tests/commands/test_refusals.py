@@ -51,8 +51,7 @@ def inputs(tmp_path_factory):
         shutil.copy("texture.png", f"kept{number}")
     if HAS_EXR:
         for name, options in {"0": "--samples 0:2", "2": "--samples 2:4", "gap": "--samples 9:13", "one": "--spp 1",
-                              "size": "--size 8x9 --samples 2:4", "four": "--spp 4",
-                              "adaptive": "--spp 4 --adaptive", "left": "--region 0,0,4,8", "right": "--region 4,0,8,8",
+                              "four": "--spp 4", "adaptive": "--spp 4 --adaptive", "left": "--region 0,0,4,8",
                               "lean": "--spp 2 --exr-film no"}.items():
             run(f"{SMALL} {options} -o {name}.exr", loud=True)
         run("render stress-caustic-glass --size 16x12 --samples 0:2 -q -o chains.exr", loud=True)
@@ -231,12 +230,6 @@ REFUSED_FILMS = [
     ("", 2, [
         ("render stress-caustic-glass --size 16x12 --spp 4 --caustics scatter --resume -o chains.exr", "chains.exr",
          "other settings"),
-        ("compare left.exr right.exr",
-         "left.exr: found pixels in the data window 0,0,4,8 alone, expected some in 4,0,8,8 as in right.exr"),
-        ("compare size.exr left.exr", "size.exr: found the display window 0,0,8,9, expected 0,0,8,8 as in left.exr"),
-        ("compare wider.pfm 0.exr", "wider.pfm: found 16x9 pixels, expected 8x8 as in 0.exr"),
-        ("compare 0.exr:Albdo 0.exr",
-         '0.exr: cannot read: found no layer "Albdo" (did you mean "Albedo"?), expected one of "Albedo", "Depth", "Ns"'),
         ("compare reference.pfm:R 0.exr", "reference.pfm:R: found a layer"),
         ("compare 0.exr:Albedo 0.exr --heatmap 0.exr",),
         ("compare texture.png 0.exr --max-z 4", "--max-z: texture.png: found a picture that does not say its noise",
@@ -245,7 +238,7 @@ REFUSED_FILMS = [
         ("compare one.exr 0.exr --max-z 4", "one.exr: found pixels with fewer than 2 samples"),
         ("compare one.exr --baseline texts --update --max-z 4", "fewer than 2 samples"),
         ("chart cornell-box --size 8x8 --budget 1 --reference 0.exr:Albdo -q -o a.svg",
-         "0.exr: cannot read: found no layer"),
+         '0.exr: cannot read: found no layer "Albdo" (did you mean "Albedo"?), expected one of "Albedo", "Depth", "Ns"'),
         ("chart cornell-box --size 8x8 --budget 1 --reference left.exr -q -o a.svg", "left.exr",
          "data window 0,0,4,8 alone", "display window 0,0,8,8"),
     ]),
