@@ -27,32 +27,33 @@ std::vector<OptionRow> rows_of(std::string name, const std::string& command) {
   return {option_row(name, command)};
 }
 
-/// A line of a help that is longer is broken, at spaces, into lines of help_width.
-constexpr std::size_t longest_line = 70;
+/// A line of a help that is longer is broken, at spaces, into lines of that many columns beside the option's name.
+constexpr std::size_t longest_line = 70, help_width = 66;
 
-}  // namespace
-
-CommandRow command_row(const CommandText& text) {
-  CommandRow row;
-  row.name = text.name();
-  row.summary = text.summary, row.usage = text.usage, row.about = text.about, row.examples = text.examples;
-  row.options.emplace_back("-h,--help", "", Taker{{}, Takes::flag}, "show this text", "", usual_heading);
-  for (const OptionGroup& group : text.groups) {
+void add_options(CommandRow& command) {
+  command.options.emplace_back("-h,--help", "", Taker{{}, Takes::flag}, "show this text", "", usual_heading);
+  for (const OptionGroup& group : command.groups) {
     std::istringstream names(group.options);
     for (std::string name; names >> name;)
-      for (OptionRow& option : rows_of(name, row.name)) {
+      for (OptionRow& option : rows_of(name, command.name())) {
         const bool has_lines = option.help.find('\n') != option.help.npos;
         if (option.help.size() > longest_line && !has_lines) option.help = wrapped(option.help, help_width);
         option.heading = group.heading;
-        (option.names[0] == '-' ? row.options : row.arguments).push_back(option);
+        (option.names[0] == '-' ? command.options : command.arguments).push_back(option);
       }
   }
-  return row;
+}
+
+}  // namespace
+
+std::vector<CommandRow> with_options(std::vector<CommandRow> commands) {
+  std::for_each(commands.begin(), commands.end(), add_options);
+  return commands;
 }
 
 // A table, which may be as long as it has rows.
-const std::vector<CommandText>& command_texts() {  // NOLINT(readability-function-size)
-  static const std::vector<CommandText> texts{
+const std::vector<CommandRow>& command_rows() {  // NOLINT(readability-function-size)
+  static const std::vector<CommandRow> rows = with_options({
       {"view [SCENE] [options]", "open a scene in the window (also without this word; default: the showroom)",
        "Opens a scene in the window. 'tyndall' alone opens the showroom, 'tyndall SCENE' a scene.\n\n"
        "Where standard input (-) begins with P3 or P6, it is a picture: its rows are shown as a program\n"
@@ -219,8 +220,8 @@ const std::vector<CommandText>& command_texts() {  // NOLINT(readability-functio
        "  tyndall convert cornell-smoke -o smoke.py    # blender -b -P smoke.py -- smoke.exr",
        {{usual_heading, "SCENE --set --include --trust --output"}},
        run_convert},
-  };
-  return texts;
+  });
+  return rows;
 }
 
 }  // namespace tyndall

@@ -17,25 +17,10 @@ namespace tyndall {
 /// The row of an option, or of an argument such as "SCENE", of that command. There is one.
 const OptionRow& option_row(std::string_view name, std::string_view command);
 
-/// Options that stand below one heading of a help.
-struct OptionGroup {
-  const char* heading;  ///< "": no help lists them
-  /// Long names as option_row() knows them, with spaces between; {display} and {render}: those of fields().
-  const char* options;
-};
+const std::vector<CommandRow>& command_rows();
 
-/// A command, whose options are named alone. See CommandRow.
-struct CommandText {
-  const char *usage, *summary, *about, *examples;
-  std::vector<OptionGroup> groups;
-  int (*run)(const CommandRequest&);
-
-  std::string name() const { return std::string(usage).substr(0, std::string_view(usage).find(' ')); }
-};
-const std::vector<CommandText>& command_texts();
-
-/// The command with its options.
-CommandRow command_row(const CommandText& text);
+/// The commands with the options that their groups name.
+std::vector<CommandRow> with_options(std::vector<CommandRow> commands);
 
 /// " (see tyndall render --help)".
 std::string see_help(std::string_view command);
@@ -46,9 +31,6 @@ std::optional<std::string> parse(const CommandRow& command, std::vector<std::str
 
 /// The curve of a chart that --method describes, NAME=FLAGS, e.g. "no MIS=--integrator nee --isa avx2".
 CommandRequest read_method(const std::string& text);
-
-/// Columns that the help of an option has beside its name, where its lines are not broken by hand.
-inline constexpr std::size_t help_width = 66;
 
 /// A value from the text of an option. Throws UsageError.
 template <class T>
@@ -84,7 +66,7 @@ OptionRow described(OptionRow row, const Meaning& meaning, const std::string& us
       if (*choice.help) row.help += std::string(" (") + choice.help + ")";
     }
   }
-  row.help = wrapped(row.help + " [" + usual + "]", help_width);
+  row.help += " [" + usual + "]";
   return row;
 }
 

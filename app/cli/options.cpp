@@ -118,13 +118,13 @@ void finish(CommandRequest& request) {
     if (found(request)) refuse("{}", text);
 }
 
-ParsedCommand read(const CommandText& text, Arguments arguments) {
+ParsedCommand read(const CommandRow& row, Arguments arguments) {
   CommandRequest request;
-  request.command = text.name();
-  request.run = text.run;
+  request.command = row.name();
+  request.run = row.run;
   request.arguments = arguments;
   if (request.command != "view") request.scene.what.clear();
-  if (auto help = parse(command_row(text), arguments, request)) return PrintCommand{*help};
+  if (auto help = parse(row, arguments, request)) return PrintCommand{*help};
   finish(request);
   return request;
 }
@@ -133,8 +133,7 @@ std::string overview() {
   std::string text =
       "Tyndall: an interactive, progressive path tracer for glass, brushed metal and fog.\n"
       "Usage: tyndall [SCENE] | tyndall COMMAND [options]\n\nCommands:\n";
-  for (const CommandText& command : command_texts())
-    text += fmt::format("  {:<10}{}\n", command.name(), command.summary);
+  for (const CommandRow& command : command_rows()) text += fmt::format("  {:<10}{}\n", command.name(), command.summary);
   return text +
          "\nOptions:\n"
          "  -h, --help    show this text; 'tyndall COMMAND --help' shows that of a command\n"
@@ -147,7 +146,7 @@ std::string overview() {
 /// Throws if a word that was not taken for a command must have been meant as one.
 void refuse_misspelt_command(Text argument, bool alone) {
   std::vector<std::string> names;
-  for (const CommandText& command : command_texts()) names.push_back(command.name());
+  for (const CommandRow& command : command_rows()) names.push_back(command.name());
   const std::string hint = did_you_mean(argument, {names.begin(), names.end()});
   if ((hint.empty() && alone) || argument[0] == '-' || argument.find_first_of("./") != std::string::npos) return;
   std::error_code error;
@@ -166,10 +165,7 @@ ParsedCommand read_help(Arguments arguments) {
   if (arguments.empty()) return PrintCommand{overview()};
   constexpr std::string (*writers[])(const std::vector<CommandRow>&) = {man_page, bash_completion, zsh_completion,
                                                                         fish_completion};
-  const std::size_t form = read_name(arguments[0], {"man", "bash", "zsh", "fish"});
-  std::vector<CommandRow> rows;
-  for (const CommandText& command : command_texts()) rows.push_back(command_row(command));
-  return PrintCommand{writers[form](rows)};
+  return PrintCommand{writers[read_name(arguments[0], {"man", "bash", "zsh", "fish"})](command_rows())};
 }
 
 }  // namespace
@@ -183,19 +179,20 @@ CommandRequest read_method(const std::string& text) {
   std::istringstream stream(text.substr(equals + 1));
   std::vector<std::string> arguments;
   for (std::string argument; stream >> argument;) arguments.push_back(argument);
-  const CommandText command{"--method NAME=FLAGS", "", "One curve of a chart.", "", {{"Method", "{render} --isa"}}, {}};
-  if (parse(command_row(command), arguments, method)) refuse("found a question for help, expected flags of a method");
+  const auto rows =
+      with_options({{"--method NAME=FLAGS", "", "One curve of a chart.", "", {{"Method", "{render} --isa"}}, nullptr}});
+  if (parse(rows.front(), arguments, method)) refuse("found a question for help, expected flags of a method");
   return method;
 }
 
 ParsedCommand read_command(const std::vector<std::string>& arguments) {
-  const std::vector<CommandText>& commands = command_texts();
+  const std::vector<CommandRow>& commands = command_rows();
   if (arguments.empty()) return read(commands.front(), {});
   const std::string& first = arguments.front();
   if (first == "-h" || first == "--help") return PrintCommand{overview()};
   if (first == "help") return read_help({arguments.begin() + 1, arguments.end()});
   if (first == "-V" || first == "--version" || first == "version") return PrintCommand{version_text()};
-  for (const CommandText& command : commands)
+  for (const CommandRow& command : commands)
     if (first == command.name()) return read(command, {arguments.begin() + 1, arguments.end()});
   if (first == "book" && !std::filesystem::exists(first))
     refuse(

@@ -72,7 +72,7 @@ std::optional<std::string> parse(const CommandRow& command, std::vector<std::str
   for (const OptionRow& row : command.arguments) add_option(app, row, request);
   for (const OptionRow& row : command.options)
     if (row.taker.take) add_option(app, row, request);
-  const std::string see = see_help(command.name);
+  const std::string see = see_help(command.name());
   std::reverse(arguments.begin(), arguments.end());  // what CLI11 expects
   try {
     app.parse(arguments);

@@ -51,7 +51,7 @@ std::string option_text(const OptionRow& option) {
 }
 
 std::string command_text(const CommandRow& command) {
-  std::string name = command.name, about = escaped(command.about), group;
+  std::string name = command.name(), about = escaped(command.about), group;
   std::transform(name.begin(), name.end(), name.begin(), [](char c) { return static_cast<char>(c - 'a' + 'A'); });
   for (std::size_t at = 0; (at = about.find("\n\n", at)) != about.npos;) about.replace(at, 2, "\n.PP\n");
   std::string text = ".SH " + name + "\n.B tyndall " + escaped(command.usage) + "\n.PP\n" + about + "\n.PP\n";
@@ -75,17 +75,17 @@ bool takes_file(const OptionRow& option) { return option.unit.starts_with("FILE"
 std::string bash_values(const CommandRow& command) {
   return of_each(command.options, [&](const OptionRow& option) {
     if (option.unit.empty()) return std::string();
-    const std::string cases = joined(names_of(option), "' | '" + command.name + " ");
+    const std::string cases = joined(names_of(option), "' | '" + command.name() + " ");
     std::string values = takes_file(option) ? "_tyndall_files \"$word\"; return" : "return";
     if (!option.taker.choices.empty()) values = "words='" + joined(option.taker.choices, " ") + "'";
-    return "    '" + command.name + " " + cases + "') " + values + " ;;\n";
+    return "    '" + command.name() + " " + cases + "') " + values + " ;;\n";
   });
 }
 
 std::string bash_options(const CommandRow& command) {
   std::vector<std::string> names;
   for (const OptionRow& option : command.options) names.push_back(joined(names_of(option), " "));
-  return "      " + command.name + ") words='" + joined(names, " ") + "' ;;\n";
+  return "      " + command.name() + ") words='" + joined(names, " ") + "' ;;\n";
 }
 
 std::string zsh_option(const OptionRow& option) {
@@ -100,7 +100,7 @@ std::string zsh_option(const OptionRow& option) {
 }
 
 std::string zsh_options(const CommandRow& command) {
-  return "    " + command.name + ")\n      _arguments -S" + of_each(command.options, zsh_option) +
+  return "    " + command.name() + ")\n      _arguments -S" + of_each(command.options, zsh_option) +
          (command.arguments.empty() ? "" : " \\\n        '*:file:_tyndall_words'") + "\n      ;;\n";
 }
 
@@ -117,7 +117,7 @@ std::string fish_option(const OptionRow& option) {
 
 std::string man_page(const std::vector<CommandRow>& commands) {
   const auto summary = [](const CommandRow& command) {
-    return ".TP\n.B " + command.name + "\n" + escaped(command.summary) + "\n";
+    return ".TP\n.B " + command.name() + "\n" + escaped(command.summary) + "\n";
   };
   return from_template("tyndall.1", {{"version", TYNDALL_VERSION},
                                      {"commands", of_each(commands, summary)},
@@ -126,7 +126,7 @@ std::string man_page(const std::vector<CommandRow>& commands) {
 
 std::string bash_completion(const std::vector<CommandRow>& commands) {
   std::vector<std::string> names;
-  for (const CommandRow& command : commands) names.push_back(command.name);
+  for (const CommandRow& command : commands) names.push_back(command.name());
   return from_template("completion.bash", {{"values", of_each(commands, bash_values)},
                                            {"commands", joined(names, " ")},
                                            {"options", of_each(commands, bash_options)}});
@@ -134,7 +134,7 @@ std::string bash_completion(const std::vector<CommandRow>& commands) {
 
 std::string zsh_completion(const std::vector<CommandRow>& commands) {
   const auto summary = [](const CommandRow& command) {
-    return "      " + in_shell(command.name + ":" + short_help(command.summary)) + "\n";
+    return "      " + in_shell(command.name() + ":" + short_help(command.summary)) + "\n";
   };
   return from_template("completion.zsh",
                        {{"commands", of_each(commands, summary)}, {"options", of_each(commands, zsh_options)}});
@@ -143,11 +143,11 @@ std::string zsh_completion(const std::vector<CommandRow>& commands) {
 std::string fish_completion(const std::vector<CommandRow>& commands) {
   const std::string one = "complete -c tyndall -n ";
   const auto summary = [&one](const CommandRow& command) {
-    return one + "__fish_use_subcommand -a " + command.name + " -d " + in_shell(short_help(command.summary)) + "\n";
+    return one + "__fish_use_subcommand -a " + command.name() + " -d " + in_shell(short_help(command.summary)) + "\n";
   };
   const auto options = [&one](const CommandRow& command) {
     return of_each(command.options, [&](const OptionRow& option) {
-      return one + "'__fish_seen_subcommand_from " + command.name + "'" + fish_option(option);
+      return one + "'__fish_seen_subcommand_from " + command.name() + "'" + fish_option(option);
     });
   };
   return "# Completion of tyndall for fish; made by \"tyndall help fish\".\n"
