@@ -1,7 +1,11 @@
 #include "app/cli/option_rows.h"
+#include "core/base/text.h"
+#include "core/scene/place.h"
 
 #include <algorithm>
+#include <limits>
 #include <sstream>
+#include <type_traits>
 
 namespace tyndall {
 namespace {
@@ -15,6 +19,59 @@ std::vector<OptionGroup> rendering(std::vector<OptionGroup> own, const char* mac
   return own;
 }
 
+/// A value from the text of an option. Throws UsageError.
+template <class T>
+T read_option(const std::string& text, Meaning meaning) {
+  if constexpr (NamedEnum<T>) {
+    const std::vector<std::string_view> names = names_of<T>();
+    return static_cast<T>(read_name(text, {names.begin(), names.end()}));
+  } else if constexpr (std::is_same_v<T, bool>) {
+    return read_name(text, {"off", "on"}) == 1;
+  } else if constexpr (std::is_same_v<T, double>) {
+    return read_number(text, meaning.valid, expected_text(meaning, Form::number));
+  } else {
+    Valid& valid = meaning.valid;
+    valid.low = std::max(valid.low, static_cast<double>(std::numeric_limits<T>::min()));
+    valid.high = std::min(valid.high, static_cast<double>(std::numeric_limits<T>::max()));
+    return static_cast<T>(read_whole(text, valid, expected_text(meaning, Form::whole)));
+  }
+}
+
+/// Rows for all fields of a part of SceneRequest but those that may be absent. A switch that is off by default needs no
+/// value.
+template <class Settings>
+std::vector<OptionRow> setting_rows(Changes<Settings> SceneRequest::*changes) {
+  std::vector<OptionRow> rows;
+  for_each_field(fields_of<Settings>(), [&]<class T>(const Field<Settings, T>& field) {
+    if constexpr (std::is_arithmetic_v<T> || NamedEnum<T>) {
+      const T usual = Settings().*field.value;
+      const auto take = [=](CommandRequest& request, const std::string& text) {
+        set(request.scene.*changes, field.value, read_option<T>(text, meaning_of(field)));
+      };
+      std::string name = std::string("--") + field.name;
+      std::replace(name.begin(), name.end(), '_', '-');
+      OptionRow& row = rows.emplace_back(name, "N", Taker{take}, field.help);
+      if constexpr (std::is_same_v<T, bool>) {
+        row.unit = usual ? "on|off" : "";
+        if (usual) row.taker.choices = {"on", "off"};
+        if (!usual) row.taker.takes = Takes::flag;
+      } else if constexpr (std::is_same_v<T, double>) {
+        row.unit = *field.unit ? field.unit : "X";
+      } else if constexpr (NamedEnum<T>) {
+        row.unit = "NAME";
+        for (int i = 0; i < count_of<T>(); ++i) {
+          const Label choice = label(static_cast<T>(i));
+          row.taker.choices.emplace_back(choice.name);
+          row.help += std::string(i == 0 ? ": " : "; ") + choice.name;
+          if (*choice.help) row.help += std::string(" (") + choice.help + ")";
+        }
+      }
+      row.help += " [from the scene, else " + setting_text(usual) + "]";
+    }
+  });
+  return rows;
+}
+
 /// The rows that a word of a group stands for.
 std::vector<OptionRow> rows_of(std::string name, const std::string& command) {
   if (name == "{display}") return setting_rows(&SceneRequest::display);
@@ -25,6 +82,23 @@ std::vector<OptionRow> rows_of(std::string name, const std::string& command) {
   }
   std::replace(name.begin(), name.end(), '_', ' ');
   return {option_row(name, command)};
+}
+
+/// The text in lines of at most that many bytes, broken at spaces. Longer words, and what stands in [brackets], are not
+/// broken.
+std::string wrapped(const std::string& text, std::size_t columns) {
+  std::string out;
+  std::size_t used = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t inside = text[at] == '[' ? text.find(']', at) : at;
+    const std::size_t end = std::min(text.find(' ', std::min(inside, text.size())), text.size());
+    const bool fits = out.empty() || used + 1 + (end - at) <= columns;
+    if (!out.empty()) out += fits ? ' ' : '\n';
+    used = (fits && !out.empty() ? used + 1 : 0) + (end - at);
+    out += text.substr(at, end - at);
+    at = end + 1;
+  }
+  return out;
 }
 
 /// A line of a help that is longer is broken, at spaces, into lines of that many columns beside the option's name.

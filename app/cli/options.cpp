@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <sstream>
 
 /// Reads the command line.
@@ -118,13 +119,21 @@ void finish(CommandRequest& request) {
     if (found(request)) refuse("{}", text);
 }
 
-ParsedCommand read(const CommandRow& row, Arguments arguments) {
+/// A command that prints a text.
+CommandRequest printing(Text text) {
+  CommandRequest request;
+  request.text = text;
+  request.run = [](Request r) { return write_standard_output(r.text), 0; };
+  return request;
+}
+
+CommandRequest read(const CommandRow& row, Arguments arguments) {
   CommandRequest request;
   request.command = row.name();
   request.run = row.run;
   request.arguments = arguments;
   if (request.command != "view") request.scene.what.clear();
-  if (auto help = parse(row, arguments, request)) return PrintCommand{*help};
+  if (const auto help = parse(row, arguments, request)) return printing(*help);
   finish(request);
   return request;
 }
@@ -161,11 +170,11 @@ void refuse_misspelt_option(Text argument) {
   if (!hint.empty()) refuse("unknown option {}{} (see tyndall --help)", in_quotes(argument), hint);
 }
 
-ParsedCommand read_help(Arguments arguments) {
-  if (arguments.empty()) return PrintCommand{overview()};
+std::string help_text(Arguments arguments) {
+  if (arguments.empty()) return overview();
   constexpr std::string (*writers[])(const std::vector<CommandRow>&) = {man_page, bash_completion, zsh_completion,
                                                                         fish_completion};
-  return PrintCommand{writers[read_name(arguments[0], {"man", "bash", "zsh", "fish"})](command_rows())};
+  return writers[read_name(arguments[0], {"man", "bash", "zsh", "fish"})](command_rows());
 }
 
 }  // namespace
@@ -177,21 +186,20 @@ CommandRequest read_method(const std::string& text) {
   CommandRequest method;
   method.curve = text.substr(0, equals);
   std::istringstream stream(text.substr(equals + 1));
-  std::vector<std::string> arguments;
-  for (std::string argument; stream >> argument;) arguments.push_back(argument);
+  const std::vector<std::string> arguments{std::istream_iterator<std::string>(stream), {}};
   const auto rows =
       with_options({{"--method NAME=FLAGS", "", "One curve of a chart.", "", {{"Method", "{render} --isa"}}, nullptr}});
   if (parse(rows.front(), arguments, method)) refuse("found a question for help, expected flags of a method");
   return method;
 }
 
-ParsedCommand read_command(const std::vector<std::string>& arguments) {
+CommandRequest read_command(const std::vector<std::string>& arguments) {
   const std::vector<CommandRow>& commands = command_rows();
   if (arguments.empty()) return read(commands.front(), {});
   const std::string& first = arguments.front();
-  if (first == "-h" || first == "--help") return PrintCommand{overview()};
-  if (first == "help") return read_help({arguments.begin() + 1, arguments.end()});
-  if (first == "-V" || first == "--version" || first == "version") return PrintCommand{version_text()};
+  if (first == "-h" || first == "--help") return printing(overview());
+  if (first == "help") return printing(help_text({arguments.begin() + 1, arguments.end()}));
+  if (first == "-V" || first == "--version" || first == "version") return printing(version_text());
   for (const CommandRow& command : commands)
     if (first == command.name()) return read(command, {arguments.begin() + 1, arguments.end()});
   if (first == "book" && !std::filesystem::exists(first))
@@ -201,15 +209,6 @@ ParsedCommand read_command(const std::vector<std::string>& arguments) {
   refuse_misspelt_command(first, arguments.size() == 1);
   if (arguments.size() == 1) refuse_misspelt_option(first);
   return read(commands.front(), arguments);
-}
-
-int run(const ParsedCommand& command) {
-  if (const auto* print = std::get_if<PrintCommand>(&command)) {
-    write_standard_output(print->text);
-    return 0;
-  }
-  const auto& request = std::get<CommandRequest>(command);
-  return request.run(request);
 }
 
 }  // namespace tyndall

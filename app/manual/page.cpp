@@ -1,10 +1,10 @@
 #include "app/manual/page.h"
 
 #include "app/text/markup.h"
+#include "app/text/values.h"
 #include "core/base/text.h"
 
 #include <algorithm>
-#include <sstream>
 
 namespace tyndall {
 namespace {
@@ -17,12 +17,7 @@ std::string of_each(const std::vector<Row>& rows, const Say& say) {
   return text;
 }
 
-std::vector<std::string> names_of(const OptionRow& option) {
-  std::vector<std::string> names;
-  std::istringstream all(option.names);
-  for (std::string name; std::getline(all, name, ',');) names.push_back(name);
-  return names;
-}
+std::vector<std::string> names_of(const OptionRow& option) { return split_at(option.names, ','); }
 
 /// Text that man(7) shows as it is: a backslash, a dash, and a line that begins like a request would be read otherwise.
 std::string escaped(const std::string& text) {
@@ -30,13 +25,8 @@ std::string escaped(const std::string& text) {
   bool at_start = true;
   for (const char c : text) {
     if (at_start && (c == '.' || c == '\'')) out += "\\&";
-    if (c == '\\') {
-      out += "\\e";
-    } else if (c == '-') {
-      out += "\\-";
-    } else {
-      out += c;
-    }
+    if (c == '\\' || c == '-') out += '\\';
+    out += c == '\\' ? 'e' : c;
     at_start = c == '\n';
   }
   return out;

@@ -1,5 +1,4 @@
 #pragma once
-#include "core/base/choice.h"
 #include "core/render/render.h"
 
 #include <cstdint>
@@ -9,19 +8,8 @@
 /// Tells on standard error how a render is going.
 namespace tyndall {
 
+/// A bar on a terminal, else plain; a line now and then; nothing.
 enum class ProgressStyle { automatic, plain, none };
-
-constexpr Label label(ProgressStyle style) {
-  switch (style) {
-    case ProgressStyle::automatic:
-      return {"auto", "a bar on a terminal, else plain"};
-    case ProgressStyle::plain:
-      return {"plain", "a line now and then"};
-    case ProgressStyle::none:
-      return {"none"};
-  }
-  return {};
-}
 
 /// Where a render is to end. The bar's length and the time left are measured against it.
 struct ProgressGoal {

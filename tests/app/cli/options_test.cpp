@@ -25,7 +25,7 @@ std::vector<std::string> words_of(const std::string& line) {
   return words;
 }
 
-CommandRequest request(const std::string& line) { return std::get<CommandRequest>(read_command(words_of(line))); }
+CommandRequest request(const std::string& line) { return read_command(words_of(line)); }
 
 std::string refusal(const std::string& line) {
   try {
@@ -36,7 +36,7 @@ std::string refusal(const std::string& line) {
   return "";
 }
 
-std::string printed(const std::string& line) { return std::get<PrintCommand>(read_command(words_of(line))).text; }
+std::string printed(const std::string& line) { return request(line).text; }
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
