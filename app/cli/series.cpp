@@ -206,16 +206,14 @@ std::string summary(const RenderOutcome& outcome, const std::vector<std::filesys
 
 /// Renders, with checkpoints.
 RenderResult render(Series& series, RenderJob& job, const std::string& name, LiveView& view) {
-  const std::uint32_t spp = *job.command.spp;
-  const ProgressGoal goal{totals(job.begin).min_taken, spp < max_samples ? spp : 0, job.command.time_limit,
-                          job.command.target_error};
+  const std::uint32_t before = totals(job.begin).min_taken;
   const auto show = [&](const RenderProgress& now) {
-    if (name.empty()) return series.report.show(now.seconds, progress_fraction(now, goal), progress_text(now, goal));
-    const double done =
-        (static_cast<double>(series.made) + progress_fraction(now, goal)) / static_cast<double>(series.count);
+    const double part = progress_fraction(now, job.command, before);
+    if (name.empty()) return series.report.show(now.seconds, part, progress_text(now, job.command, before));
+    const double done = (static_cast<double>(series.made) + part) / static_cast<double>(series.count);
     const double seconds = series.seconds + now.seconds;
-    std::string text = fmt::format("{} ({}/{}), {}{} spp", name, series.made + 1, series.count, now.spp,
-                                   goal.spp > 0 ? fmt::format("/{}", goal.spp) : "");
+    std::string text =
+        fmt::format("{} ({}/{}), {}", name, series.made + 1, series.count, samples_text(now, job.command));
     if (done > 0) text += ", " + duration(seconds * (1 - done) / done) + " left";
     series.report.show(seconds, done, text);
   };
