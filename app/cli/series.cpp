@@ -276,7 +276,7 @@ void list_outputs(const RenderJob& job, const std::string& state) {
 bool make(Series& series, RenderJob& job, const std::string& name,
           const std::function<void(const RenderOutcome&, bool written)>& made) {
   if (series.begun++ == 0) tell_remarks(job);
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   job.prepared = tyndall::prepare(job.loaded.scene);
   job.seconds_build = seconds_since(start);
   job.samples_before = totals(job.begin).samples;
