@@ -88,13 +88,11 @@ std::vector<OptionRow> rows_of(std::string name, const std::string& command) {
 /// broken.
 std::string wrapped(const std::string& text, std::size_t columns) {
   std::string out;
-  std::size_t used = 0;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t inside = text[at] == '[' ? text.find(']', at) : at;
     const std::size_t end = std::min(text.find(' ', std::min(inside, text.size())), text.size());
-    const bool fits = out.empty() || used + 1 + (end - at) <= columns;
-    if (!out.empty()) out += fits ? ' ' : '\n';
-    used = (fits && !out.empty() ? used + 1 : 0) + (end - at);
+    const std::size_t used = out.size() - (out.rfind('\n') + 1);  // of the last line; npos + 1 is 0
+    if (!out.empty()) out += used + 1 + (end - at) <= columns ? ' ' : '\n';
     out += text.substr(at, end - at);
     at = end + 1;
   }

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <new>
 #include <optional>
@@ -239,6 +240,12 @@ void add_frame(const std::filesystem::path& list, int frame, const std::string& 
   int problem = file ? file.write(line.data(), line.size()) : file.error();
   if (problem == 0) problem = file.synchronise();
   if (problem != 0) throw IoError(list.string() + ": cannot write: " + error_text(problem));
+}
+
+void list_outputs(const RenderJob& job, const std::string& state) {
+  for (const auto& [file, list] : job.lists)
+    if (std::count(job.command.outputs.begin(), job.command.outputs.end(), file) > 0)
+      add_frame(list->file, *job.command.frame, state + " " + picture_mark(job));
 }
 
 bool is_whole(const std::filesystem::path& file, const RenderJob& job) {

@@ -81,6 +81,9 @@ void tell_alpha(const LoadedScene& loaded);
 /// job has been set up.
 void find_start(RenderJob& job);
 
+/// Says in the lists beside the job's outputs that they are "begun" or "whole".
+void list_outputs(const RenderJob& job, const std::string& state);
+
 /// Whether a file holds the whole picture of the job. Throws UsageError if it is of something else: no picture of the
 /// same scene, settings and version.
 bool is_whole(const std::filesystem::path& file, const RenderJob& job);

@@ -264,13 +264,6 @@ void warn(Series& series, const RenderJob& job, const RenderOutcome& outcome, co
                    sum.rejected, sum.samples, places));
 }
 
-/// Says in the lists beside the job's outputs that they are "begun" or "whole".
-void list_outputs(const RenderJob& job, const std::string& state) {
-  for (const auto& [file, list] : job.lists)
-    if (std::count(job.command.outputs.begin(), job.command.outputs.end(), file) > 0)
-      add_frame(list->file, *job.command.frame, state + " " + picture_mark(job));
-}
-
 }  // namespace
 
 bool make(Series& series, RenderJob& job, const std::string& name,
