@@ -152,8 +152,12 @@ std::string overview() {
          "3 input, output or display error; 130 Ctrl-C; 128 and its number: another signal.\n";
 }
 
-/// Throws if a word that was not taken for a command must have been meant as one.
-void refuse_misspelt_command(Text argument, bool alone) {
+/// Throws if a word that was not taken for a command must have been meant as one, or as an option of the program
+/// itself.
+void refuse_misspelt(Text argument, bool alone) {
+  const std::string option = did_you_mean(argument, {"--version", "--help"});
+  if (alone && argument.starts_with('-') && argument.size() > 2 && !option.empty())
+    refuse("unknown option {}{} (see tyndall --help)", in_quotes(argument), option);
   std::vector<std::string> names;
   for (const CommandRow& command : command_rows()) names.push_back(command.name());
   const std::string hint = did_you_mean(argument, {names.begin(), names.end()});
@@ -163,14 +167,7 @@ void refuse_misspelt_command(Text argument, bool alone) {
   refuse("unknown command {}{}", in_quotes(argument), hint);
 }
 
-/// Throws if the first word must have been meant as an option of the program itself.
-void refuse_misspelt_option(Text argument) {
-  if (argument.size() < 3 || argument[0] != '-') return;
-  const std::string hint = did_you_mean(argument, {"--version", "--help"});
-  if (!hint.empty()) refuse("unknown option {}{} (see tyndall --help)", in_quotes(argument), hint);
-}
-
-std::string help_text(Arguments arguments) {
+std::string manual_text(Arguments arguments) {
   if (arguments.empty()) return overview();
   constexpr std::string (*writers[])(const std::vector<CommandRow>&) = {man_page, bash_completion, zsh_completion,
                                                                         fish_completion};
@@ -198,7 +195,7 @@ CommandRequest read_command(const std::vector<std::string>& arguments) {
   if (arguments.empty()) return read(commands.front(), {});
   const std::string& first = arguments.front();
   if (first == "-h" || first == "--help") return printing(overview());
-  if (first == "help") return printing(help_text({arguments.begin() + 1, arguments.end()}));
+  if (first == "help") return printing(manual_text({arguments.begin() + 1, arguments.end()}));
   if (first == "-V" || first == "--version" || first == "version") return printing(version_text());
   for (const CommandRow& command : commands)
     if (first == command.name()) return read(command, {arguments.begin() + 1, arguments.end()});
@@ -206,8 +203,7 @@ CommandRequest read_command(const std::vector<std::string>& arguments) {
     refuse(
         "book: the folder of headers is gone: programs are read with their own; in place of a build by hand: tyndall "
         "main.cc, tyndall render main.cc -o picture.exr, or ./mine | tyndall view -");
-  refuse_misspelt_command(first, arguments.size() == 1);
-  if (arguments.size() == 1) refuse_misspelt_option(first);
+  refuse_misspelt(first, arguments.size() == 1);
   return read(commands.front(), arguments);
 }
 
