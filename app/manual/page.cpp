@@ -2,7 +2,9 @@
 
 #include "app/text/markup.h"
 #include "app/text/values.h"
+#include "core/base/target.h"
 #include "core/base/text.h"
+#include "core/system/guard.h"
 
 #include <algorithm>
 
@@ -103,6 +105,24 @@ std::string fish_option(const OptionRow& option) {
   return text + " -d " + in_shell(short_help(option.help)) + "\n";
 }
 
+std::string compiler_text() {
+#if defined(__clang__)
+  const std::string name = "clang " __clang_version__;
+#elif defined(__GNUC__)
+  const std::string name = "GCC " __VERSION__;
+#else
+  const std::string name = "unknown compiler";
+#endif
+#if defined(_LIBCPP_VERSION)
+  const std::string library = "libc++ " + std::to_string(_LIBCPP_VERSION / 1000);
+#elif defined(__GLIBCXX__)
+  const std::string library = "libstdc++ " + std::to_string(_GLIBCXX_RELEASE);
+#else
+  const std::string library = "unknown standard library";
+#endif
+  return name.substr(0, name.find_last_not_of(' ') + 1) + ", " + library + ", " TYNDALL_BUILD;
+}
+
 }  // namespace
 
 std::string man_page(const std::vector<CommandRow>& commands) {
@@ -143,6 +163,14 @@ std::string fish_completion(const std::vector<CommandRow>& commands) {
   return "# Completion of tyndall for fish; made by \"tyndall help fish\".\n"
          "complete -c tyndall -a '(tyndall scenes 2>/dev/null | string split -f 1 \" \")' -d scene\n" +
          of_each(commands, summary) + of_each(commands, options);
+}
+
+std::string version_text() {
+  const std::vector<Target> missing = missing_targets();
+  return "tyndall " TYNDALL_VERSION "\ncompiler   " + compiler_text() + "\nkernels    " + names_of(built_targets()) +
+         "; this CPU runs " + names_of(available_targets()) +
+         (missing.empty() ? "" : ", and could run " + names_of(missing) + how_to_build(name_of(missing.back()))) +
+         "\nguard      " + guard_text(available_guard()) + "\nlibraries  " TYNDALL_LIBRARIES "\n";
 }
 
 }  // namespace tyndall
