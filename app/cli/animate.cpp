@@ -1,11 +1,9 @@
 #include "app/cli/pictures.h"
 #include "app/files/y4m.h"
 #include "app/text/standard_streams.h"
-#include "core/base/error.h"
 #include "core/base/fnv1a.h"
 #include "core/base/text.h"
 
-#include <algorithm>
 #include <optional>
 
 namespace tyndall {

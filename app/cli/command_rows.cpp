@@ -1,5 +1,4 @@
 #include "app/cli/option_rows.h"
-#include "core/base/text.h"
 #include "core/scene/place.h"
 
 #include <algorithm>

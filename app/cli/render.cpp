@@ -3,8 +3,6 @@
 #include "app/report/contents.h"
 #include "app/report/replay.h"
 #include "app/text/standard_streams.h"
-#include "core/accuracy/estimate.h"
-#include "core/base/error.h"
 #include "core/base/target.h"
 #include "core/base/text.h"
 #include "core/render/plan.h"

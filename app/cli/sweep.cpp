@@ -4,14 +4,12 @@
 #include "app/text/markup.h"
 #include "app/text/standard_streams.h"
 #include "core/accuracy/error.h"
-#include "core/base/error.h"
 #include "core/base/fnv1a.h"
 #include "core/base/text.h"
 #include "core/scene/json_tree.h"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace tyndall {
 namespace {
