@@ -226,9 +226,8 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
        "wall time, once the scene is loaded; what any answer needs is done in\nany case [20]", "compare"},
       {"--time", "SECONDS", to(&R::time_limit, seconds),
        "wall time of rendering; looked at between passes, after the first"},
-      {"--target-error", "E", to(&R::target_error, above_zero), "estimated relative error; its square estimates relMSE",
-       "view"},
-      {"--target-error", "E", to(&R::target_error, above_zero),
+      {"--target-error", "E", target_error, "estimated relative error; its square estimates relMSE", "view"},
+      {"--target-error", "E", target_error,
        "estimated relative error, with --denoise that of the filtered picture; its square estimates relMSE"},
       {"--samples", "A:B", to(&R::sample_range, read_samples),
        "exactly the samples A <= i < B of each pixel, for shards that 'tyndall merge' adds; not with --spp, --time or "
