@@ -228,7 +228,8 @@ FrameList read_frame_list(const std::filesystem::path& file) {
     int frame = 0;
     std::string state, mark, more;
     const bool read = static_cast<bool>(words >> frame >> state >> mark) && !(words >> more);
-    if (read && mark.size() == 16 && (state == "begun" || state == "whole")) list.entries[frame] = state + " " + mark;
+    if (read && mark.size() == 16 && (state == "begun" || state == "whole"))
+      list.entries[frame] = fmt::format("{} {}", state, mark);
   }
   return list;
 }
