@@ -7,7 +7,8 @@
 int main(int argc, char** argv) {
   tyndall::begin_process();
   try {
-    return tyndall::run(tyndall::read_command(tyndall::program_arguments(argc, argv)));
+    const tyndall::CommandRequest command = tyndall::read_command(tyndall::program_arguments(argc, argv));
+    return command.run(command);
   } catch (const std::exception&) {
     return tyndall::told_exit_code();
   }

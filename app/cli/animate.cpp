@@ -1,12 +1,9 @@
-#include "app/cli/kept_pictures.h"
 #include "app/cli/pictures.h"
 #include "app/files/y4m.h"
 #include "app/text/standard_streams.h"
-#include "core/base/error.h"
 #include "core/base/fnv1a.h"
 #include "core/base/text.h"
 
-#include <algorithm>
 #include <optional>
 
 namespace tyndall {
@@ -15,7 +12,7 @@ namespace {
 /// Numbered files of one format.
 struct FrameFiles {
   NamePattern pattern;
-  std::optional<FrameList> list{};  ///< of settings, which the format does not carry; absent: it does
+  FrameList list{};  ///< of settings, which the format does not carry; without a name: it does
 };
 
 /// A film while its frames are rendered.
@@ -46,7 +43,7 @@ Animating open_film(const CommandRequest& command) {
     FrameFiles& files = film.files.emplace_back(FrameFiles{read_numbered_name(name.string())});
     const std::string ending = image_ending(name, {});
     if (ending == ".ppm" || ending == ".pfm" || ending == ".hdr")
-      files.list.emplace(files.pattern.before + "frames" + files.pattern.after + ".list");
+      files.list = read_frame_list(files.pattern.before + "frames" + files.pattern.after + ".list");
   }
   return film;
 }
@@ -54,16 +51,20 @@ Animating open_film(const CommandRequest& command) {
 /// The command that renders a frame into these files.
 CommandRequest command_of(const CommandRequest& command, int frame, std::vector<std::filesystem::path> outputs) {
   CommandRequest made = command;
+  made.frame = frame;
   made.outputs = std::move(outputs);
   if (!made.stats.empty()) made.stats = name_for(read_numbered_name(made.stats.string()), frame);
   return made;
 }
 
 /// A job that renders a frame into these files, and whose picture can be compared with what is there already.
-RenderJob job_of(const Animating& film, int frame, std::vector<std::filesystem::path> outputs) {
-  RenderJob job{command_of(film.command, frame, std::move(outputs))};
+RenderJob job_of(const Animating& film, int frame, const PictureTask& task) {
+  RenderJob job{command_of(film.command, frame, task.outputs)};
   job.loaded = at_frame(film.base, film.plan, frame);
   job.whole_only = true;
+  job.film = task.film;
+  for (const FrameFiles& files : film.files)
+    if (!files.list.file.empty()) job.lists[name_for(files.pattern, frame)] = &files.list;
   set_up(job);
   return job;
 }
@@ -73,13 +74,8 @@ PictureTask task_of(const Animating& film, int frame) {
   std::vector<std::filesystem::path> names;
   for (const FrameFiles& files : film.files) names.emplace_back(name_for(files.pattern, frame));
   check_outputs(outputs_of(names), film.base.files);
-  const RenderJob job = job_of(film, frame, names);
-  const auto look = [&](const std::filesystem::path& file) {
-    const auto of = std::find(names.begin(), names.end(), file) - names.begin();
-    const auto& list = film.files[static_cast<std::size_t>(of)].list;
-    return list ? look_at_list(file, *list, frame, picture_mark(job)) : look_at_picture(file, job);
-  };
-  return task_of(job, look);
+  const RenderJob job = job_of(film, frame, {names, {}});
+  return task_of(job, [&](const std::filesystem::path& file) { return is_whole(file, job); });
 }
 
 /// What the video is of.
@@ -105,16 +101,6 @@ void open_video(Animating& film) {
            film.video->frames(), frames);
 }
 
-/// Says in the lists what a frame's files are: before they are written, and when they are whole.
-void list_frame(Animating& film, const RenderJob& job, int frame, bool whole) {
-  for (FrameFiles& files : film.files) {
-    const std::filesystem::path name = name_for(files.pattern, frame);
-    const auto& outputs = job.command.outputs;
-    if (files.list && std::find(outputs.begin(), outputs.end(), name) != outputs.end())
-      files.list->add(frame, {picture_mark(job), whole});
-  }
-}
-
 /// Whether the video lacks a frame.
 bool is_filmed_next(const Animating& film, int frame) {
   return film.video && frame >= film.range.first + film.video->frames();
@@ -122,30 +108,26 @@ bool is_filmed_next(const Animating& film, int frame) {
 
 /// Renders a frame and writes it; false if something could not be written.
 bool make_frame(Animating& film, int frame, const PictureTask& task, Series& series) {
-  RenderJob job = job_of(film, frame, task.outputs);
-  job.film = task.film;
+  RenderJob job = job_of(film, frame, task);
   prepare(job);
   const auto made = [&](const RenderOutcome& outcome, bool written) {
-    if (!written) return;
-    list_frame(film, job, frame, true);
     const auto& clean = outcome.result.clean;
-    if (is_filmed_next(film, frame))
+    if (written && is_filmed_next(film, frame))
       film.video->add(clean ? LinearImage{clean->width, clean->height, clean->rgb} : outcome.picture.image,
                       job.loaded.scene.display);
   };
-  const auto list = [&] { list_frame(film, job, frame, false); };
-  return series.make(job, "frame " + std::to_string(frame), {list, made});
+  return make(series, job, "frame " + std::to_string(frame), made);
 }
 
 std::string summary(const Animating& film, const Series& series, std::size_t kept) {
-  const std::size_t made = series.made();
+  const std::size_t made = series.made;
   std::vector<std::string> names;
   if (film.video) names.push_back(printable(film.command.video.string()));
   for (const FrameFiles& files : film.files)
     names.push_back(printable(name_for(files.pattern, film.range.first)) + " to " +
                     printable(name_for(files.pattern, film.range.last - 1)));
   return fmt::format("{}: {} frame{}{}, {}", joined(names), made, made == 1 ? "" : "s",
-                     kept > 0 ? fmt::format(" rendered, {} kept", kept) : "", duration(series.seconds()));
+                     kept > 0 ? fmt::format(" rendered, {} kept", kept) : "", duration(series.seconds));
 }
 
 }  // namespace
@@ -161,15 +143,15 @@ int run_animate(const CommandRequest& command) {
                 [&](const auto& task) { return task.second.outputs.empty() && !is_filmed_next(film, task.first); });
   const auto all = static_cast<std::size_t>(film.range.last - film.range.first), kept = all - tasks.size();
   if (kept > 0) complain(fmt::format("{} of {} frames are there already", kept, all));
-  Series series(command.progress, tasks.size());
+  Series series{ProgressReport(command.progress), tasks.size()};
   for (const auto& [frame, task] : tasks) {
     if (!make_frame(film, frame, task, series)) return output_failed;
-    if (series.signal() != 0) {
-      series.finish("interrupted: " + summary(film, series, kept));
-      return 128 + series.signal();
+    if (series.signals.received() != 0) {
+      series.report.finish("interrupted: " + summary(film, series, kept));
+      return 128 + series.signals.received();
     }
   }
-  series.finish("done: " + summary(film, series, kept));
+  series.report.finish("done: " + summary(film, series, kept));
   return 0;
 }
 

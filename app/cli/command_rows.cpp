@@ -1,7 +1,10 @@
 #include "app/cli/option_rows.h"
+#include "core/scene/place.h"
 
 #include <algorithm>
+#include <limits>
 #include <sstream>
+#include <type_traits>
 
 namespace tyndall {
 namespace {
@@ -13,6 +16,59 @@ std::vector<OptionGroup> rendering(std::vector<OptionGroup> own, const char* mac
   own.insert(own.begin(), {usual_heading, "SCENE --set --include --trust"});
   own.insert(own.end(), {{"Image", "--size {display}"}, {"Method", "{render}"}, {"Machine", machine}});
   return own;
+}
+
+/// A value from the text of an option. Throws UsageError.
+template <class T>
+T read_option(const std::string& text, Meaning meaning) {
+  if constexpr (NamedEnum<T>) {
+    const std::vector<std::string_view> names = names_of<T>();
+    return static_cast<T>(read_name(text, {names.begin(), names.end()}));
+  } else if constexpr (std::is_same_v<T, bool>) {
+    return read_name(text, {"off", "on"}) == 1;
+  } else if constexpr (std::is_same_v<T, double>) {
+    return read_number(text, meaning.valid, expected_text(meaning, Form::number));
+  } else {
+    Valid& valid = meaning.valid;
+    valid.low = std::max(valid.low, static_cast<double>(std::numeric_limits<T>::min()));
+    valid.high = std::min(valid.high, static_cast<double>(std::numeric_limits<T>::max()));
+    return static_cast<T>(read_whole(text, valid, expected_text(meaning, Form::whole)));
+  }
+}
+
+/// Rows for all fields of a part of SceneRequest but those that may be absent. A switch that is off by default needs no
+/// value.
+template <class Settings>
+std::vector<OptionRow> setting_rows(Changes<Settings> SceneRequest::*changes) {
+  std::vector<OptionRow> rows;
+  for_each_field(fields_of<Settings>(), [&]<class T>(const Field<Settings, T>& field) {
+    if constexpr (std::is_arithmetic_v<T> || NamedEnum<T>) {
+      const T usual = Settings().*field.value;
+      const auto take = [=](CommandRequest& request, const std::string& text) {
+        set(request.scene.*changes, field.value, read_option<T>(text, meaning_of(field)));
+      };
+      std::string name = std::string("--") + field.name;
+      std::replace(name.begin(), name.end(), '_', '-');
+      OptionRow& row = rows.emplace_back(name, "N", Taker{take}, field.help);
+      if constexpr (std::is_same_v<T, bool>) {
+        row.unit = usual ? "on|off" : "";
+        if (usual) row.taker.choices = {"on", "off"};
+        if (!usual) row.taker.takes = Takes::flag;
+      } else if constexpr (std::is_same_v<T, double>) {
+        row.unit = *field.unit ? field.unit : "X";
+      } else if constexpr (NamedEnum<T>) {
+        row.unit = "NAME";
+        for (int i = 0; i < count_of<T>(); ++i) {
+          const Label choice = label(static_cast<T>(i));
+          row.taker.choices.emplace_back(choice.name);
+          row.help += std::string(i == 0 ? ": " : "; ") + choice.name;
+          if (*choice.help) row.help += std::string(" (") + choice.help + ")";
+        }
+      }
+      row.help += " [from the scene, else " + setting_text(usual) + "]";
+    }
+  });
+  return rows;
 }
 
 /// The rows that a word of a group stands for.
@@ -27,32 +83,48 @@ std::vector<OptionRow> rows_of(std::string name, const std::string& command) {
   return {option_row(name, command)};
 }
 
-/// A line of a help that is longer is broken, at spaces, into lines of help_width.
-constexpr std::size_t longest_line = 70;
+/// The text in lines of at most that many bytes, broken at spaces. Longer words, and what stands in [brackets], are not
+/// broken.
+std::string wrapped(const std::string& text, std::size_t columns) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t inside = text[at] == '[' ? text.find(']', at) : at;
+    const std::size_t end = std::min(text.find(' ', std::min(inside, text.size())), text.size());
+    const std::size_t used = out.size() - (out.rfind('\n') + 1);  // of the last line; npos + 1 is 0
+    if (!out.empty()) out += used + 1 + (end - at) <= columns ? ' ' : '\n';
+    out += text.substr(at, end - at);
+    at = end + 1;
+  }
+  return out;
+}
 
-}  // namespace
+/// A line of a help that is longer is broken, at spaces, into lines of that many columns beside the option's name.
+constexpr std::size_t longest_line = 70, help_width = 66;
 
-CommandRow command_row(const CommandText& text) {
-  CommandRow row;
-  row.name = text.name();
-  row.summary = text.summary, row.usage = text.usage, row.about = text.about, row.examples = text.examples;
-  row.options.emplace_back("-h,--help", "", Taker{{}, Takes::flag}, "show this text", "", usual_heading);
-  for (const OptionGroup& group : text.groups) {
+void add_options(CommandRow& command) {
+  command.options.emplace_back("-h,--help", "", Taker{{}, Takes::flag}, "show this text", "", usual_heading);
+  for (const OptionGroup& group : command.groups) {
     std::istringstream names(group.options);
     for (std::string name; names >> name;)
-      for (OptionRow& option : rows_of(name, row.name)) {
+      for (OptionRow& option : rows_of(name, command.name())) {
         const bool has_lines = option.help.find('\n') != option.help.npos;
         if (option.help.size() > longest_line && !has_lines) option.help = wrapped(option.help, help_width);
         option.heading = group.heading;
-        (option.names[0] == '-' ? row.options : row.arguments).push_back(option);
+        (option.names[0] == '-' ? command.options : command.arguments).push_back(option);
       }
   }
-  return row;
+}
+
+}  // namespace
+
+std::vector<CommandRow> with_options(std::vector<CommandRow> commands) {
+  std::for_each(commands.begin(), commands.end(), add_options);
+  return commands;
 }
 
 // A table, which may be as long as it has rows.
-const std::vector<CommandText>& command_texts() {  // NOLINT(readability-function-size)
-  static const std::vector<CommandText> texts{
+const std::vector<CommandRow>& command_rows() {  // NOLINT(readability-function-size)
+  static const std::vector<CommandRow> rows = with_options({
       {"view [SCENE] [options]", "open a scene in the window (also without this word; default: the showroom)",
        "Opens a scene in the window. 'tyndall' alone opens the showroom, 'tyndall SCENE' a scene.\n\n"
        "Where standard input (-) begins with P3 or P6, it is a picture: its rows are shown as a program\n"
@@ -219,8 +291,8 @@ const std::vector<CommandText>& command_texts() {  // NOLINT(readability-functio
        "  tyndall convert cornell-smoke -o smoke.py    # blender -b -P smoke.py -- smoke.exr",
        {{usual_heading, "SCENE --set --include --trust --output"}},
        run_convert},
-  };
-  return texts;
+  });
+  return rows;
 }
 
 }  // namespace tyndall

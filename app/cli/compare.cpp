@@ -114,9 +114,9 @@ std::string table(const Comparison& c, const BlockScores& b) {
 int compare_with_baseline(const CommandRequest& command) {
   std::vector<std::filesystem::path> inputs;
   for (const auto& image : command.baseline.images) inputs.push_back(picture_name(image).file);
-  check_outputs({{"--report", command.report}, {"--junit", command.junit}}, inputs);
-  for (const auto& file : {command.report, command.junit})
-    if (!file.empty()) check_can_write(file);
+  const std::vector<Output> outputs{{"--report", command.report}, {"--junit", command.junit}};
+  check_outputs(outputs, inputs);
+  check_can_write(outputs);
   if (command.update) {
     const BaselineUpdate update = update_baseline(command.baseline);
     std::string text;

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <set>
 
 namespace tyndall {
 namespace {
@@ -93,12 +94,11 @@ std::string specular_paths_text(const Report& report) {
   std::string text;
   for (const auto& [count, noun] : kinds)
     if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, noun);
-  std::vector<std::int32_t> lights(specular.light.begin(), specular.light.end());
-  std::sort(lights.begin(), lights.end());
-  lights.erase(std::unique(lights.begin(), lights.end()), lights.end());
-  const bool sun = lights.front() < 0;
-  if (sun) lights.erase(lights.begin());
-  for (std::int32_t& light : lights) light = report.columns.lights.element[static_cast<std::size_t>(light)];
+  const std::set<std::int32_t> found(specular.light.begin(), specular.light.end());
+  const bool sun = *found.begin() < 0;
+  std::vector<std::int32_t> lights;
+  for (const std::int32_t light : found)
+    if (light >= 0) lights.push_back(report.columns.lights.element[static_cast<std::size_t>(light)]);
   const std::string to_lights =
       lights.empty() ? "" : counted(static_cast<int>(lights.size()), "lamp") + " (" + named(report, lights) + ")";
   return text + " (" + named(report, specular.outer) + "), each alone, to " + to_lights +

@@ -1,5 +1,4 @@
-#include "app/cli/kept_pictures.h"
-
+#include "app/cli/pictures.h"
 #include "app/text/standard_streams.h"
 #include "core/base/error.h"
 #include "core/base/fnv1a.h"
@@ -11,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <new>
 #include <optional>
@@ -26,7 +26,7 @@ std::string region_text(const Region& r) { return fmt::format("{},{},{},{}", r.x
 /// What keeps a render from going on with a film, as "found X, expected Y" without "found"; "": nothing does.
 std::string differing_film(const StoredFilm& stored, const RenderJob& job) {
   const Film& film = stored.part.film;
-  const RenderOptions& options = job.options;
+  const CommandRequest& options = job.command;
   const FilmLabel label = label_for(job.loaded.scene, job.kernels.isa);
   if (const auto other = differing_samples(stored.scene, stored.label, job.loaded.scene, label))
     return other->found + ", expected " + other->expected;
@@ -35,8 +35,8 @@ std::string differing_film(const StoredFilm& stored, const RenderJob& job) {
   if (film.first_sample != options.first_sample)
     return fmt::format("samples from {}, expected {}", film.first_sample, options.first_sample);
   const std::uint32_t maximum = totals(film).max_taken;
-  if (job.command.sample_range && maximum > *options.spp)
-    return fmt::format("samples up to {}, expected {}", film.first_sample + maximum, job.command.sample_range->last);
+  if (options.sample_range && maximum > *options.spp)
+    return fmt::format("samples up to {}, expected {}", film.first_sample + maximum, options.sample_range->last);
   if (options.adaptive && film.planned.empty() && maximum > warm_up)
     return "an adaptive film that does not say how many samples each pixel was to get, expected one that does";
   return "";
@@ -70,7 +70,7 @@ bool invites(const std::filesystem::path& file, const RenderJob& job, const std:
   if (label->isa.empty()) return false;  // from before films said whether they are finished
   try {
     const auto spp = read_stored_frame(file).scene.render.spp;
-    return spp && static_cast<std::uint32_t>(*spp) == *job.options.spp;
+    return spp && static_cast<std::uint32_t>(*spp) == *job.command.spp;
   } catch (const std::exception&) {
     return false;  // finished, but its scene cannot be read any more
   }
@@ -102,9 +102,9 @@ void spare_unfinished(const std::vector<std::filesystem::path>& outputs, const s
 
 void start_with(StoredFilm stored, RenderJob& job) {
   const CommandRequest& command = job.command;
-  const std::uint32_t taken = labelled_spp(stored.part.film), requested = *job.options.spp;
+  const std::uint32_t taken = labelled_spp(stored.part.film), requested = *job.command.spp;
   const std::string name = (command.resume ? "--resume" : stored.part.name) + ": ";
-  const std::uint32_t maximum = job.options.adaptive ? taken : totals(stored.part.film).max_taken;
+  const std::uint32_t maximum = job.command.adaptive ? taken : totals(stored.part.film).max_taken;
   const std::string range = (maximum > taken ? std::to_string(taken) + " to " : "") + text_of_samples(maximum);
   if (maximum > requested)
     job.note = fmt::format("{}the film has {} already, more than the {} asked for; {}", name, range, requested,
@@ -165,10 +165,9 @@ StoredFilm described_film(const std::filesystem::path& file, const Json& figures
 /// How a finished picture differs from the one that the job makes, as "found X, expected Y" without "found".
 std::string differing_picture(const StoredFilm& stored, const Json& figures, const RenderJob& job, bool shown) {
   const CommandRequest& command = job.command;
-  const std::uint32_t found = static_cast<std::uint32_t>(stored.scene.render.spp.value_or(0)),
-                      wanted = *job.options.spp;
+  const std::uint32_t found = static_cast<std::uint32_t>(stored.scene.render.spp.value_or(0)), wanted = *command.spp;
   const bool counted = wanted < max_samples && command.target_error == 0 && !(command.time_limit < 1e300);
-  if (counted && (job.options.adaptive ? found > wanted : found != wanted))
+  if (counted && (command.adaptive ? found > wanted : found != wanted))
     return fmt::format("{} samples a pixel, expected {}", found, wanted);
   if (figure(figures, "denoised", command.clean) != command.clean)
     return command.clean ? "an unfiltered picture, expected a filtered one"
@@ -178,7 +177,8 @@ std::string differing_picture(const StoredFilm& stored, const Json& figures, con
   return "";
 }
 
-PictureState look(const std::filesystem::path& file, const RenderJob& job) {
+/// Whether a picture that carries what it is of is finished.
+bool is_finished(const std::filesystem::path& file, const RenderJob& job) {
   const auto label = is_exr(file) ? read_film_label(file) : std::nullopt;
   const Json figures = Json::parse(read_embedded_stats(file).value_or("{}"), nullptr, false);
   if (figures.is_discarded())
@@ -189,7 +189,19 @@ PictureState look(const std::filesystem::path& file, const RenderJob& job) {
   if (found.empty() && !unfinished) found = differing_picture(stored, figures, job, !is_exr(file));
   if (!found.empty()) refuse("{}: found {}", file.string(), found);
   tell_contents(stored);
-  return unfinished ? PictureState::unfinished : PictureState::whole;
+  return !unfinished;
+}
+
+/// The same for a picture of which a list says that.
+bool is_listed_whole(const std::filesystem::path& file, const FrameList& list, const RenderJob& job) {
+  const auto entry = list.entries.find(*job.command.frame);
+  if (entry == list.entries.end())
+    refuse("{}: found a file of which {} does not say what it is, expected none or a frame of this command{}",
+           file.string(), list.file.string(), remedy);
+  if (!entry->second.ends_with(picture_mark(job)))
+    refuse("{}: found a frame of another scene, other settings or another version ({}), expected one of this command{}",
+           file.string(), list.file.string(), remedy);
+  return entry->second.starts_with("whole");
 }
 
 }  // namespace
@@ -208,60 +220,51 @@ void find_start(RenderJob& job) {
   if (stored) start_with(std::move(*stored), job);
 }
 
-PictureTask task_of(const RenderJob& job, const std::function<PictureState(const std::filesystem::path& file)>& look) {
-  PictureTask task;
-  for (const std::filesystem::path& file : job.command.outputs) {
-    const bool whole = !job.command.fresh && look(file) == PictureState::whole;
-    if (!whole) task.outputs.push_back(file);
-    if (whole && task.film.empty() && is_exr(file) && read_film_label(file)) task.film = file;
-  }
-  return task;
-}
-
-PictureState look_at_picture(const std::filesystem::path& file, const RenderJob& job) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) return PictureState::nothing;
-  return read_kept([&] { return look(file, job); }, remedy);
-}
-
-FrameList::FrameList(std::filesystem::path file) : file_(std::move(file)) {
-  std::ifstream in(file_);
+FrameList read_frame_list(const std::filesystem::path& file) {
+  FrameList list{file};
+  std::ifstream in(file);
   for (std::string line; std::getline(in, line);) {
     std::istringstream words(line);
     int frame = 0;
     std::string state, mark, more;
     const bool read = static_cast<bool>(words >> frame >> state >> mark) && !(words >> more);
-    if (read && mark.size() == 16 && (state == "begun" || state == "whole")) entries_[frame] = {mark, state == "whole"};
+    if (read && mark.size() == 16 && (state == "begun" || state == "whole"))
+      list.entries[frame] = fmt::format("{} {}", state, mark);
   }
+  return list;
 }
 
-const FrameList::Entry* FrameList::find(int frame) const {
-  const auto found = entries_.find(frame);
-  return found == entries_.end() ? nullptr : &found->second;
-}
-
-void FrameList::add(int frame, const Entry& entry) {
+void add_frame(const std::filesystem::path& list, int frame, const std::string& entry) {
   // A line break in front ends a line that a kill has cut off.
-  const std::string line = "\n" + std::to_string(frame) + (entry.whole ? " whole " : " begun ") + entry.mark + "\n";
-  const OpenFile list(file_, OpenFor::adding);
-  int problem = list ? list.write(line.data(), line.size()) : list.error();
-  if (problem == 0) problem = list.synchronise();
-  if (problem != 0) throw IoError(file_.string() + ": cannot write: " + error_text(problem));
-  entries_[frame] = entry;
+  const std::string line = fmt::format("\n{} {}\n", frame, entry);
+  const OpenFile file(list, OpenFor::adding);
+  int problem = file ? file.write(line.data(), line.size()) : file.error();
+  if (problem == 0) problem = file.synchronise();
+  if (problem != 0) throw IoError(list.string() + ": cannot write: " + error_text(problem));
 }
 
-PictureState look_at_list(const std::filesystem::path& file, const FrameList& list, int frame,
-                          const std::string& mark) {
+void list_outputs(const RenderJob& job, const std::string& state) {
+  for (const auto& [file, list] : job.lists)
+    if (std::count(job.command.outputs.begin(), job.command.outputs.end(), file) > 0)
+      add_frame(list->file, *job.command.frame, state + " " + picture_mark(job));
+}
+
+bool is_whole(const std::filesystem::path& file, const RenderJob& job) {
   std::error_code error;
-  if (!std::filesystem::exists(file, error)) return PictureState::nothing;
-  const FrameList::Entry* entry = list.find(frame);
-  if (!entry)
-    refuse("{}: found a file of which {} does not say what it is, expected none or a frame of this command{}",
-           file.string(), list.file().string(), remedy);
-  if (entry->mark != mark)
-    refuse("{}: found a frame of another scene, other settings or another version ({}), expected one of this command{}",
-           file.string(), list.file().string(), remedy);
-  return entry->whole ? PictureState::whole : PictureState::nothing;
+  if (!std::filesystem::exists(file, error)) return false;
+  const auto list = job.lists.find(file);
+  if (list != job.lists.end()) return is_listed_whole(file, *list->second, job);
+  return read_kept([&] { return is_finished(file, job); }, remedy);
+}
+
+PictureTask task_of(const RenderJob& job, const std::function<bool(const std::filesystem::path& file)>& is_whole) {
+  PictureTask task;
+  for (const std::filesystem::path& file : job.command.outputs) {
+    const bool whole = !job.command.fresh && is_whole(file);
+    if (!whole) task.outputs.push_back(file);
+    if (whole && task.film.empty() && is_exr(file) && read_film_label(file)) task.film = file;
+  }
+  return task;
 }
 
 std::string picture_mark(const RenderJob& job) {
@@ -270,8 +273,8 @@ std::string picture_mark(const RenderJob& job) {
   scene.name.clear();
   scene.render.spp.reset();
   return hash_text(
-      fnv1a(fmt::format("{} {} {} {} {} {} {} {} ", TYNDALL_VERSION, job.kernels.isa, *job.options.spp, c.time_limit,
-                        c.target_error, region_text(*job.options.region), c.clean, static_cast<int>(c.form.ppm)) +
+      fnv1a(fmt::format("{} {} {} {} {} {} {} {} ", TYNDALL_VERSION, job.kernels.isa, *job.command.spp, c.time_limit,
+                        c.target_error, region_text(*job.command.region), c.clean, static_cast<int>(c.form.ppm)) +
             write_scene(scene) + contents_hash(scene)));
 }
 

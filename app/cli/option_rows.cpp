@@ -119,7 +119,7 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
               threads = to(&R::threads, whole(1, max_threads)),
               gamma2 = on(in(&R::form, &ImageForm::ppm), PpmCurve::gamma2),
               target_error = to(&R::target_error, above_zero);
-  const Names formats{"png", "exr", "pfm", "hdr", "ppm"};
+  const Names formats{"png", "exr", "pfm", "hdr", "ppm"}, styles{"auto", "plain", "none"};
   Names targets;
   for (const Target target : all_targets) targets.emplace_back(name_of(target));
   return {
@@ -184,10 +184,10 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
       {"--stats", "NAME", to(&R::stats, checked_by(read_numbered_name)), "figures of each frame: 'f/%04d.json'",
        "animate"},
       {"--stats", "FILE.json", stats, "write figures of the run"},
-      described<ProgressStyle>(
-          {"--progress", "", to(&R::progress, [](Text t) { return read_option<ProgressStyle>(t, {}); }),
-           "on standard error"},
-          {}, "auto"),
+      {"--progress", "NAME",
+       to(
+           &R::progress, [styles](Text t) { return static_cast<ProgressStyle>(read_name(t, styles)); }, styles),
+       "on standard error: auto (a bar on a terminal, else plain); plain (a line now and then); none [auto]"},
       {"-q,--quiet", "", on(&R::progress, ProgressStyle::none), "no progress"},
       {"--json", "", on(&R::json), "print JSON"},
       {"--region", "X0,Y0,X1,Y1", to(&R::region, read_region),
@@ -226,9 +226,8 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
        "wall time, once the scene is loaded; what any answer needs is done in\nany case [20]", "compare"},
       {"--time", "SECONDS", to(&R::time_limit, seconds),
        "wall time of rendering; looked at between passes, after the first"},
-      {"--target-error", "E", to(&R::target_error, above_zero), "estimated relative error; its square estimates relMSE",
-       "view"},
-      {"--target-error", "E", to(&R::target_error, above_zero),
+      {"--target-error", "E", target_error, "estimated relative error; its square estimates relMSE", "view"},
+      {"--target-error", "E", target_error,
        "estimated relative error, with --denoise that of the filtered picture; its square estimates relMSE"},
       {"--samples", "A:B", to(&R::sample_range, read_samples),
        "exactly the samples A <= i < B of each pixel, for shards that 'tyndall merge' adds; not with --spp, --time or "

@@ -5,17 +5,102 @@
 #include "core/base/text.h"
 #include "core/render/clean_film.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <sstream>
 
-/// Reads the command line.
+/// Reads the command line. What Tyndall's commands add to CLI11: values that are read by functions which say what they
+/// expected, so that every refusal reads alike ("--size: found "8", expected WIDTHxHEIGHT ..."), suggestions, and a
+/// usage line of our own.
 namespace tyndall {
 namespace {
 
 using Text = const std::string&;
 using Arguments = const std::vector<std::string>&;
 using Request = const CommandRequest&;
+
+void add_option(CLI::App& app, const OptionRow& row, CommandRequest& request) {
+  const auto take = [&](const std::string& text) {
+    try {
+      row.taker.take(request, text);
+    } catch (const UsageError& error) {
+      if (row.taker.takes == Takes::flag || row.names[0] != '-') throw;
+      refuse("{}: {}", row.names.substr(row.names.find("--")), error.what());
+    }
+  };
+  app.option_defaults()->group(row.heading);
+  if (row.taker.takes == Takes::flag) {
+    app.add_flag_callback(
+        row.names, [take] { take("on"); }, row.help);
+    return;
+  }
+  const bool many = row.taker.takes == Takes::each;
+  const auto each = [take](const std::vector<std::string>& texts) { std::for_each(texts.begin(), texts.end(), take); };
+  CLI::Option* option = many ? app.add_option_function<std::vector<std::string>>(row.names, each, row.help)
+                             : app.add_option_function<std::string>(row.names, take, row.help);
+  option->option_text(row.unit);
+  if (many) option->take_all();
+  if (row.names[0] == '-') option->allow_extra_args(false);
+}
+
+std::string help_text(const CLI::App& app, const CommandRow& command) {
+  CLI::Formatter formatter;
+  formatter.column_width(30);
+  formatter.label("Positionals", "Arguments");
+  std::string text = command.about + "\n\nUsage: tyndall " + command.usage + "\n" + formatter.make_positionals(&app) +
+                     formatter.make_groups(&app, CLI::AppFormatMode::Normal) + "\n" + formatter.make_footer(&app);
+  // CLI11 puts two empty lines between groups.
+  for (auto at = text.find("\n\n\n"); at != std::string::npos; at = text.find("\n\n\n")) text.erase(at, 1);
+  return text;
+}
+
+/// Throws for the first word that is neither option nor argument.
+void refuse_extras(const CLI::App& app, const std::string& see) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (const std::string& argument : app.remaining()) {
+    if (argument == "--") continue;  // words after this are no options
+    if (argument.size() < 2 || argument[0] != '-') refuse("unexpected argument {}{}", in_quotes(argument), see);
+    const std::string name = argument.substr(0, argument.find('='));
+    refuse("unknown option {}{}{}", in_quotes(name), did_you_mean(name, {names.begin(), names.end()}), see);
+  }
+}
+
+/// " (see tyndall render --help)".
+std::string see_help(std::string_view command) { return " (see tyndall " + std::string(command) + " --help)"; }
+
+/// Reads what follows a command. Returns the help if that is asked for. Throws UsageError, a line.
+std::optional<std::string> parse(const CommandRow& command, std::vector<std::string> arguments,
+                                 CommandRequest& request) {
+  CLI::App app;
+  app.set_help_flag("-h,--help", command.options.front().help);
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  app.allow_extras();  // they are refused below, with a suggestion
+  app.footer(command.examples);
+  for (const OptionRow& row : command.arguments) add_option(app, row, request);
+  for (const OptionRow& row : command.options)
+    if (row.taker.take) add_option(app, row, request);
+  const std::string see = see_help(command.name());
+  std::reverse(arguments.begin(), arguments.end());  // what CLI11 expects
+  try {
+    app.parse(arguments);
+  } catch (const CLI::CallForHelp&) {
+    return help_text(app, command);
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string text = error.what();
+    refuse("{}: a value is missing{}", text.substr(0, text.find(':')), see);
+  } catch (const CLI::ParseError& error) {
+    std::string text = error.what();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    refuse("{}{}", text, see);
+  }
+  refuse_extras(app, see);
+  return std::nullopt;
+}
 
 /// A program may have further source files; nothing else takes more words than one.
 void take_scene(CommandRequest& request, std::size_t at) {
@@ -118,13 +203,21 @@ void finish(CommandRequest& request) {
     if (found(request)) refuse("{}", text);
 }
 
-ParsedCommand read(const CommandText& text, Arguments arguments) {
+/// A command that prints a text.
+CommandRequest printing(Text text) {
   CommandRequest request;
-  request.command = text.name();
-  request.run = text.run;
+  request.text = text;
+  request.run = [](Request r) { return write_standard_output(r.text), 0; };
+  return request;
+}
+
+CommandRequest read(const CommandRow& row, Arguments arguments) {
+  CommandRequest request;
+  request.command = row.name();
+  request.run = row.run;
   request.arguments = arguments;
   if (request.command != "view") request.scene.what.clear();
-  if (auto help = parse(command_row(text), arguments, request)) return PrintCommand{*help};
+  if (const auto help = parse(row, arguments, request)) return printing(*help);
   finish(request);
   return request;
 }
@@ -133,8 +226,7 @@ std::string overview() {
   std::string text =
       "Tyndall: an interactive, progressive path tracer for glass, brushed metal and fog.\n"
       "Usage: tyndall [SCENE] | tyndall COMMAND [options]\n\nCommands:\n";
-  for (const CommandText& command : command_texts())
-    text += fmt::format("  {:<10}{}\n", command.name(), command.summary);
+  for (const CommandRow& command : command_rows()) text += fmt::format("  {:<10}{}\n", command.name(), command.summary);
   return text +
          "\nOptions:\n"
          "  -h, --help    show this text; 'tyndall COMMAND --help' shows that of a command\n"
@@ -144,10 +236,14 @@ std::string overview() {
          "3 input, output or display error; 130 Ctrl-C; 128 and its number: another signal.\n";
 }
 
-/// Throws if a word that was not taken for a command must have been meant as one.
-void refuse_misspelt_command(Text argument, bool alone) {
+/// Throws if a word that was not taken for a command must have been meant as one, or as an option of the program
+/// itself.
+void refuse_misspelt(Text argument, bool alone) {
+  const std::string option = did_you_mean(argument, {"--version", "--help"});
+  if (alone && argument.starts_with('-') && argument.size() > 2 && !option.empty())
+    refuse("unknown option {}{} (see tyndall --help)", in_quotes(argument), option);
   std::vector<std::string> names;
-  for (const CommandText& command : command_texts()) names.push_back(command.name());
+  for (const CommandRow& command : command_rows()) names.push_back(command.name());
   const std::string hint = did_you_mean(argument, {names.begin(), names.end()});
   if ((hint.empty() && alone) || argument[0] == '-' || argument.find_first_of("./") != std::string::npos) return;
   std::error_code error;
@@ -155,21 +251,11 @@ void refuse_misspelt_command(Text argument, bool alone) {
   refuse("unknown command {}{}", in_quotes(argument), hint);
 }
 
-/// Throws if the first word must have been meant as an option of the program itself.
-void refuse_misspelt_option(Text argument) {
-  if (argument.size() < 3 || argument[0] != '-') return;
-  const std::string hint = did_you_mean(argument, {"--version", "--help"});
-  if (!hint.empty()) refuse("unknown option {}{} (see tyndall --help)", in_quotes(argument), hint);
-}
-
-ParsedCommand read_help(Arguments arguments) {
-  if (arguments.empty()) return PrintCommand{overview()};
+std::string manual_text(Arguments arguments) {
+  if (arguments.empty()) return overview();
   constexpr std::string (*writers[])(const std::vector<CommandRow>&) = {man_page, bash_completion, zsh_completion,
                                                                         fish_completion};
-  const std::size_t form = read_name(arguments[0], {"man", "bash", "zsh", "fish"});
-  std::vector<CommandRow> rows;
-  for (const CommandText& command : command_texts()) rows.push_back(command_row(command));
-  return PrintCommand{writers[form](rows)};
+  return writers[read_name(arguments[0], {"man", "bash", "zsh", "fish"})](command_rows());
 }
 
 }  // namespace
@@ -181,38 +267,28 @@ CommandRequest read_method(const std::string& text) {
   CommandRequest method;
   method.curve = text.substr(0, equals);
   std::istringstream stream(text.substr(equals + 1));
-  std::vector<std::string> arguments;
-  for (std::string argument; stream >> argument;) arguments.push_back(argument);
-  const CommandText command{"--method NAME=FLAGS", "", "One curve of a chart.", "", {{"Method", "{render} --isa"}}, {}};
-  if (parse(command_row(command), arguments, method)) refuse("found a question for help, expected flags of a method");
+  const std::vector<std::string> arguments{std::istream_iterator<std::string>(stream), {}};
+  const auto rows =
+      with_options({{"--method NAME=FLAGS", "", "One curve of a chart.", "", {{"Method", "{render} --isa"}}, nullptr}});
+  if (parse(rows.front(), arguments, method)) refuse("found a question for help, expected flags of a method");
   return method;
 }
 
-ParsedCommand read_command(const std::vector<std::string>& arguments) {
-  const std::vector<CommandText>& commands = command_texts();
+CommandRequest read_command(const std::vector<std::string>& arguments) {
+  const std::vector<CommandRow>& commands = command_rows();
   if (arguments.empty()) return read(commands.front(), {});
   const std::string& first = arguments.front();
-  if (first == "-h" || first == "--help") return PrintCommand{overview()};
-  if (first == "help") return read_help({arguments.begin() + 1, arguments.end()});
-  if (first == "-V" || first == "--version" || first == "version") return PrintCommand{version_text()};
-  for (const CommandText& command : commands)
+  if (first == "-h" || first == "--help") return printing(overview());
+  if (first == "help") return printing(manual_text({arguments.begin() + 1, arguments.end()}));
+  if (first == "-V" || first == "--version" || first == "version") return printing(version_text());
+  for (const CommandRow& command : commands)
     if (first == command.name()) return read(command, {arguments.begin() + 1, arguments.end()});
   if (first == "book" && !std::filesystem::exists(first))
     refuse(
         "book: the folder of headers is gone: programs are read with their own; in place of a build by hand: tyndall "
         "main.cc, tyndall render main.cc -o picture.exr, or ./mine | tyndall view -");
-  refuse_misspelt_command(first, arguments.size() == 1);
-  if (arguments.size() == 1) refuse_misspelt_option(first);
+  refuse_misspelt(first, arguments.size() == 1);
   return read(commands.front(), arguments);
-}
-
-int run(const ParsedCommand& command) {
-  if (const auto* print = std::get_if<PrintCommand>(&command)) {
-    write_standard_output(print->text);
-    return 0;
-  }
-  const auto& request = std::get<CommandRequest>(command);
-  return request.run(request);
 }
 
 }  // namespace tyndall

@@ -1,21 +1,22 @@
 #pragma once
 #include "app/cli/requests.h"
 #include "app/files/outputs.h"
-#include "app/files/viewer_stream.h"
 #include "app/text/progress.h"
-#include "core/clean/clean.h"
+#include "core/base/seconds.h"
 #include "core/render/render.h"
 #include "core/scene/load.h"
 #include "core/system/processors.h"
 #include "core/system/signals.h"
 #include "core/targets/kernels.h"
 
-#include <chrono>
 #include <cstddef>
+#include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 /// The pictures that a command renders, one after the other, from what the user asked for to files: a render is a list
 /// of one.
@@ -24,23 +25,30 @@ namespace tyndall {
 /// The kernels of an instruction set ("": the best). Throws UsageError if this build or CPU has none of that name.
 Kernels find_kernels(const std::string& isa);
 
-/// The same for commands that may run for hours: "" must find more than the scalar kernels where the CPU runs wider
-/// ones.
-Kernels kernels_to_render(const std::string& isa);
-
-/// The scene of a command, with --frame the one of that frame.
-LoadedScene open_frame(const CommandRequest& command, OwnSamples& own);
+/// A list beside numbered pictures of formats that carry no settings: which frames are whole, and what they are of.
+///
+/// Lines are only ever added, so that several machines can write into one list, and a line that was cut off by a kill
+/// costs one frame: "3 begun 0123456789abcdef" before the frame's file is written, "3 whole 0123456789abcdef" after it.
+struct FrameList {
+  std::filesystem::path file{};
+  std::map<int, std::string> entries{};  ///< of frames: "begun 0123456789abcdef", the last one that was read
+};
+/// Reads the list, which need not be there.
+FrameList read_frame_list(const std::filesystem::path& file);
+/// Adds an entry to the list in a file. Throws IoError.
+void add_frame(const std::filesystem::path& list, int frame, const std::string& entry);
 
 /// One headless render from command to files. `render` makes one; `sweep` and `animate` make one for each picture.
 struct RenderJob {
-  CommandRequest command;
-  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-  LoadedScene loaded{};          ///< what the command's scene is; see open_scene_or_samples()
-  OwnSamples own{};              ///< where it is a picture
-  bool whole_only = false;       ///< of a picture that is unfinished only a film is written, which can be gone on with
+  CommandRequest command;  ///< and the options of the render, which set_up() completes
+  Clock::time_point start = Clock::now();
+  LoadedScene loaded{};     ///< what the command's scene is; see open_scene_or_samples()
+  OwnSamples own{};         ///< where it is a picture
+  bool whole_only = false;  ///< of a picture that is unfinished only a film is written, which can be gone on with
+  /// Beside outputs whose formats carry no settings.
+  std::map<std::filesystem::path, const FrameList*> lists{};
   std::filesystem::path film{};  ///< that an earlier run has finished; empty: the picture is to be rendered
   ThreadCount threads = thread_count(command.threads);
-  RenderOptions options{};
   Kernels kernels{};
   FilmPlace place{};      ///< where the film is kept
   Film begin{};           ///< the film to go on from; empty: the render starts anew
@@ -51,9 +59,9 @@ struct RenderJob {
   double seconds_build = 0;
 };
 
-/// Finds the kernels, and limits and region of a render: so much that its picture can be compared with what is there.
-/// spp is always set; where only time or error end the render, to max_samples. The job needs its scene. Throws
-/// UsageError for a region beyond the image and for adaptive sampling of a range.
+/// Finds the kernels, and completes the command's limits and region: so much that its picture can be compared with what
+/// is there. spp is always set; where only time or error end the render, to max_samples. The job needs its scene.
+/// Throws UsageError for a region beyond the image and for adaptive sampling of a range.
 void set_up(RenderJob& job);
 
 /// Remarks on what the user may not expect of the outputs, settings and textures. Outputs that nothing can take the
@@ -64,35 +72,32 @@ void tell_remarks(const RenderJob& job);
 /// One line on standard error if textures of the scene have an alpha channel, which is not looked at.
 void tell_alpha(const LoadedScene& loaded);
 
-/// Makes the frames, which takes the threads' time, and so seldom that this costs less than 1 % of it; of a viewer that
-/// is not there, or does not read, none are made. The clean view takes most of the time, so it comes more seldom, and
-/// always at the end.
-class LiveView {
- public:
-  /// The job is prepared, and lives longer.
-  explicit LiveView(const RenderJob& job);
+// What an earlier run has left of the pictures that a command is to make, so that a killed one goes on.
 
-  bool due() const;
-  /// Sends the film as it is. thread_pool: idle.
-  void take(const Film& film, ThreadPool& thread_pool);
-  /// Sends the finished picture and waits until the viewer has it, as ViewerStream::finish() does. clean: the film's
-  /// clean view, null: it is made here. Does nothing if there is no viewer.
-  void finish(const Film& film, const CleanPicture* clean);
-  /// What went wrong with the viewer, once.
-  std::optional<std::string> problem() { return stream_.problem(); }
+/// Looks at the film in the .exr output, or in the unfinished file beside it (see FilmPlace) if that is there. One that
+/// fits is gone on with if it is unfinished, has just the samples that are asked for, or --resume asks for it. Throws
+/// UsageError where --resume finds no film that fits, and for an unfinished one that does not fit: it says what
+/// differs; likewise for unfinished ones in further outputs. Any other file is replaced in the end. Here and below the
+/// job has been set up.
+void find_start(RenderJob& job);
 
- private:
-  using Clock = std::chrono::steady_clock;
-  void filter(const Film& film);
-  void send(const Film& film, ThreadPool& thread_pool);
+/// Says in the lists beside the job's outputs that they are "begun" or "whole".
+void list_outputs(const RenderJob& job, const std::string& state);
 
-  const RenderJob& job_;
-  ViewerStream stream_;
-  std::vector<float> clean_;  ///< the newest; empty: none yet
-  Clock::time_point start_ = Clock::now(), last_ = start_, last_clean_ = start_;
-  double cost_ = 0;        ///< seconds that the last frame took, or an estimate
-  double clean_cost_ = 0;  ///< likewise the clean view
+/// Whether a file holds the whole picture of the job. Throws UsageError if it is of something else: no picture of the
+/// same scene, settings and version.
+bool is_whole(const std::filesystem::path& file, const RenderJob& job);
+
+/// What is left to do for a picture of which an earlier run may have written some files.
+struct PictureTask {
+  std::vector<std::filesystem::path> outputs;  ///< files that are not whole
+  std::filesystem::path film;                  ///< the first whole file that holds its film; empty: none does
 };
+/// is_whole: not asked with --fresh.
+PictureTask task_of(const RenderJob& job, const std::function<bool(const std::filesystem::path& file)>& is_whole);
+
+/// 16 hexadecimal digits that differ with the job's scene, settings, version and instruction set.
+std::string picture_mark(const RenderJob& job);
 
 /// Checks the names of the outputs, before any file is read.
 void check_names(const CommandRequest& command);
@@ -105,39 +110,20 @@ struct RenderOutcome {
   FinishedPicture picture;
 };
 
-/// What a command does with a whole picture: before its files are written, and when they are, or could not be. Both may
-/// be empty.
-struct PictureSteps {
-  std::function<void()> writing;
-  std::function<void(const RenderOutcome&, bool written)> made;
+/// Pictures that are made one after the other, and how far all of them are.
+struct Series {
+  ProgressReport report;
+  std::size_t count;      ///< of pictures that are to be rendered
+  SignalWatch signals{};  ///< what asks for an end
+  std::size_t begun = 0;
+  std::size_t made = 0;  ///< those that are whole
+  double seconds = 0;    ///< of rendering
+  std::set<std::string> told{};
 };
 
-/// Renders and writes each, and tells how far all of them are.
-class Series {
- public:
-  /// count: of pictures that are to be rendered.
-  Series(ProgressStyle style, std::size_t count) : report_(style), count_(count) {}
-
-  /// Makes the picture of a job that is prepared. name: "frame 12"; "": it is the only one, which is summed up. False
-  /// if something could not be written.
-  bool make(RenderJob& job, const std::string& name = "", const PictureSteps& steps = {});
-  void finish(const std::string& summary) { report_.finish(summary); }
-
-  /// The signal that asked for an end; 0: none did.
-  int signal() const { return signals_.received(); }
-  std::size_t made() const { return made_; }   ///< pictures that are whole
-  double seconds() const { return seconds_; }  ///< of rendering
-  std::size_t left() const { return count_ - made_; }
-
- private:
-  RenderResult render(RenderJob& job, const std::string& name, LiveView* view);
-  void warn(const RenderJob& job, const RenderOutcome& outcome, const std::string& name);
-
-  SignalWatch signals_;
-  ProgressReport report_;
-  std::size_t count_, begun_ = 0, made_ = 0;
-  double seconds_ = 0;
-  std::set<std::string> told_;
-};
+/// Makes the picture of a job that is prepared. name: "frame 12"; "": it is the only one, which is summed up. False if
+/// something could not be written. made: called with a whole picture when its files are written, or could not be.
+bool make(Series& series, RenderJob& job, const std::string& name = "",
+          const std::function<void(const RenderOutcome&, bool written)>& made = {});
 
 }  // namespace tyndall

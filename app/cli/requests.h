@@ -13,7 +13,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 /// What the user asked for, which only read_command() makes, and the commands that do it.
@@ -26,6 +25,7 @@ struct CommandRequest : RenderOptions {
   int (*run)(const CommandRequest&) = nullptr;  ///< what does it
   std::vector<std::string> arguments;           ///< as the user typed them
   std::vector<std::string> operands;            ///< those of them that are neither options nor a scene
+  std::string text;                             ///< to be printed and nothing else: help or the version
   SceneRequest scene;
 
   // Pictures and how they are rendered.
@@ -73,16 +73,9 @@ struct CommandRequest : RenderOptions {
   bool measure = false;   ///< measure how much faster the chosen kernel and chains are
 };
 
-/// A text to be printed and nothing else: help or the version.
-struct PrintCommand {
-  std::string text;
-};
-
-/// The command line as a whole: a command's request, or what is to be printed. arguments[0] is what follows the
-/// program's name. Throws UsageError. Of files only the existence is looked at, to tell a misspelt command from a
-/// scene's file.
-using ParsedCommand = std::variant<CommandRequest, PrintCommand>;
-ParsedCommand read_command(const std::vector<std::string>& arguments);
+/// The command line as a whole. arguments[0] is what follows the program's name. Throws UsageError. Of files only the
+/// existence is looked at, to tell a misspelt command from a scene's file.
+CommandRequest read_command(const std::vector<std::string>& arguments);
 
 /// The exit code of a command that computed a picture and could not write all of it.
 inline constexpr int output_failed = 3;
@@ -92,9 +85,6 @@ template <class... Part>
 [[noreturn]] void refuse(fmt::format_string<Part...> text, Part&&... parts) {
   throw UsageError(fmt::format(text, std::forward<Part>(parts)...));
 }
-
-/// Runs the command that was read, or prints the text.
-int run(const ParsedCommand& command);
 
 /// The commands. Each returns the program's exit code: 0 when done, 1 if a check failed, output_failed, or 130 and 143
 /// if interrupted. For everything else they throw: UsageError, SceneError and MergeError where the user is at fault,

@@ -1,14 +1,13 @@
-#include "app/cli/kept_pictures.h"
 #include "app/cli/pictures.h"
 #include "app/files/checkpoint.h"
-#include "app/files/memory.h"
+#include "app/files/viewer_stream.h"
 #include "app/text/standard_streams.h"
 #include "core/accuracy/estimate.h"
 #include "core/base/error.h"
 #include "core/base/seconds.h"
 #include "core/base/text.h"
 #include "core/files/film_files.h"
-#include "core/render/plan.h"
+#include "core/render/clean_film.h"
 
 #include <nlohmann/json.hpp>
 
@@ -17,6 +16,93 @@
 
 namespace tyndall {
 namespace {
+
+// How often a viewer gets pictures.
+constexpr double shortest_interval = 0.25;  // seconds
+constexpr double interval_over_cost = 200;  // of frames, and of clean views: together 1 %
+constexpr double first_over_cost = 100;  // the first frame comes earlier: of a viewer that does not read it is the last
+constexpr double seconds_per_pixel = 5e-8;        // of a frame, before the first one is measured
+constexpr double clean_seconds_per_pixel = 2e-6;  // of one thread, before the first one is measured
+constexpr double patience_over_elapsed = 0.005, shortest_patience = 0.02;
+
+/// Shows the picture of a job in its viewer, if it has one. Makes the frames, which takes the threads' time, and so
+/// seldom that this costs less than 1 % of it; of a viewer that is not there, or does not read, none are made. The
+/// clean view takes most of the time, so it comes more seldom, and always at the end.
+class LiveView {
+ public:
+  /// The job is prepared, and lives longer.
+  explicit LiveView(const RenderJob& job) : job_(job) {
+    const Scene& scene = job.loaded.scene;
+    if (job.command.viewer) stream_.emplace(*job.command.viewer, job.loaded.name, scene.width, scene.height);
+    const double pixels = static_cast<double>(scene.width) * scene.height;
+    cost_ = seconds_per_pixel * first_over_cost / interval_over_cost * pixels;
+    clean_cost_ = clean_seconds_per_pixel * pixels / job.threads.count;
+  }
+
+  bool due() const {
+    return stream_ && seconds_since(last_) >= std::max(shortest_interval, interval_over_cost * cost_) &&
+           stream_->ready();
+  }
+  /// Sends the film as it is. thread_pool: idle.
+  void take(const Film& film, ThreadPool& thread_pool) {
+    const auto begin = Clock::now();
+    if (totals(film).min_taken >= min_clean_spp && seconds_since(last_clean_) >= interval_over_cost * clean_cost_) {
+      filter(film);
+      clean_cost_ = seconds_since(begin), last_clean_ = Clock::now();
+    }
+    const auto after_clean = Clock::now();
+    send(film, thread_pool);
+    cost_ = seconds_since(after_clean), last_ = Clock::now();
+  }
+  /// Sends the finished picture and waits until the viewer has it, as ViewerStream::finish() does. Files are written by
+  /// then, and nothing that fails here is an error.
+  void finish(const RenderResult& result) {
+    try {
+      if (stream_ && !result.interrupted) send_last(result);
+      if (const auto told = problem()) complain(*told);
+    } catch (const std::exception& error) {
+      complain(std::string("--watch-at: ") + error.what());
+    }
+  }
+  /// What went wrong with the viewer, once.
+  std::optional<std::string> problem() {
+    const auto problem = stream_ ? stream_->problem() : std::nullopt;
+    if (!problem) return {};
+    return "--watch-at: " + *problem + "; the render goes on without it";
+  }
+
+ private:
+  void filter(const Film& film) { clean_ = clean_film(film, *job_.prepared, job_.threads.count, job_.kernels.isa).rgb; }
+  void send(const Film& film, ThreadPool& thread_pool) {
+    const std::vector<float> rgb = resolve(film), errors = pixel_relative_error(film, &thread_pool);
+    ViewerFrame frame{film.region, {}};
+    frame.values.reserve(viewer_channel_count * film.pixels.size());
+    for (std::size_t i = 0; i < film.pixels.size(); ++i) {
+      frame.values.insert(frame.values.end(), {rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2], errors[i]});
+      for (std::size_t c = 0; c < 3; ++c) frame.values.push_back(clean_.empty() ? 0.0f : clean_[3 * i + c]);
+    }
+    stream_->send(std::move(frame));
+  }
+  void send_last(const RenderResult& result) {
+    const double patience = std::max(shortest_patience, patience_over_elapsed * seconds_since(start_));
+    stream_->finish(patience);
+    if (!stream_->ready()) return;
+    if (result.clean)
+      clean_ = result.clean->rgb;
+    else if (totals(result.film).min_taken >= min_clean_spp)
+      filter(result.film);
+    ThreadPool thread_pool(job_.threads.count);
+    send(result.film, thread_pool);
+    stream_->finish(patience);
+  }
+
+  const RenderJob& job_;
+  std::optional<ViewerStream> stream_{};
+  std::vector<float> clean_{};  ///< the newest; empty: none yet
+  Clock::time_point start_ = Clock::now(), last_ = start_, last_clean_ = start_;
+  double cost_ = 0;        ///< seconds that the last frame took, or an estimate
+  double clean_cost_ = 0;  ///< likewise the clean view
+};
 
 RunFigures figures(const RenderJob& job, const RenderOutcome& outcome) {
   return {job.loaded.name,    *job.prepared,     outcome.result,           outcome.picture,
@@ -72,47 +158,32 @@ void write_so_far(const RenderJob& job, const RenderResult& result) {
   }
 }
 
-std::string viewer_text(const std::string& problem) {
-  return "--watch-at: " + problem + "; the render goes on without it";
-}
-
 /// What is done while the render goes on: checkpoints, or saying that there are none, the viewer, and SIGUSR1.
-RenderBreaks breaks_of(const RenderJob& job, const SignalWatch& signals, ProgressReport& report,
-                       Checkpoints& checkpoints, LiveView* view) {
+RenderBreaks breaks_of(Series& series, const RenderJob& job, Checkpoints& checkpoints, LiveView& view) {
   RenderBreaks breaks;
-  breaks.result_due = [&signals] { return signals.take_save_request(); };
+  breaks.result_due = [&series] { return series.signals.take_save_request(); };
   breaks.take_result = [&job, &checkpoints](const RenderResult& result) {
     checkpoints.finish();
     write_so_far(job, result);
   };
   const bool wanted = job.command.checkpoint != 0, kept = wanted && !checkpoints.file().empty();
   const bool told = !wanted || !job.place.output.empty() || job.whole_only;
-  breaks.film_due = [&checkpoints, &report, view, kept, said = told]() mutable {
-    if (const auto problem = checkpoints.problem()) report.say(*problem);
-    if (const auto problem = view ? view->problem() : std::nullopt) report.say(viewer_text(*problem));
+  breaks.film_due = [&checkpoints, &series, &view, kept, said = told]() mutable {
+    if (const auto problem = checkpoints.problem()) series.report.say(*problem);
+    if (const auto problem = view.problem()) series.report.say(*problem);
     if (!kept && !said && checkpoints.due()) {
       said = true;
-      report.say(
+      series.report.say(
           "nothing is kept before the end; with a file as output that ends in .exr, and --exr-film yes, a killed "
           "render can go on");
     }
-    return (kept && checkpoints.due()) || (view && view->due());
+    return (kept && checkpoints.due()) || view.due();
   };
-  breaks.take_film = [&checkpoints, view, kept](const Film& film, ThreadPool& thread_pool) {
+  breaks.take_film = [&checkpoints, &view, kept](const Film& film, ThreadPool& thread_pool) {
     if (kept && checkpoints.due()) checkpoints.take(film, thread_pool);
-    if (view && view->due()) view->take(film, thread_pool);
+    if (view.due()) view.take(film, thread_pool);
   };
   return breaks;
-}
-
-/// Shows the finished picture in the viewer. Files are written by then, and nothing that fails here is an error.
-void show_last(LiveView& view, const RenderResult& result) {
-  try {
-    if (!result.interrupted) view.finish(result.film, result.clean ? &*result.clean : nullptr);
-    if (const auto problem = view.problem()) complain(viewer_text(*problem));
-  } catch (const std::exception& error) {
-    complain(std::string("--watch-at: ") + error.what());
-  }
 }
 
 std::string summary(const RenderOutcome& outcome, const std::vector<std::filesystem::path>& outputs) {
@@ -133,73 +204,35 @@ std::string summary(const RenderOutcome& outcome, const std::vector<std::filesys
          progress_text(end, {}) + clean + lacks;
 }
 
-}  // namespace
-
-void check_names(const CommandRequest& command) {
-  check_image_names(command.outputs, command.form, command.stats);
-  if (is_image_output(command.stats))
-    refuse("--stats: found {}, expected a name that ends in .json", in_quotes(command.stats.string()));
-  kernels_to_render(command.isa);
-}
-
-void prepare(RenderJob& job) {
-  const CommandRequest& command = job.command;
-  set_up(job);
-  job.options.threads = job.threads.count;
-  if (job.loaded.is_picture) {
-    job.options.samples = job.own.function()->source();
-    job.options.threads = std::max(command.threads, 1);
-  }
-  const std::vector<Output> outputs = outputs_of(command.outputs, command.stats);
-  check_outputs(outputs, job.loaded.files);
-  check_can_write(outputs);
-  // Without --checkpoint only renders of more than half a minute copy their film, and only if there is memory for it.
-  check_memory({.width = job.options.region->width(),
-                .height = job.options.region->height(),
-                .place = job.loaded.name + ": /image",
-                .emission = has_lights(job.loaded.scene),
-                .clean = command.clean,
-                .checkpoints = command.checkpoint > 0,
-                .files = command.outputs,
-                .form = command.form},
-               free_memory());
-  if (!job.loaded.is_picture) find_start(job);  // of a picture there is no film to go on with
-  if (job.film.empty()) return;
-  job.begin = read_film_alone(job.film);  // to which nothing is added
-  job.options.spp = labelled_spp(job.begin);
-  job.options.time_limit = std::numeric_limits<double>::infinity();
-  job.options.target_error = 0;
-}
-
 /// Renders, with checkpoints.
-RenderResult Series::render(RenderJob& job, const std::string& name, LiveView* view) {
-  const std::uint32_t spp = *job.options.spp;
-  const ProgressGoal goal{totals(job.begin).min_taken, spp < max_samples ? spp : 0, job.command.time_limit,
-                          job.command.target_error};
+RenderResult render(Series& series, RenderJob& job, const std::string& name, LiveView& view) {
+  const std::uint32_t before = totals(job.begin).min_taken;
   const auto show = [&](const RenderProgress& now) {
-    if (name.empty()) return report_.show(now.seconds, progress_fraction(now, goal), progress_text(now, goal));
-    const double done = (static_cast<double>(made_) + progress_fraction(now, goal)) / static_cast<double>(count_);
-    const double seconds = seconds_ + now.seconds;
-    std::string text = fmt::format("{} ({}/{}), {}{} spp", name, made_ + 1, count_, now.spp,
-                                   goal.spp > 0 ? fmt::format("/{}", goal.spp) : "");
+    const double part = progress_fraction(now, job.command, before);
+    if (name.empty()) return series.report.show(now.seconds, part, progress_text(now, job.command, before));
+    const double done = (static_cast<double>(series.made) + part) / static_cast<double>(series.count);
+    const double seconds = series.seconds + now.seconds;
+    std::string text =
+        fmt::format("{} ({}/{}), {}", name, series.made + 1, series.count, samples_text(now, job.command));
     if (done > 0) text += ", " + duration(seconds * (1 - done) / done) + " left";
-    report_.show(seconds, done, text);
+    series.report.show(seconds, done, text);
   };
   const std::filesystem::path& kept = job.place.unfinished;
   Checkpoints checkpoints(kept, job.command.checkpoint,
                           [&job, &kept](const Film& film) { return embedded_in(job, film, kept, "", true); });
-  job.options.breaks = breaks_of(job, signals_, report_, checkpoints, view);
+  job.command.breaks = breaks_of(series, job, checkpoints, view);
   const auto go_on = [&](const RenderProgress& now) {
     show(now);
-    return signals_.received() == 0;
+    return series.signals.received() == 0;
   };
   try {
-    RenderResult result = tyndall::render(*job.prepared, job.options, go_on, std::move(job.begin));
+    RenderResult result = tyndall::render(*job.prepared, job.command, go_on, std::move(job.begin));
     checkpoints.finish();
-    if (const auto problem = checkpoints.problem()) report_.say(*problem);  // of one that failed just before the end
+    if (const auto problem = checkpoints.problem())
+      series.report.say(*problem);  // of one that failed just before the end
     return result;
   } catch (const std::bad_alloc&) {
-    const Region& r = *job.options.region;
+    const Region& r = *job.command.region;
     const auto bytes =
         static_cast<double>(bytes_per_pixel(needs_trait<&BsdfTraits::emits>(job.prepared->columns().features)));
     throw IoError(fmt::format("not enough memory: a film of {}x{} pixels takes {:.3g} GB{}", r.width(), r.height(),
@@ -209,16 +242,16 @@ RenderResult Series::render(RenderJob& job, const std::string& name, LiveView* v
 
 /// Tells what users should know of a picture, also with -q, which only turns progress off; what holds for several,
 /// once.
-void Series::warn(const RenderJob& job, const RenderOutcome& outcome, const std::string& name) {
+void warn(Series& series, const RenderJob& job, const RenderOutcome& outcome, const std::string& name) {
   const auto tell = [&](const std::string& text) {
-    if (told_.insert(text).second)
-      report_.say((name.empty() ? "" : name + ": ") + text + (count_ > 1 ? " (told once for all)" : ""));
+    if (series.told.insert(text).second)
+      series.report.say((name.empty() ? "" : name + ": ") + text + (series.count > 1 ? " (told once for all)" : ""));
   };
   const RenderResult& result = outcome.result;
   const FilmTotals& sum = outcome.picture.totals;
   if (outcome.picture.rare_bright_paths)
     tell(std::string(rare_bright_paths) + "; the error may be larger than estimated");
-  if (job.options.clean && !result.clean)
+  if (job.command.clean && !result.clean)
     tell("--denoise: the picture is not filtered, as some pixels have fewer than 2 samples");
   const std::string uneven = uneven_text(job.loaded.scene, sum);
   if (!uneven.empty()) tell(uneven);
@@ -231,28 +264,31 @@ void Series::warn(const RenderJob& job, const RenderOutcome& outcome, const std:
                    sum.rejected, sum.samples, places));
 }
 
-bool Series::make(RenderJob& job, const std::string& name, const PictureSteps& steps) {
-  if (begun_++ == 0) tell_remarks(job);
-  const auto start = std::chrono::steady_clock::now();
+}  // namespace
+
+bool make(Series& series, RenderJob& job, const std::string& name,
+          const std::function<void(const RenderOutcome&, bool written)>& made) {
+  if (series.begun++ == 0) tell_remarks(job);
+  const auto start = Clock::now();
   job.prepared = tyndall::prepare(job.loaded.scene);
   job.seconds_build = seconds_since(start);
   job.samples_before = totals(job.begin).samples;
-  std::optional<LiveView> view;
-  if (job.command.viewer) view.emplace(job);
-  const RenderResult result = render(job, name, view ? &*view : nullptr);
-  seconds_ += result.seconds;
-  if (!result.interrupted) ++made_;
+  LiveView view(job);
+  const RenderResult result = render(series, job, name, view);
+  series.seconds += result.seconds;
+  if (!result.interrupted) ++series.made;
   const RenderOutcome outcome{result, finished_picture(*job.prepared, result)};
-  if (name.empty()) report_.finish(summary(outcome, job.command.outputs));
+  if (name.empty()) series.report.finish(summary(outcome, job.command.outputs));
   if (outcome.picture.totals.max_taken == 0) {
     if (name.empty()) complain("interrupted before the first samples: nothing written");
     return true;
   }
-  warn(job, outcome, name);
-  if (steps.writing && !result.interrupted) steps.writing();
+  warn(series, job, outcome, name);
+  if (!result.interrupted) list_outputs(job, "begun");
   const bool written = write(job, outcome);
-  if (steps.made && !result.interrupted) steps.made(outcome, written);
-  if (view) show_last(*view, result);
+  if (!result.interrupted && written) list_outputs(job, "whole");
+  if (!result.interrupted && made) made(outcome, written);
+  view.finish(result);
   return written;
 }
 

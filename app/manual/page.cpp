@@ -1,10 +1,12 @@
 #include "app/manual/page.h"
 
 #include "app/text/markup.h"
+#include "app/text/values.h"
+#include "core/base/target.h"
 #include "core/base/text.h"
+#include "core/system/guard.h"
 
 #include <algorithm>
-#include <sstream>
 
 namespace tyndall {
 namespace {
@@ -17,12 +19,7 @@ std::string of_each(const std::vector<Row>& rows, const Say& say) {
   return text;
 }
 
-std::vector<std::string> names_of(const OptionRow& option) {
-  std::vector<std::string> names;
-  std::istringstream all(option.names);
-  for (std::string name; std::getline(all, name, ',');) names.push_back(name);
-  return names;
-}
+std::vector<std::string> names_of(const OptionRow& option) { return split_at(option.names, ','); }
 
 /// Text that man(7) shows as it is: a backslash, a dash, and a line that begins like a request would be read otherwise.
 std::string escaped(const std::string& text) {
@@ -30,13 +27,8 @@ std::string escaped(const std::string& text) {
   bool at_start = true;
   for (const char c : text) {
     if (at_start && (c == '.' || c == '\'')) out += "\\&";
-    if (c == '\\') {
-      out += "\\e";
-    } else if (c == '-') {
-      out += "\\-";
-    } else {
-      out += c;
-    }
+    if (c == '\\' || c == '-') out += '\\';
+    out += c == '\\' ? 'e' : c;
     at_start = c == '\n';
   }
   return out;
@@ -51,7 +43,7 @@ std::string option_text(const OptionRow& option) {
 }
 
 std::string command_text(const CommandRow& command) {
-  std::string name = command.name, about = escaped(command.about), group;
+  std::string name = command.name(), about = escaped(command.about), group;
   std::transform(name.begin(), name.end(), name.begin(), [](char c) { return static_cast<char>(c - 'a' + 'A'); });
   for (std::size_t at = 0; (at = about.find("\n\n", at)) != about.npos;) about.replace(at, 2, "\n.PP\n");
   std::string text = ".SH " + name + "\n.B tyndall " + escaped(command.usage) + "\n.PP\n" + about + "\n.PP\n";
@@ -75,17 +67,17 @@ bool takes_file(const OptionRow& option) { return option.unit.starts_with("FILE"
 std::string bash_values(const CommandRow& command) {
   return of_each(command.options, [&](const OptionRow& option) {
     if (option.unit.empty()) return std::string();
-    const std::string cases = joined(names_of(option), "' | '" + command.name + " ");
+    const std::string cases = joined(names_of(option), "' | '" + command.name() + " ");
     std::string values = takes_file(option) ? "_tyndall_files \"$word\"; return" : "return";
     if (!option.taker.choices.empty()) values = "words='" + joined(option.taker.choices, " ") + "'";
-    return "    '" + command.name + " " + cases + "') " + values + " ;;\n";
+    return "    '" + command.name() + " " + cases + "') " + values + " ;;\n";
   });
 }
 
 std::string bash_options(const CommandRow& command) {
   std::vector<std::string> names;
   for (const OptionRow& option : command.options) names.push_back(joined(names_of(option), " "));
-  return "      " + command.name + ") words='" + joined(names, " ") + "' ;;\n";
+  return "      " + command.name() + ") words='" + joined(names, " ") + "' ;;\n";
 }
 
 std::string zsh_option(const OptionRow& option) {
@@ -100,7 +92,7 @@ std::string zsh_option(const OptionRow& option) {
 }
 
 std::string zsh_options(const CommandRow& command) {
-  return "    " + command.name + ")\n      _arguments -S" + of_each(command.options, zsh_option) +
+  return "    " + command.name() + ")\n      _arguments -S" + of_each(command.options, zsh_option) +
          (command.arguments.empty() ? "" : " \\\n        '*:file:_tyndall_words'") + "\n      ;;\n";
 }
 
@@ -113,11 +105,29 @@ std::string fish_option(const OptionRow& option) {
   return text + " -d " + in_shell(short_help(option.help)) + "\n";
 }
 
+std::string compiler_text() {
+#if defined(__clang__)
+  const std::string name = "clang " __clang_version__;
+#elif defined(__GNUC__)
+  const std::string name = "GCC " __VERSION__;
+#else
+  const std::string name = "unknown compiler";
+#endif
+#if defined(_LIBCPP_VERSION)
+  const std::string library = "libc++ " + std::to_string(_LIBCPP_VERSION / 1000);
+#elif defined(__GLIBCXX__)
+  const std::string library = "libstdc++ " + std::to_string(_GLIBCXX_RELEASE);
+#else
+  const std::string library = "unknown standard library";
+#endif
+  return name.substr(0, name.find_last_not_of(' ') + 1) + ", " + library + ", " TYNDALL_BUILD;
+}
+
 }  // namespace
 
 std::string man_page(const std::vector<CommandRow>& commands) {
   const auto summary = [](const CommandRow& command) {
-    return ".TP\n.B " + command.name + "\n" + escaped(command.summary) + "\n";
+    return ".TP\n.B " + command.name() + "\n" + escaped(command.summary) + "\n";
   };
   return from_template("tyndall.1", {{"version", TYNDALL_VERSION},
                                      {"commands", of_each(commands, summary)},
@@ -126,7 +136,7 @@ std::string man_page(const std::vector<CommandRow>& commands) {
 
 std::string bash_completion(const std::vector<CommandRow>& commands) {
   std::vector<std::string> names;
-  for (const CommandRow& command : commands) names.push_back(command.name);
+  for (const CommandRow& command : commands) names.push_back(command.name());
   return from_template("completion.bash", {{"values", of_each(commands, bash_values)},
                                            {"commands", joined(names, " ")},
                                            {"options", of_each(commands, bash_options)}});
@@ -134,7 +144,7 @@ std::string bash_completion(const std::vector<CommandRow>& commands) {
 
 std::string zsh_completion(const std::vector<CommandRow>& commands) {
   const auto summary = [](const CommandRow& command) {
-    return "      " + in_shell(command.name + ":" + short_help(command.summary)) + "\n";
+    return "      " + in_shell(command.name() + ":" + short_help(command.summary)) + "\n";
   };
   return from_template("completion.zsh",
                        {{"commands", of_each(commands, summary)}, {"options", of_each(commands, zsh_options)}});
@@ -143,16 +153,24 @@ std::string zsh_completion(const std::vector<CommandRow>& commands) {
 std::string fish_completion(const std::vector<CommandRow>& commands) {
   const std::string one = "complete -c tyndall -n ";
   const auto summary = [&one](const CommandRow& command) {
-    return one + "__fish_use_subcommand -a " + command.name + " -d " + in_shell(short_help(command.summary)) + "\n";
+    return one + "__fish_use_subcommand -a " + command.name() + " -d " + in_shell(short_help(command.summary)) + "\n";
   };
   const auto options = [&one](const CommandRow& command) {
     return of_each(command.options, [&](const OptionRow& option) {
-      return one + "'__fish_seen_subcommand_from " + command.name + "'" + fish_option(option);
+      return one + "'__fish_seen_subcommand_from " + command.name() + "'" + fish_option(option);
     });
   };
   return "# Completion of tyndall for fish; made by \"tyndall help fish\".\n"
          "complete -c tyndall -a '(tyndall scenes 2>/dev/null | string split -f 1 \" \")' -d scene\n" +
          of_each(commands, summary) + of_each(commands, options);
+}
+
+std::string version_text() {
+  const std::vector<Target> missing = missing_targets();
+  return "tyndall " TYNDALL_VERSION "\ncompiler   " + compiler_text() + "\nkernels    " + names_of(built_targets()) +
+         "; this CPU runs " + names_of(available_targets()) +
+         (missing.empty() ? "" : ", and could run " + names_of(missing) + how_to_build(name_of(missing.back()))) +
+         "\nguard      " + guard_text(available_guard()) + "\nlibraries  " TYNDALL_LIBRARIES "\n";
 }
 
 }  // namespace tyndall

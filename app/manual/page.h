@@ -35,12 +35,22 @@ struct OptionRow {
   std::string heading;        ///< that it stands below in a help; "": no help lists it
 };
 
+/// Options that stand below one heading of a help.
+struct OptionGroup {
+  const char* heading;  ///< "": no help lists them
+  /// Long names as option_row() knows them, with spaces between; {display} and {render}: those of fields().
+  const char* options;
+};
+
 /// One command. All texts are lines with \n between them.
 struct CommandRow {
-  std::string name, summary;    ///< "render", and what it does in a few words
-  std::string usage;            ///< what follows "tyndall"
+  std::string usage, summary;   ///< what follows "tyndall", and what the command does in a few words
   std::string about, examples;  ///< before and after the options in the help
-  std::vector<OptionRow> arguments, options;
+  std::vector<OptionGroup> groups;
+  int (*run)(const CommandRequest&);
+  std::vector<OptionRow> arguments{}, options{};  ///< those that the groups name
+
+  std::string name() const { return usage.substr(0, usage.find(' ')); }
 };
 
 /// The page "tyndall.1" in the language of man(7).

@@ -78,13 +78,10 @@ class Reader {
   double signed_power() {
     if (++depth_ > deepest) return fail();
     const double sign = take("-") ? -1 : take("+") ? 1 : 0;
-    const double value = sign != 0 ? sign * signed_power() : power();
+    const double base = sign != 0 ? sign * signed_power() : single();
+    const double value = sign == 0 && take("^") ? std::pow(base, signed_power()) : base;
     --depth_;
     return value;
-  }
-  double power() {
-    const double base = single();
-    return take("^") ? std::pow(base, signed_power()) : base;
   }
   double single() {
     if (take("pi") || take("π")) return pi;

@@ -12,13 +12,18 @@
 
 namespace tyndall {
 
-double progress_fraction(const RenderProgress& now, const ProgressGoal& goal) {
+/// Samples a pixel at the end; 0: open.
+static std::uint32_t last_spp(const RenderOptions& limits) {
+  return limits.spp && *limits.spp < max_samples ? *limits.spp : 0;
+}
+
+double progress_fraction(const RenderProgress& now, const RenderOptions& limits, std::uint32_t spp_before) {
   double part = 0;
-  if (goal.spp > goal.spp_before && now.spp > goal.spp_before)
-    part = static_cast<double>(now.spp - goal.spp_before) / (goal.spp - goal.spp_before);
-  if (std::isfinite(goal.time_limit)) part = std::max(part, now.seconds / goal.time_limit);
-  if (goal.target_error > 0 && std::isfinite(now.relative_error)) {
-    const double ratio = goal.target_error / std::max(now.relative_error, 1e-300);
+  if (last_spp(limits) > spp_before && now.spp > spp_before)
+    part = static_cast<double>(now.spp - spp_before) / (last_spp(limits) - spp_before);
+  if (std::isfinite(limits.time_limit)) part = std::max(part, now.seconds / limits.time_limit);
+  if (limits.target_error > 0 && std::isfinite(now.relative_error)) {
+    const double ratio = limits.target_error / std::max(now.relative_error, 1e-300);
     part = std::max(part, ratio * ratio);
   }
   return std::min(part, 1.0);
@@ -32,14 +37,17 @@ std::string duration(double seconds) {
   return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
-std::string progress_text(const RenderProgress& now, const ProgressGoal& goal) {
-  std::string text = std::to_string(now.spp);
-  if (goal.spp > 0) text += "/" + std::to_string(goal.spp);
-  text += " spp";
+std::string samples_text(const RenderProgress& now, const RenderOptions& limits) {
+  const std::uint32_t last = last_spp(limits);
+  return std::to_string(now.spp) + (last > 0 ? "/" + std::to_string(last) : "") + " spp";
+}
+
+std::string progress_text(const RenderProgress& now, const RenderOptions& limits, std::uint32_t spp_before) {
+  std::string text = samples_text(now, limits);
   if (now.mrays_per_s > 0) text += fmt::format(", {:.3g} Mrays/s", now.mrays_per_s);
   if (std::isfinite(now.relative_error)) text += fmt::format(", error {:.2g}", now.relative_error);
   text += ", " + duration(now.seconds);
-  const double part = progress_fraction(now, goal);
+  const double part = progress_fraction(now, limits, spp_before);
   if (part > 0) text += ", " + duration(now.seconds * (1 - part) / part) + " left";
   return text;
 }

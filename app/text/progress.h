@@ -1,44 +1,26 @@
 #pragma once
-#include "core/base/choice.h"
 #include "core/render/render.h"
 
 #include <cstdint>
-#include <limits>
 #include <string>
 
 /// Tells on standard error how a render is going.
 namespace tyndall {
 
+/// A bar on a terminal, else plain; a line now and then; nothing.
 enum class ProgressStyle { automatic, plain, none };
 
-constexpr Label label(ProgressStyle style) {
-  switch (style) {
-    case ProgressStyle::automatic:
-      return {"auto", "a bar on a terminal, else plain"};
-    case ProgressStyle::plain:
-      return {"plain", "a line now and then"};
-    case ProgressStyle::none:
-      return {"none"};
-  }
-  return {};
-}
-
-/// Where a render is to end. The bar's length and the time left are measured against it.
-struct ProgressGoal {
-  std::uint32_t spp_before = 0;  ///< samples a pixel that were there when the render began
-  std::uint32_t spp = 0;         ///< samples a pixel at the end; 0: open
-  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
-  double target_error = 0;                                      ///< 0: none
-};
-
-/// Part of the way to the goal, in [0, 1]; 0 when nothing is known yet. The error shrinks as 1 / sqrt(samples).
-double progress_fraction(const RenderProgress& now, const ProgressGoal& goal);
+/// Part of the way to the nearest limit of a render, in [0, 1]; 0 when nothing is known yet. The error shrinks as
+/// 1 / sqrt(samples). spp_before: samples a pixel that were there when the render began.
+double progress_fraction(const RenderProgress& now, const RenderOptions& limits, std::uint32_t spp_before = 0);
 
 /// "12.3 s", "4:05", "1:02:03".
 std::string duration(double seconds);
 
+/// "16/64 spp"; where their number is not limited "16 spp".
+std::string samples_text(const RenderProgress& now, const RenderOptions& limits);
 /// "16/64 spp, 45.2 Mrays/s, error 0.031, 12.3 s, 0:37 left"; what is not known is left out.
-std::string progress_text(const RenderProgress& now, const ProgressGoal& goal);
+std::string progress_text(const RenderProgress& now, const RenderOptions& limits, std::uint32_t spp_before = 0);
 
 /// Shows progress as it comes: a bar that is redrawn on a terminal, else a plain line after 2 s and then ever more
 /// rarely. NO_COLOR and TERM=dumb are respected.

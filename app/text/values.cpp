@@ -38,13 +38,6 @@ bool read_numbers(std::string_view text, char separator, auto& first, auto&... r
          read_numbers(text.substr(end + 1), separator, rest...);
 }
 
-std::vector<std::string> split_at(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  std::istringstream in(text + separator);
-  for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
-  return parts;
-}
-
 /// JSON in one line.
 std::string one_line(const JsonValue& json) {
   if (const auto* text = std::get_if<std::string>(&json.value)) return in_quotes(*text);
@@ -105,32 +98,34 @@ Range<T> read_range(const std::string& text, const std::string& example) {
 }
 
 /// The pattern in a name whose place ends with that letter.
-NamePattern read_pattern(std::string_view rest, char letter, const std::string& expected) {
-  const std::string text(rest);
+NamePattern read_pattern(const std::string& text, char letter, const std::string& expected) {
   NamePattern pattern;
-  bool found = false;
-  while (!rest.empty()) {
-    std::string& part = found ? pattern.after : pattern.before;
-    const std::size_t end = std::min(rest.find('%'), rest.size());
-    part += rest.substr(0, end);
-    rest.remove_prefix(end);
-    if (rest.starts_with("%%")) {
-      part += '%';
-    } else if (!rest.empty()) {
-      if (letter == 'd' && rest.size() > 3 && rest[1] == '0' && rest[2] >= '0' && rest[2] <= '9') {
-        pattern.digits = rest[2] - '0';
-        rest.remove_prefix(2);
-      }
-      if (found || rest.size() < 2 || rest[1] != letter) refuse(text, expected);
-      found = true;
+  std::string* part = &pattern.before;
+  for (std::string_view rest = text; !rest.empty();) {
+    if (rest[0] != '%' || rest.starts_with("%%")) {
+      *part += rest[0];
+      rest.remove_prefix(rest[0] == '%' ? 2 : 1);
+      continue;
     }
-    rest.remove_prefix(std::min<std::size_t>(2, rest.size()));
+    const bool padded = letter == 'd' && rest.size() > 3 && rest[1] == '0' && rest[2] >= '0' && rest[2] <= '9';
+    if (padded) pattern.digits = rest[2] - '0';
+    rest.remove_prefix(padded ? 3 : 1);
+    if (part == &pattern.after || !rest.starts_with(letter)) refuse(text, expected);
+    rest.remove_prefix(1);
+    part = &pattern.after;
   }
-  if (!found) refuse(text, expected);
+  if (part == &pattern.before) refuse(text, expected);
   return pattern;
 }
 
 }  // namespace
+
+std::vector<std::string> split_at(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream in(text + separator);
+  for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
+  return parts;
+}
 
 std::int64_t read_whole(const std::string& text, std::int64_t low, std::int64_t high) {
   return read_whole(text, between(static_cast<double>(low), static_cast<double>(high)),
@@ -236,21 +231,6 @@ std::string name_for(const NamePattern& pattern, int number) {
 std::string name_for(const NamePattern& pattern, std::string value) {
   std::replace(value.begin(), value.end(), '/', '_');
   return pattern.before + value + pattern.after;
-}
-
-std::string wrapped(const std::string& text, std::size_t columns) {
-  std::string out;
-  std::size_t used = 0;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t inside = text[at] == '[' ? text.find(']', at) : at;
-    const std::size_t end = std::min(text.find(' ', std::min(inside, text.size())), text.size());
-    const bool fits = out.empty() || used + 1 + (end - at) <= columns;
-    if (!out.empty()) out += fits ? ' ' : '\n';
-    used = (fits && !out.empty() ? used + 1 : 0) + (end - at);
-    out += text.substr(at, end - at);
-    at = end + 1;
-  }
-  return out;
 }
 
 }  // namespace tyndall

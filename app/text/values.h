@@ -32,6 +32,8 @@ struct SampleKey {
   std::uint32_t sample = 0;
 };
 
+/// What stands between the separators.
+std::vector<std::string> split_at(const std::string& text, char separator);
 /// A whole number, low <= n <= high.
 std::int64_t read_whole(const std::string& text, std::int64_t low, std::int64_t high);
 /// The same; expected: "a whole number >= 0", ...
@@ -77,9 +79,5 @@ NamePattern read_valued_name(const std::string& text);
 std::string name_for(const NamePattern& pattern, int number);
 /// Slashes in the value become _.
 std::string name_for(const NamePattern& pattern, std::string value);
-
-/// The text in lines of at most that many bytes, broken at spaces. Longer words, and what stands in [brackets], are not
-/// broken.
-std::string wrapped(const std::string& text, std::size_t columns);
 
 }  // namespace tyndall

@@ -212,5 +212,5 @@ APP = [
     ("a picture of too few samples counts as whole", "app/cli/kept_pictures.cpp", "found > wanted : «found != wanted → found > wanted»))", "commands/films"),
     ("a file that cannot be written is no failure", "app/cli/merge.cpp", "return problems.empty() ? 0 : «output_failed → 0»;", "commands/films"),
     ("--fresh goes on all the same", "app/cli/kept_pictures.cpp", "const bool whole = «!job.command.fresh → true» &&", "commands/films"),
-    ("a frame that was not written is listed as whole", "app/cli/animate.cpp", "«if (!written) return; → »", "commands/films commands/render"),
+    ("a frame that was not written is listed as whole", "app/cli/series.cpp", "if (!result.interrupted && «written → true») list_outputs", "commands/films commands/render"),
 ]

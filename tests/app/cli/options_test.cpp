@@ -25,7 +25,7 @@ std::vector<std::string> words_of(const std::string& line) {
   return words;
 }
 
-CommandRequest request(const std::string& line) { return std::get<CommandRequest>(read_command(words_of(line))); }
+CommandRequest request(const std::string& line) { return read_command(words_of(line)); }
 
 std::string refusal(const std::string& line) {
   try {
@@ -36,13 +36,7 @@ std::string refusal(const std::string& line) {
   return "";
 }
 
-std::string printed(const std::string& line) { return std::get<PrintCommand>(read_command(words_of(line))).text; }
-
-std::vector<CommandRow> commands() {
-  std::vector<CommandRow> rows;
-  for (const CommandText& text : command_texts()) rows.push_back(command_row(text));
-  return rows;
-}
+std::string printed(const std::string& line) { return request(line).text; }
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
@@ -131,7 +125,7 @@ TEST_CASE("every option of every command takes a value of its kind, by each of i
   std::istringstream units(some);
   for (std::string unit; units >> unit;) units >> values[unit];
   int options = 0;
-  for (const CommandRow& command : commands())
+  for (const CommandRow& command : command_rows())
     for (const OptionRow& option : command.options) {
       if (option.names == "-h,--help" || option.heading.empty()) continue;
       std::string value = option.taker.choices.empty() ? "" : option.taker.choices.front();
@@ -140,7 +134,7 @@ TEST_CASE("every option of every command takes a value of its kind, by each of i
       if (value.empty()) value = values.at(option.unit);
       std::istringstream names(option.names);
       for (std::string name; std::getline(names, name, ','); ++options) {
-        const std::string text = refusal(command.name + " " + name + " " + value);
+        const std::string text = refusal(command.name() + " " + name + " " + value);
         CHECK_MESSAGE((text.empty() || has(text, " is missing (see ") || has(text, " need --baseline")), text);
       }
     }
@@ -225,10 +219,10 @@ TEST_CASE("help: every command and option with unit and default, within 104 colu
   const std::string overview = printed("--help");
   CHECK(printed("-h") == overview);
   for (const char* argument : {"--version", "-V", "version"}) CHECK(has(printed(argument), "tyndall "));
-  for (const CommandRow& command : commands()) {
-    CHECK(has(overview, "\n  " + command.name + " "));
-    const std::string help = printed(command.name + " --help");
-    CHECK(has(help, "Usage: tyndall " + command.name));
+  for (const CommandRow& command : command_rows()) {
+    CHECK(has(overview, "\n  " + command.name() + " "));
+    const std::string help = printed(command.name() + " --help");
+    CHECK(has(help, "Usage: tyndall " + command.name()));
     for (const OptionRow& option : command.options)
       CHECK_MESSAGE(
           option.heading.empty() != has(help, "\n  " + option.names + (option.unit.empty() ? " " : " " + option.unit)),

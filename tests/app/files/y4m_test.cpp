@@ -1,6 +1,6 @@
 #include "app/files/y4m.h"
 
-#include "app/cli/kept_pictures.h"
+#include "app/cli/pictures.h"
 #include "core/base/error.h"
 #include "tests/support/scratch.h"
 
@@ -60,17 +60,15 @@ TEST_CASE("y4m: a header that was cut off is begun anew; any other file is refus
 
 TEST_CASE("frame list: the last line of a frame counts, and one that was cut off is passed over") {
   const fs::path file = scratch_folder("y4m") / "frames.ppm.list";
-  FrameList list(file);
-  CHECK_FALSE(list.find(3));
-  list.add(3, {"0123456789abcdef", false});
-  list.add(4, {"0123456789abcdef", true});
+  CHECK(read_frame_list(file).entries.empty());
+  add_frame(file, 3, "begun 0123456789abcdef");
+  add_frame(file, 4, "whole 0123456789abcdef");
   std::ofstream(file, std::ios::app) << "3 whole 01234";
-  CHECK_FALSE(FrameList(file).find(3)->whole);
-  list.add(3, {"fedcba9876543210", true});
-  const FrameList again(file);
-  CHECK(again.find(3)->whole);
-  CHECK(again.find(3)->mark == "fedcba9876543210");
-  CHECK(again.find(4)->whole);
+  CHECK(read_frame_list(file).entries.at(3) == "begun 0123456789abcdef");
+  add_frame(file, 3, "whole fedcba9876543210");
+  const FrameList again = read_frame_list(file);
+  CHECK(again.entries.at(3) == "whole fedcba9876543210");
+  CHECK(again.entries.at(4) == "whole 0123456789abcdef");
 }
 
 }  // namespace tyndall::test::y4m_test

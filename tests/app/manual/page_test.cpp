@@ -13,14 +13,15 @@ const OptionRow output{"-o,--output", "FILE", {}, "the image; it's required", ""
 const OptionRow method{"--method", "NAME", {{}, Takes::once, {"fast", "slow"}}, "how [from the scene]", "", "Method"};
 const OptionRow quiet{"-q,--quiet", "", {}, ".dots and \\ backslashes", "", "Output"};
 const OptionRow bits{"--bits", "N", {}, "bits[8]", "", "Output"};
-const std::vector<CommandRow> rows{{"paint",
+const std::vector<CommandRow> rows{{"paint SCENE -o FILE",
                                     "paint a scene",
-                                    "paint SCENE -o FILE",
                                     "Paints.\n\nSlowly.",
                                     "tyndall paint a.json",
+                                    {},
+                                    nullptr,
                                     {{"SCENE", " ", {}, "a scene"}},
                                     {output, method, quiet, bits}},
-                                   {"list", "list: all of them", "list", "Lists.", "", {}, {}}};
+                                   {"list", "list: all of them", "Lists.", "", {}, nullptr}};
 
 }  // namespace
 

@@ -16,8 +16,8 @@ TEST_CASE("the part done is that of the limit which is nearest; samples that a c
   CHECK(progress_fraction(now, {.target_error = 0.2}) == 1);
   CHECK(progress_fraction(now, {}) == 0);
   CHECK(progress_fraction({0, 0, 0, infinity}, {.spp = 64, .target_error = 0.1}) == 0);
-  CHECK(progress_fraction({32, 1, 1, 1}, {.spp_before = 32, .spp = 64}) == 0);
-  CHECK(progress_fraction({48, 1, 1, 1}, {.spp_before = 32, .spp = 64}) == 0.5);
+  CHECK(progress_fraction({32, 1, 1, 1}, {.spp = 64}, 32) == 0);
+  CHECK(progress_fraction({48, 1, 1, 1}, {.spp = 64}, 32) == 0.5);
 }
 
 TEST_CASE("durations are shown in seconds, minutes or hours") {
