@@ -42,7 +42,7 @@ ProgramRequest program_with(const std::string& main) {
   const fs::path folder = scratch_folder() / "load_program";
   fs::create_directories(folder);
   std::ofstream(folder / "main.cc") << "#include \"" << tests_folder().string()
-                                    << "/book/headers/books.h\"\nint main() { " << main << " }\n";
+                                    << "/../assets/examples/book/tracer/rtweekend.h\"\nint main() { " << main << " }\n";
   ProgramRequest request;
   request.sources.files = {folder / "main.cc"};
   request.trusted = true;

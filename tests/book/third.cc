@@ -1,6 +1,27 @@
 // Written for Tyndall's tests in the style of the third edition: the loop over pixels is here, with ray_color().
-#define EDITION 3
-#include "../headers/books.h"
+#include "rtweekend.h"
+
+#include <fstream>
+
+struct moving_sphere : sphere {
+  moving_sphere(point3 a, point3 b, double t0, double t1, double r, shared_ptr<material> m)
+      : sphere(a, r, m), center1(b), time0(t0), time1(t1) {}
+  bool hit(const ray& r, double t_min, double t_max, hit_record& rec) const override {
+    const point3 now = center + (r.time() - time0) / (time1 - time0) * (center1 - center);
+    return sphere(now, radius, mat_ptr).hit(r, t_min, t_max, rec);
+  }
+  point3 center1;
+  double time0, time1;
+};
+struct flip_face : hittable {
+  flip_face(shared_ptr<hittable> p) : ptr(p) {}
+  bool hit(const ray& r, double t_min, double t_max, hit_record& rec) const override {
+    if (!ptr->hit(r, t_min, t_max, rec)) return false;
+    rec.front_face = !rec.front_face;
+    return true;
+  }
+  shared_ptr<hittable> ptr;
+};
 
 color ray_color(const ray& r, const color& background, const hittable& world, int left) {
   hit_record found;
@@ -8,7 +29,7 @@ color ray_color(const ray& r, const color& background, const hittable& world, in
   if (!world.hit(r, 0.001, infinity, found)) return background;
   ray next;
   color share;
-  color shine = found.mat_ptr->emitted(found.u, found.v, found.p);
+  color shine = found.mat_ptr->emitted();
   if (!found.mat_ptr->scatter(r, found, share, next)) return shine;
   return shine + share * ray_color(next, background, world, left - 1);
 }
@@ -31,11 +52,10 @@ int main() {
     for (int i = 0; i < width; ++i) {
       color sum(0, 0, 0);
       for (int s = 0; s < samples; ++s) {
-        auto u = (i + random_double()) / (width - 1);
-        auto v = (j + random_double()) / (height - 1);
-        sum += ray_color(cam.get_ray(u, v), color(0.1, 0.2, 0.4), world, depth);
+        auto u = (i + random_double()) / (width - 1), v = (j + random_double()) / (height - 1);
+        sum = sum + ray_color(cam.get_ray(u, v), color(0.1, 0.2, 0.4), world, depth);
       }
-      write_color(picture, sum, samples);
+      for (int k = 0; k < 3; ++k) picture << static_cast<int>(256 * std::fmin(std::sqrt(sum[k] / samples), 0.999)) << ' ';
     }
   }
 }
