@@ -7,7 +7,7 @@ from readers import has_guard
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path, tmp_path_factory, monkeypatch):
-    """Each test works in an empty folder; nothing may stay in that of temporary files, nor a process that runs there."""
+    """Each test works in an empty folder; nothing stays in that of temporary files, nor a process that runs there."""
     if not has_guard():
         pytest.skip("this system has no guard for programs")
     temporary = tmp_path_factory.mktemp("temporary")

@@ -3,18 +3,6 @@
 
 #include "rtweekend.h"
 
-struct hitable_list : hitable {
-  hitable_list(hitable** l, int n) : list(l), list_size(n) {}
-  bool hit(const ray& r, double t_min, double t_max, hit_record& rec) const override {
-    bool any = false;
-    for (int k = 0; k < list_size; ++k)
-      if (list[k]->hit(r, t_min, t_max, rec)) any = true, t_max = rec.t;
-    return any;
-  }
-  hitable** list;
-  int list_size;
-};
-
 vec3 color(const ray& r, hitable* world, int depth) {
   hit_record rec;
   if (world->hit(r, 0.001, infinity, rec)) {

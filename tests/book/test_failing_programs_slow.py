@@ -24,13 +24,13 @@ OLD_INPUT = [("int n = 1; if (scanf(\"%d\", &n) > 0) n = 2;", [INPUT])] * os.pat
     ("return 0;", ["ended with exit code 0 before the colour of its first ray"]),
     ("int n = 1; std::cin >> n;", [INPUT]), *OLD_INPUT])
 def test_failing_programs(begin, words):
-    program("main.cc", world(ball_of()).replace("{", "{" + begin, 1))
+    program("main.cc", world(ball_of(), begin))
     run("convert main.cc -o failed.json", 2, "main.cc", *words)
 
 
 def test_forks():
     """What a program has started ends with it."""
-    program("main.cc", world(ball_of()).replace("{", "{ if (fork() == 0) { fork(); sleep(1000); }", 1))
+    program("main.cc", world(ball_of(), "if (fork() == 0) { fork(); sleep(1000); }"))
     run("inspect main.cc")
 
 
@@ -43,8 +43,7 @@ def script(name, text):
 @pytest.mark.parametrize("does, code, words", [
     ("kill -9 $$", 3, ["compiler was ended by SIGKILL", "while it compiled good.cc"]),
     ('echo "c++: fatal error: Killed signal terminated program cc1plus" >&2; exit 1', 3, ["was ended by SIGKILL"]),
-    ('echo "cc1plus: error: No space left on device" >&2; exit 1', 3, ["No space left on device"]),
-    ('echo "good.cc:3:1: error: nonsense" >&2; exit 1', 2, ["good.cc:3:1: nonsense"])])
+    ('echo "cc1plus: error: No space left on device" >&2; exit 1', 3, ["No space left on device"])])
 def test_failing_compilers(does, code, words):
     program("good.cc", world(ball_of()))
     run("inspect good.cc", code, *words, CXX=script("compiler", does))
@@ -92,8 +91,8 @@ def lacking(calls):
 def test_guard(monkeypatch):
     """A program that is only asked for its scene changes nothing outside of its temporary folder, by whichever layer of
     the guard there is. Where there is none, nothing is run."""
-    program("kept/main.cc", world(ball_of()).replace("{", """{
-        for (auto name : {std::string("picture.ppm"), std::string("../above.ppm"), getenv("HOME") + std::string("/home.ppm")})
+    program("kept/main.cc", world(ball_of(), """
+        for (std::string name : {"picture.ppm", "../above.ppm", (getenv("HOME") + std::string("/home.ppm")).c_str()})
           if (!(std::ofstream(name) << 1).flush()) return 4;
         std::ofstream("added.ppm", std::ios::app) << 1;
         std::remove("removed.ppm");
@@ -102,7 +101,7 @@ def test_guard(monkeypatch):
           usleep(300000);
           std::rename("main.cc", "later.ppm");
           _exit(0);
-        }""", 1))
+        }"""))
     for name in "picture", "../above", "home", "added", "removed", "later":
         write(f"kept/{name}.ppm", "P3 1 1 255 1 2 3")
     monkeypatch.setenv("HOME", os.path.abspath("kept"))

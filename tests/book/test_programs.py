@@ -56,7 +56,7 @@ def test_own_samples():
     glowing = ("struct glowing : metal { using metal::metal; "
                "color emitted() const override { return color(0.25, 0, 0); } };")
     program("glow.cc", glowing + world(ball_of("make_shared<glowing>(color(0.5, 0.5, 0.5), 0.0)"),
-                                       camera="c.background = color(0.125, 0.25, 0.5);"))
+                                       render="c.background = color(0.125, 0.25, 0.5); c.render(w);"))
     run("render glow.cc --spp 8 -q -o glow.pfm -o glow.png", 0, "glow.cc: glowing: it shines and scatters",
         "these are your own samples")
     picture = pixels_of("glow.pfm")
@@ -65,7 +65,7 @@ def test_own_samples():
 
 
 def test_what_is_compiled():
-    """A program is compiled only where it is named as the scene on the command line, and by no other way to its file."""
+    """A program is compiled only where it is named as the scene on the command line, and by no other way."""
     def is_compiled(command, code, **options):
         os.utime(os.environ["TMPDIR"], (0, 0))
         run(command, code, loud=True, **options)
@@ -89,4 +89,4 @@ def test_what_is_compiled():
     assert not is_compiled("inspect -", 2, given=read("folder/main.cc"))
     assert is_compiled("inspect folder/main.cc", 2)
     for file in (ROOT / "assets/desktop").rglob("*"):  # the desktop opens no C++ files by the program
-        assert file.is_dir() or file.name == "README.md" or not re.search(rb"\.(cc|cpp|cxx)|c\+\+", file.read_bytes())
+        assert file.is_dir() or file.suffix == ".md" or not re.search(rb"\.(cc|cpp|cxx)|c\+\+", file.read_bytes())

@@ -39,9 +39,10 @@ int main() {
   hittable_list world;
   auto grey = make_shared<lambertian>(color(0.5, 0.5, 0.5));
   world.add(make_shared<quad>(point3(-5, 0, -5), vec3(10, 0, 0), vec3(0, 0, 10), grey));
-  auto lamp = make_shared<quad>(point3(-1, 1, -3), vec3(2, 0, 0), vec3(0, 1, 0), make_shared<diffuse_light>(color(4, 4, 4)));
-  world.add(make_shared<flip_face>(lamp));
-  world.add(make_shared<moving_sphere>(point3(1, 1, 0), point3(1, 1.5, 0), 0.0, 1.0, 1.0, make_shared<metal>(color(0.8, 0.8, 0.9), 0.1)));
+  auto shine = make_shared<diffuse_light>(color(4, 4, 4));
+  world.add(make_shared<flip_face>(make_shared<quad>(point3(-1, 1, -3), vec3(2, 0, 0), vec3(0, 1, 0), shine)));
+  auto steel = make_shared<metal>(color(0.8, 0.8, 0.9), 0.1);
+  world.add(make_shared<moving_sphere>(point3(1, 1, 0), point3(1, 1.5, 0), 0.0, 1.0, 1.0, steel));
   world.add(make_shared<sphere>(point3(-2, 2, 1), -0.5, make_shared<dielectric>(1.5)));
   camera cam(point3(0, 2, 9), point3(0, 1, 0), vec3(0, 1, 0), 40, 4.0 / 3.0, 0.2, 9.0, 0.25, 0.75);
 
@@ -55,7 +56,7 @@ int main() {
         auto u = (i + random_double()) / (width - 1), v = (j + random_double()) / (height - 1);
         sum = sum + ray_color(cam.get_ray(u, v), color(0.1, 0.2, 0.4), world, depth);
       }
-      for (int k = 0; k < 3; ++k) picture << static_cast<int>(256 * std::fmin(std::sqrt(sum[k] / samples), 0.999)) << ' ';
+      for (int k = 0; k < 3; ++k) picture << static_cast<int>(256 * std::sqrt(sum[k] / samples)) << ' ';
     }
   }
 }
