@@ -1,6 +1,5 @@
 // Written for Tyndall's tests in the style of the first edition: raw pointers, a function called color, numbers on
 // standard output.
-
 #include "rtweekend.h"
 
 vec3 color(const ray& r, hitable* world, int depth) {
@@ -29,11 +28,8 @@ int main() {
   for (int j = ny - 1; j >= 0; j--)
     for (int i = 0; i < nx; i++) {
       vec3 col(0, 0, 0);
-      for (int s = 0; s < ns; s++) {
-        double u = (i + random_double()) / nx;
-        double v = (j + random_double()) / ny;
-        col = col + color(cam.get_ray(u, v), world, 0);
-      }
+      for (int s = 0; s < ns; s++)
+        col = col + color(cam.get_ray((i + random_double()) / nx, (j + random_double()) / ny), world, 0);
       for (int k = 0; k < 3; k++) std::cout << int(255.99 * std::sqrt(col[k] / ns)) << " ";
     }
 }

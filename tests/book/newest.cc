@@ -85,7 +85,7 @@ struct constant_medium : hittable {
     hit_record in, out;
     if (!boundary->hit(r, interval(-infinity, infinity), in)) return false;
     if (!boundary->hit(r, interval(in.t + 0.0001, infinity), out)) return false;
-    const double from = std::max({in.t, range.lower, 0.0}), to = std::min(out.t, range.upper);
+    const double from = std::max({in.t, range.minimum, 0.0}), to = std::min(out.t, range.maximum);
     in.t = from + neg_inv_density * std::log(random_double()) / r.direction().length();
     if (from >= to || in.t > to) return false;
     rec = in;
@@ -104,8 +104,7 @@ int main() {
 
   shared_ptr<hittable> block = box(point3(1, 0, -1), point3(0, 2, 0), make_shared<lambertian>(color(0.5, 0.25, 0.125)));
   block = make_shared<rotate_y>(block, std::acos(-1.0) / 6);
-  block = make_shared<translate>(block, vec3(2, 0, 0));
-  room.add(block);
+  room.add(make_shared<translate>(block, vec3(2, 0, 0)));
   auto mist = make_shared<sphere>(point3(2, 1, 2), 0.75, shared_ptr<material>());
   room.add(make_shared<constant_medium>(mist, 0.5, color(0.9, 0.9, 1.0)));
   room.add(make_shared<quad>(point3(-1, 4, -1), vec3(2, 0, 0), vec3(0, 0, 2), make_shared<diffuse_light>(color(5, 4, 3))));
@@ -119,7 +118,6 @@ int main() {
   cam.vfov = 45;
   cam.lookfrom = point3(3, 3, 8);
   cam.lookat = point3(0, 1, 0);
-  cam.vup = vec3(0, 1, 0);
   cam.defocus_angle = 0.5;
   cam.focus_dist = 8;
   cam.render(room);

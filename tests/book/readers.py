@@ -42,9 +42,8 @@ NEWEST = {
     r"if \(a < 0 .*\) return false;": "if (!is_interior(a, b)) return false;",
     r"\{eye, seen - eye\}": "{eye, seen - eye, random_double()}",
     r"struct (\w+) : (material|hittable) \{\n((?:  (?!std)[^()\n]*;\n)+)": r"class \1 : public \2 {\n\3 public:\n",
-    r"double min, max(.*\n.*): min(.*) max": r"double lower, upper\1: lower\2 upper",
-    r"range\.min": "range.lower",
-    r"range\.max": "range.upper",
+    r"double min, max(.*\n.*): min(.*) max": r"double minimum, maximum\1: minimum\2 maximum",
+    r"range\.(min|max)": r"range.\1imum",
 }
 # Editions 1 to 3: two ends of t, and a camera for a loop in main().
 EARLIER = {

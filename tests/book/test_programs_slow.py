@@ -1,13 +1,17 @@
-"""What readers' programs may have of their own, and what is not taken for a scene."""
+"""What readers' programs may have of their own, what is not taken for a scene, what fails, and what is left alone."""
 
 import math
 import os
+import pathlib
 import shutil
+import signal
 import subprocess
+import sys
+import time
 
 import pytest
-from program import load, pixels_of, read, run, write
-from readers import BOOK, EXAMPLE, ball_of, headers, program, world
+from program import load, pixels_of, read, run, running, wait_until, write
+from readers import BOOK, EXAMPLE, ball_of, has_guard, headers, program, world
 
 
 def test_example():
@@ -25,23 +29,18 @@ def test_example():
     assert abs(sum(errors)) <= 4 * len(errors)
 
 
-def test_generator():
-    """Random numbers are those of the program itself."""
-    program("random.cc", world("make_shared<sphere>(point3(random_double(), 0, -1), 0.5, grey)"), {
-        r"return std::rand\(\).*?;": "static unsigned s = 1; return (s = 1664525 * s + 1013904223) / 4294967296.0;"})
-    run("convert random.cc -o random.json")
-    assert load("random.json")["objects"][0]["center"][0] == pytest.approx((1664525 + 1013904223) / 2**32, 1e-9)
-
-
-def test_files():
-    """A file above the program's folder is found; one that is not there is told."""
+def test_numbers_and_files():
+    """Random numbers are the program's. A file above its folder is found; one that is not there is told."""
     write("deep/data/balls.txt", "-1 0 -3 0.5 1 0 -3 0.5")
-    program("deep/src/main.cc", world(ball_of(), render="""w = hittable_list();
+    program("deep/src/main.cc", world("make_shared<sphere>(point3(random_double(), 0, -1), 0.5, grey)", render="""
         std::ifstream in("../data/balls.txt"); std::ofstream out("log.txt"); out << 1; if (!out.flush()) return 1;
         for (double x, y, z, r; in >> x >> y >> z >> r;) w.add(make_shared<sphere>(point3(x, y, z), r, grey));
-        c.render(w);"""))
+        c.render(w);"""), {
+            r"return std::rand\(\).*?;": "static unsigned s = 1; return (s = 1664525 * s + 1013904223) / 4294967296.0;"})
     run("convert deep/src/main.cc -o deep.json")
-    assert len(load("deep.json")["objects"]) == 2 and not os.path.exists("deep/src/log.txt")
+    objects = load("deep.json")["objects"]
+    assert objects[0]["center"][0] == pytest.approx((1664525 + 1013904223) / 2**32, 1e-9)
+    assert len(objects) == 3 and not os.path.exists("deep/src/log.txt")
     os.rename("deep/data/balls.txt", "deep/data/other.txt")
     run("convert deep/src/main.cc -o deep.json", 0, 'cannot open "../data/balls.txt"')
 
@@ -107,9 +106,9 @@ def sky(colour):
 @pytest.mark.parametrize("reason, own", {
     "star: its hit() is not that of a quad": ({}, INTERIOR.format(
         "star", "return a * a * b * b < 0.1 && std::fabs(a) < 1 && std::fabs(b) < 1;"), QUAD.format("star")),
-    "plane: no such shape": ({}, "struct plane : hittable { shared_ptr<material> m; "
-        "plane(shared_ptr<material> a) : m(a) {} bool hit(const ray& r, interval range, hit_record& rec) const override { "
-        "double t = (-1 - r.origin()[1]) / r.direction()[1]; if (!(t > range.lower && t < range.upper)) return false; "
+    "plane: no such shape": ({}, "struct plane : hittable { shared_ptr<material> m; plane(shared_ptr<material> a) : "
+        "m(a) {} bool hit(const ray& r, interval range, hit_record& rec) const override { double t = "
+        "(-1 - r.origin()[1]) / r.direction()[1]; if (!(t > range.minimum && t < range.maximum)) return false; "
         "rec.t = t, rec.p = r.at(t), rec.mat = m; rec.face(r, vec3(0, 1, 0)); return true; } };",
         "make_shared<plane>(grey)"),
     "constant_medium: Tyndall": ({}, (BOOK / "newest.cc").read_text().split("int main")[0],
@@ -145,3 +144,114 @@ def test_own_samples_alone():
                     "render holes.cc --samples 0:2 -o x.png", "chart holes.cc -o x.svg", "compare holes.png holes.cc",
                     "sweep holes.cc --vary /camera/vfov=20:30:2 -o x.png"):
         run(command, 2, "holes.cc", lines=2)
+
+
+@pytest.mark.parametrize("begin, words", [
+    ("volatile int* volatile p = nullptr; *p = 1;", ["was ended by SIGSEGV", "before the colour of its first ray"]),
+    ("throw 1;", ["was ended by SIGABRT", "an instance of 'int'"]),
+    (r'std::cerr << "reading\nno model.obj\n"; exit(4);',
+     ["ended with exit code 4 before the colour of its first ray", 'its last words: "no model.obj"']),
+    ("for (int k = 0; k < 4096; ++k) if (!malloc(std::size_t(1) << 30)) exit(4); exit(5);", ["ended with exit code 4"]),
+    ("return 0;", ["ended with exit code 0 before the colour of its first ray"]),
+    ("int n = 1; std::cin >> n;", ["main() reads standard input"]),
+    *[('int n = 1; if (scanf("%d", &n) > 0) n = 2;', ["main() reads standard input"])]
+    * os.path.exists("/proc/self/syscall")])
+def test_failing_programs(begin, words):
+    """What ends before its first ray is told in one line."""
+    program("main.cc", world(ball_of(), begin))
+    run("convert main.cc -o failed.json", 2, "main.cc", *words)
+
+
+def test_forks():
+    """What a program has started ends with it."""
+    program("main.cc", world(ball_of(), "if (fork() == 0) { fork(); sleep(1000); }"))
+    run("inspect main.cc")
+
+
+def script(name, text):
+    write(name, f"#!/bin/sh\n{text}\n")
+    os.chmod(name, 0o755)
+    return os.path.abspath(name)
+
+
+def test_compilers_and_temporary_folders():
+    """Those that fail are told in one line."""
+    program("good.cc", world(ball_of()))
+    for does, words in [
+            ("kill -9 $$", ["compiler was ended by SIGKILL", "while it compiled good.cc"]),
+            ('echo "c++: fatal error: Killed signal terminated program cc1plus" >&2; exit 1', ["was ended by SIGKILL"]),
+            ('echo "cc1plus: error: No space left on device" >&2; exit 1', ["No space left on device"])]:
+        run("inspect good.cc", 3, *words, CXX=script("compiler", does))
+    run("inspect good.cc", 3, 'CXX: found "./nothing", which cannot be run, expected a C++ compiler', CXX="./nothing")
+    run("inspect good.cc", CXX=os.environ.get("CXX", "c++") + " -DUNUSED")
+    run("inspect good.cc", 3, "no C++ compiler was found", "apt install g++", by=["env", "-u", "CXX", "PATH=/nowhere"])
+    run("inspect good.cc", 3, "missing: cannot make a temporary folder", TMPDIR=os.path.abspath("missing"))
+    if subprocess.run(["unshare", "-rm", "true"], capture_output=True).returncode:
+        return
+    os.mkdir("mounted")
+    mount = 'mount -t tmpfs -o "$0" none mounted && TMPDIR=$PWD/mounted exec "$@"'
+    for options, words in ("noexec", ["noexec", "TMPDIR names another"]), ("size=64k", ["No space left on device"]):
+        run("inspect good.cc", 3, *words, by=["unshare", "-rm", "bash", "-c", mount, options])
+
+
+def has_begun():
+    """Whether the compiler below, or the program, has written something."""
+    return any(path.stat().st_size for path in pathlib.Path(os.environ["TMPDIR"]).rglob("*")
+               if path.is_file() and (path.name == "mark" or path.parent.name == "written"))
+
+
+@pytest.mark.parametrize("command, name, doing", [
+    *[("inspect", name, "compiled") for name in ("INT", "TERM", "HUP")], ("render -o x.png", "INT", "ran"),
+    ("chart -o x.svg", "TERM", "ran")])  # it watches signals itself, too
+def test_signals(command, name, doing):
+    program("main.cc", 'int main() { std::ofstream("mark") << 1; for (volatile int i = 0;;) i = 1; }')
+    variables = {"CXX": script("compiler", "echo 1 >mark; sleep 1000 & sleep 1000")} if doing == "compiled" else {}
+    number = signal.Signals[f"SIG{name}"]
+    with running(f"{command} main.cc", env=os.environ | variables) as process:
+        wait_until(has_begun)
+        process.send_signal(number)
+        assert process.wait(600) == 128 + number
+    assert read("said").decode() == f"tyndall: main.cc: interrupted while it {'was ' * (doing != 'ran')}{doing}\n"
+    assert not read("printed")
+
+
+def test_guard(monkeypatch):
+    """A program that is only asked for its scene changes nothing outside of its temporary folder, by whichever layer of
+    the guard there is. Where there is none, nothing is run."""
+    program("kept/main.cc", world(ball_of(), """
+        for (std::string name : {"picture.ppm", "../above.ppm", (getenv("HOME") + std::string("/home.ppm")).c_str()})
+          if (!(std::ofstream(name) << 1).flush()) return 4;
+        std::ofstream("added.ppm", std::ios::app) << 1;
+        std::remove("removed.ppm");
+        if (fork() == 0) {
+          setsid();
+          usleep(300000);
+          std::rename("main.cc", "later.ppm");
+          _exit(0);
+        }"""))
+    for name in "picture", "../above", "home", "added", "removed", "later":
+        write(f"kept/{name}.ppm", "P3 1 1 255 1 2 3")
+    monkeypatch.setenv("HOME", os.path.abspath("kept"))
+    lacking = [sys.executable, BOOK / "lacking.py"]
+
+    def content():
+        return {name: read(name) for name in ["above.ppm"] + [f"kept/{name}" for name in sorted(os.listdir("kept"))]}
+    before = content()
+    for calls in "", "unshare", "landlock":
+        if has_guard([*lacking, calls]):
+            run("inspect kept/main.cc", by=[*lacking, calls])
+            time.sleep(0.4)
+            assert content() == before, f"on a kernel without '{calls}'"
+    for command in ("render kept/main.cc --spp 1 -q -o picture.png", "convert kept/main.cc -o kept.json",
+                    "chart kept/main.cc --budget 1 -o chart.svg",
+                    "render kept/main.cc --spp 64 -q --gamma2 -o mine.ppm", "compare mine.ppm kept/main.cc"):
+        run(command, loud=True)
+    for command in "convert", "render":  # a source file is never replaced
+        run(f"{command} kept/main.cc -o kept/main.cc", 2)
+    none = [*lacking, "unshare landlock"]
+    assert not has_guard(none)
+    run("inspect kept/main.cc", 2, "kept/main.cc: is not run", "namespaces", "Landlock", "--trust", by=none,
+        TYNDALL_TRUST="1")
+    assert content() == before
+    run("inspect kept/main.cc --trust", by=none)
+    assert not os.path.exists("kept/removed.ppm"), "the program does not run as it is"

@@ -31,13 +31,8 @@ TEST_CASE("the first error of a compiler, in one line, with the file as the user
 }
 
 TEST_CASE("names of programs") {
-  CHECK(is_program("main.cc"));
-  CHECK(is_program("a.b/c.cpp"));
-  CHECK(is_program("../x.cxx"));
-  CHECK_FALSE(is_program("cover"));
-  CHECK_FALSE(is_program("main.cc.json"));
-  CHECK_FALSE(is_program(".cc"));
-  CHECK_FALSE(is_program(""));
+  for (const char* name : {"main.cc", "a.b/c.cpp", "../x.cxx"}) CHECK(is_program(name));
+  for (const char* name : {"cover", "main.cc.json", ".cc", ""}) CHECK_FALSE(is_program(name));
 }
 
 TEST_CASE("a program without end is ended; one that is not wanted any more is given up, also while it is compiled") {
@@ -70,7 +65,6 @@ ChildEnd run_shell(const ProgramTask& task, const std::string& script) {
   ChildPlan plan;
   plan.command = {"sh", "-c", script};
   plan.folder = "/";
-  plan.seconds = 20;
   return run_guarded(task, plan, "it ran");
 }
 
