@@ -101,10 +101,10 @@ class Commands:
         small = ["--size", "32x18", "-q"]
         self.output(["render", "cornell-smoke", "--spp", "2", *small, "-o", "out.png"])
         shutil.copy(self.fixtures / "out.png", self.fixtures / "snapshot.png")
-        (self.fixtures / "headers").mkdir()
-        shutil.copy(self.root / "tests/book/headers/books.h", self.fixtures / "headers")
-        main = (self.root / "tests/book/third/main.cc").read_text(encoding="utf-8")
-        (self.fixtures / "main.cc").write_text(main.replace("../headers", "headers"), encoding="utf-8")
+        example = self.root / "assets/examples/book"
+        shutil.copytree(example / "tracer", self.fixtures / "tracer")
+        main = (example / "main.cc").read_text(encoding="utf-8")
+        (self.fixtures / "main.cc").write_text(main.replace("width = 400", "width = 40"), encoding="utf-8")
         self.output(["render", "cornell-box", "--spp", "4", *small, "-o", "image.ppm"])
         try:
             for name, samples in (("a", "0:1"), ("b", "1:2"), ("A", "0:2"), ("B", "0:2"), ("reference", "0:4"), ("fog", "0:4")):

@@ -70,7 +70,7 @@ def test_program(moved):
     version = shell("tyndall version")
     assert re.search("^compiler ", version, re.M)
     if not re.search("^guard  *none$", version, re.M):  # so it works with the headers by which it reads programs
-        shell(f"tyndall convert '{ROOT}/tests/book/first/main.cc' -o main.json")
+        shell(f"tyndall convert '{ROOT}/assets/examples/book/main.cc' -o main.json")
 
 
 def test_manual(moved):

@@ -10,15 +10,15 @@ APP = [
     ("minutes above an hour are counted again", "app/text/progress.cpp", "whole / 3600, «whole / 60 % 60 → whole / 60», whole % 60", "app/text/progress"),
 
     ("last words that end in empty lines are lost", "app/book/load_program.cpp",
-     "«while (!text.empty() && (text.back() == '\\n' || text.back() == '\\r' || text.back() == ' ')) text.pop_back(); → »", "book/programs.sh"),
+     "«while (!text.empty() && (text.back() == '\\n' || text.back() == '\\r' || text.back() == ' ')) text.pop_back(); → »", "book/programs_slow"),
     ("a guarded program that is given up is no failure", "app/book/run_guarded.cpp",
      "«if (end.given_up) throw ProgramInterrupted(task.name + \": given up while \" + doing, signal_terminate); → »", "app/book/load_program"),
-    ("the guard that there is is not taken", "app/book/run_guarded.cpp", "«plan.guard = available_guard(); → »", "app/book/load_program book/safety.sh"),
+    ("the guard that there is is not taken", "app/book/run_guarded.cpp", "«plan.guard = available_guard(); → »", "app/book/load_program book/programs_slow"),
     ("functions that are defined outside of their class belong to none", "app/book/program_outline.cpp",
      "if (outline_.classes[k].name == tokens_[name - 2]) one.owner = «static_cast<int>(k) → -1»;", "app/book/program_outline"),
     ("a file with the ending .cxx is no program", "app/book/load_program.cpp", "|| «ending == \".cxx\" → false»;", "app/book/load_program"),
     ("a missing compiler ends the search for one", "app/book/compile_program.cpp",
-     "if («end.start_error == ENOENT || end.start_error == EACCES → false») continue;", "book/programs.sh"),
+     "if («end.start_error == ENOENT || end.start_error == EACCES → false») continue;", "book/programs_slow"),
 
     ("a checkpoint forgets its first sample", "app/files/checkpoint.cpp", "to.first_sample = «film.first_sample → 0u»;", "app/files/checkpoint"),
     ("a problem of checkpoints is told each time", "app/files/checkpoint.cpp", "«if (problem == last_problem_) return; → »", "app/files/checkpoint"),

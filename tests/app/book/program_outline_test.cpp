@@ -8,10 +8,9 @@ namespace tyndall::test::program_outline_test {
 namespace {
 
 /// As a compiler makes it of a reader's file; the first line is one of the system's.
-std::string preprocessed(const std::string& own) {
-  return "# 1 \"/usr/include/x.h\" 1 3\nclass hidden { };\n# 1 \"/home/me/main.cc\"\n" + own;
-}
-constexpr const char* program = R"(
+const std::string program = R"(# 1 "/usr/include/x.h" 1 3
+class hidden { };
+# 1 "/home/me/main.cc"
 namespace rt {
 class Ray { public: Ray(int a) : b{a}, c(a) { } int b, c; };
 struct Hit { double t; };
@@ -30,8 +29,7 @@ int main() { std::cout << "P3\n" << 3 << ' ' << 4; }
 }  // namespace
 
 TEST_CASE("classes and functions of the reader's lines, with namespaces, constructors and operators between them") {
-  const std::string text = preprocessed(program);
-  const ProgramOutline outline = outline_of(text, {"/ours"});
+  const ProgramOutline outline = outline_of(program, {"/ours"});
   std::vector<std::string> classes, functions;
   for (const OutlinedClass& one : outline.classes) classes.push_back(one.qualified() + (one.can_be_named ? "" : "<>"));
   for (const Function& one : outline.functions) functions.push_back(one.name);
@@ -42,7 +40,7 @@ TEST_CASE("classes and functions of the reader's lines, with namespaces, constru
   CHECK(outline.is_derived("Ball", "Shape"));
   CHECK_FALSE(outline.is_derived("Camera", "Shape"));
   CHECK(outline.files == std::vector<std::filesystem::path>{"/home/me/main.cc"});
-  CHECK(outline_of(text, {"/home/me"}).classes.empty());
+  CHECK(outline_of(program, {"/home/me"}).classes.empty());
   const Function& shade = outline.functions[4];
   CHECK(shade.result == "rt :: Colour");
   REQUIRE(shade.parameters.size() == 3);
@@ -55,8 +53,7 @@ TEST_CASE("classes and functions of the reader's lines, with namespaces, constru
 }
 
 TEST_CASE("calls are inserted where rays are made and where their colours are computed; the rest stays") {
-  const std::string text = preprocessed(program);
-  const InsertedCalls made = insert_calls(text, outline_of(text, {"/ours"}), true);
+  const InsertedCalls made = insert_calls(program, outline_of(program, {"/ours"}), true);
   CHECK(made.problem.empty());
   CHECK(made.text.find("get_ray(double u, double v) const { if (!::tyndall_book::is_ours)") != std::string::npos);
   CHECK(made.text.find("return shade(tyndall_ray, world, depth); }, r, world, static_cast<int>(depth))") !=
@@ -67,11 +64,8 @@ TEST_CASE("calls are inserted where rays are made and where their colours are co
   CHECK(made.text.find("struct members<::rt::Hit>") != std::string::npos);
   CHECK(made.text.find("typeid(o) == typeid(::rt::Ball)") != std::string::npos);
   CHECK(made.text.find("typeid(::rt::Many)") == std::string::npos);
-}
-
-TEST_CASE("a program without rays has nothing to be asked") {
-  const std::string text = preprocessed("int main() { }\n");
-  CHECK_FALSE(insert_calls(text, outline_of(text, {"/ours"}), true).problem.empty());
+  const std::string other = "# 1 \"/home/me/main.cc\"\nint main() { }\n";  // which has no rays: nothing to be asked
+  CHECK_FALSE(insert_calls(other, outline_of(other, {"/ours"}), true).problem.empty());
 }
 
 }  // namespace tyndall::test::program_outline_test

@@ -11,10 +11,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
+const fs::path header = tests_folder().parent_path() / "assets/examples/book/tracer/rtweekend.h";
+
 /// A program that describes the scene of OpenedSession::write().
 void write_program(const std::string& fuzz, const std::string& file = "main.cc") {
-  std::ofstream(file + ".new") << "#include \"" << tests_folder().string()
-                               << "/book/headers/books.h\"\nint main() {\n  hittable_list world;\n"
+  std::ofstream(file + ".new") << "#include \"" << header.string() << "\"\nint main() {\n  hittable_list world;\n"
                                << "  world.add(make_shared<sphere>(point3(0, 0, -2), 1.0, make_shared<metal>(color(1, "
                                   "1, 1), "
                                << fuzz << ")));\n  camera cam;\n  cam.image_width = 8;\n  cam.samples_per_pixel = 4;\n"
@@ -93,7 +94,7 @@ TEST_CASE("saving never replaces a program: it asks for the name of a scene file
   CHECK(before.origin->file.empty());
   const std::vector<fs::path> watched = watched_files(before);  // with the headers that it includes
   CHECK(watched.front() == fs::absolute("main.cc"));
-  CHECK(std::find(watched.begin(), watched.end(), tests_folder() / "book/headers/books.h") != watched.end());
+  CHECK(std::find(watched.begin(), watched.end(), header) != watched.end());
   opened.set_fuzz(0.5);
   REQUIRE(opened.editor().save("main.json"));
   CHECK(watched_files(opened.editor().document()) == std::vector<fs::path>{"main.json"});

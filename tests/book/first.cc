@@ -1,8 +1,6 @@
 // Written for Tyndall's tests in the style of the first edition: raw pointers, a function called color, numbers on
 // standard output.
-
-#define EDITION 1
-#include "../headers/books.h"
+#include "rtweekend.h"
 
 vec3 color(const ray& r, hitable* world, int depth) {
   hit_record rec;
@@ -13,13 +11,13 @@ vec3 color(const ray& r, hitable* world, int depth) {
       return attenuation * color(scattered, world, depth + 1);
     return vec3(0, 0, 0);
   }
-  vec3 unit = unit_vector(r.direction());
-  double share = 0.5 * (unit.y() + 1.0);
+  vec3 up = unit(r.direction());
+  double share = 0.5 * (up[1] + 1.0);
   return (1.0 - share) * vec3(1.0, 0.9, 0.8) + share * vec3(0.2, 0.4, 0.6);
 }
 
 int main() {
-  int nx = 40, ny = 30, ns = 3;
+  const int nx = 40, ny = 30, ns = 3;
   std::cout << "P3\n" << nx << " " << ny << "\n255\n";
   hitable* list[3];
   list[0] = new sphere(vec3(0, -100, 0), 100, new lambertian(vec3(0.4, 0.5, 0.6)));
@@ -27,21 +25,11 @@ int main() {
   list[2] = new sphere(vec3(2, 0.5, 1), 0.5, new dielectric(1.5));
   hitable* world = new hitable_list(list, 3);
   camera cam(vec3(4, 2, 6), vec3(0, 1, 0), vec3(0, 1, 0), 50, double(nx) / ny, 0.0, 7.0);
-  for (int j = ny - 1; j >= 0; j--) {
+  for (int j = ny - 1; j >= 0; j--)
     for (int i = 0; i < nx; i++) {
       vec3 col(0, 0, 0);
-      for (int s = 0; s < ns; s++) {
-        double u = (i + random_double()) / nx;
-        double v = (j + random_double()) / ny;
-        ray r = cam.get_ray(u, v);
-        col += color(r, world, 0);
-      }
-      col = 1.0 / ns * col;
-      col = vec3(sqrt(col[0]), sqrt(col[1]), sqrt(col[2]));
-      int ir = int(255.99 * col[0]);
-      int ig = int(255.99 * col[1]);
-      int ib = int(255.99 * col[2]);
-      std::cout << ir << " " << ig << " " << ib << "\n";
+      for (int s = 0; s < ns; s++)
+        col = col + color(cam.get_ray((i + random_double()) / nx, (j + random_double()) / ny), world, 0);
+      for (int k = 0; k < 3; k++) std::cout << int(255.99 * std::sqrt(col[k] / ns)) << " ";
     }
-  }
 }
