@@ -16,6 +16,7 @@
 #include <regex>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 namespace tyndall {
 
@@ -53,23 +54,18 @@ fs::path book_folder() {
       (program / "book").string() + " has take.h");
 }
 
+/// What the user names as the compiler, with arguments; "": nothing.
+std::string chosen_compiler() {
+  const char* chosen = std::getenv("CXX");
+  return chosen ? chosen : "";
+}
 /// Compilers by their names, each with arguments that the user gave.
 std::vector<std::vector<std::string>> compilers(const std::string& wanted) {
   if (!wanted.empty()) return {{wanted}};
-  const char* chosen = std::getenv("CXX");
-  std::istringstream chosen_words(chosen ? chosen : "");
-  std::vector<std::string> command;
-  for (std::string word; chosen_words >> word;) command.push_back(word);
+  std::istringstream words(chosen_compiler());
+  const std::vector<std::string> command{std::istream_iterator<std::string>(words), {}};
   if (!command.empty()) return {command};
   return {{"c++"}, {"g++"}, {"clang++"}};
-}
-
-[[noreturn]] void fail_without_compiler() {
-  const char* chosen = std::getenv("CXX");
-  if (chosen && *chosen)
-    throw IoError("CXX: found " + in_quotes(chosen) + ", which cannot be run, expected a C++ compiler");
-  throw IoError(
-      "no C++ compiler was found (c++, g++, clang++), which is needed for programs; to install one: apt install g++");
 }
 
 /// Throws for what has nothing to do with the reader's code.
@@ -100,7 +96,10 @@ ChildEnd compile_by_any(const ProgramTask& task, const std::vector<std::string>&
     check_end(task, compiler[0], end);
     return end;
   }
-  fail_without_compiler();
+  if (const std::string chosen = chosen_compiler(); !chosen.empty())
+    throw IoError("CXX: found " + in_quotes(chosen) + ", which cannot be run, expected a C++ compiler");
+  throw IoError(
+      "no C++ compiler was found (c++, g++, clang++), which is needed for programs; to install one: apt install g++");
 }
 
 /// A file as the user names it: from the folder of main as he named that.
@@ -137,6 +136,11 @@ fs::path folder_with(const std::string& header, const fs::path& program) {
       if (fs::is_regular_file(entry.path() / header, error) && (first.empty() || entry.path() < first))
         first = entry.path();
   return first;
+}
+
+template <class T>
+bool holds(const std::vector<T>& all, const T& one) {
+  return std::find(all.begin(), all.end(), one) != all.end();
 }
 
 class Compilation {
@@ -183,8 +187,7 @@ class Compilation {
       const ChildEnd end = call({"-E", file.string(), "-o", "all.ii"});
       if (!end.succeeded()) {
         const fs::path folder = folder_with(missing_header(end.errors), sources_.front());
-        if (folder.empty() || std::find(options_.begin(), options_.end(), folder) != options_.end())
-          return all_printable(first_error(end.errors, main_));
+        if (folder.empty() || holds(options_, folder.string())) return all_printable(first_error(end.errors, main_));
         options_.insert(options_.end(), {"-I", folder.string()});
         known = 0;
         continue;
@@ -196,12 +199,10 @@ class Compilation {
     return "";
   }
   void add_sources() {
-    for (const fs::path& file : outline_.files) {
-      const fs::path source = source_beside(file);
-      const bool known = source.empty() || std::find(sources_.begin(), sources_.end(), source) != sources_.end() ||
-                         std::find(outline_.files.begin(), outline_.files.end(), source) != outline_.files.end();
-      if (!known) sources_.push_back(source);
-    }
+    for (const fs::path& file : outline_.files)
+      if (const fs::path source = source_beside(file);
+          !source.empty() && !holds(sources_, source) && !holds(outline_.files, source))
+        sources_.push_back(source);
   }
   std::string compile(const std::string& text) {
     write_text(task_.folder / "program.ii", text);
@@ -232,6 +233,27 @@ class Compilation {
 };
 
 }  // namespace
+
+ChildPlan guarded(const ProgramTask& task, ChildPlan plan) {
+  plan.guard = available_guard();
+  plan.own_folder = task.folder;
+  if (!plan.guard.any() && !task.trusted)
+    throw UsageError(
+        task.name +
+        ": is not run: this system has nothing that keeps a program from changing your files (neither user "
+        "namespaces nor Landlock); --trust runs it as it is");
+  return plan;
+}
+
+ChildEnd run_guarded(const ProgramTask& task, ChildPlan plan, const std::string& doing) {
+  plan = guarded(task, std::move(plan));
+  const SignalWatch signals(task.watch_signals ? WatchedSignals::end : WatchedSignals::none);
+  plan.go_on = [&] { return signals.received() == 0 && (!task.go_on || task.go_on()); };
+  ChildEnd end = run_child(plan);
+  if (signals.received() != 0) throw ProgramInterrupted(task.name + ": interrupted while " + doing, signals.received());
+  if (end.given_up) throw ProgramInterrupted(task.name + ": given up while " + doing, signal_terminate);
+  return end;
+}
 
 std::string first_error(const std::string& output, const fs::path& main) {
   std::istringstream lines(output);

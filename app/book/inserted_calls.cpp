@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 
 namespace tyndall {
@@ -12,25 +13,32 @@ namespace {
 
 bool begins_with(const std::string& text, const char* with) { return text.rfind(with, 0) == 0; }
 bool contains(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
-bool is_number(const Parameter& parameter) {
-  return parameter.identifiers.size() == 1 && !contains(parameter.type, "<") && !contains(parameter.type, "*");
+/// The type's own name: the last word of it.
+std::string last_of(const std::vector<std::string>& type) {
+  std::string last;
+  for (const std::string& word : type)
+    if (word != "const" && (std::isalpha(static_cast<unsigned char>(word[0])) || word[0] == '_')) last = word;
+  return last;
 }
-std::string last_of(const Parameter& parameter) {
-  return parameter.identifiers.empty() ? parameter.type : parameter.identifiers.back();
+bool is_number(const Parameter& one) {
+  const bool is_one_word = last_of(one.type) == last_of({one.type.rbegin(), one.type.rend()});
+  return is_one_word && !one.names("<") && !one.names("*");
 }
 bool is_integer(const Parameter& parameter) {
-  const std::string last = last_of(parameter);
-  return contains(last, "int") || last == "long" || last == "unsigned" || last == "short" || last == "size_t";
+  const std::string last = last_of(parameter.type);
+  return contains(last, "int") || is_one_of(last, {"long", "unsigned", "short", "size_t"});
 }
 /// Whether the function may set it.
-bool is_set(const Parameter& parameter) { return !contains(parameter.type, "const") && parameter.type.ends_with("&"); }
+bool is_set(const Parameter& one) { return !one.names("const") && one.names("&"); }
 bool is_real(const Parameter& parameter) {
-  const std::string last = last_of(parameter);
-  return last == "double" || last == "float" || last == "real" || last == "Real" || last == "Float";
+  return is_one_of(last_of(parameter.type), {"double", "float", "real", "Real", "Float"});
 }
+/// Whether it answers by yes or no.
+bool is_asked(const Function& function) { return function.result == std::vector<std::string>{"bool"}; }
 bool is_colour(const Function& function) {
-  const auto others = {"", "bool", "void", "double", "float", "int", "auto"};
-  return std::find(others.begin(), others.end(), function.result) == others.end();
+  return !function.result.empty() &&
+         (function.result.size() > 1 ||
+          !is_one_of(function.result[0], {"bool", "void", "double", "float", "int", "auto"}));
 }
 /// What a member is for, by its name; see members in tyndall/book/values.h.
 std::string role_of(const std::string& member) {
@@ -64,11 +72,11 @@ class Inserter {
     each(&Inserter::hook_camera), each(&Inserter::hook);
     if (!has_colour_) each(&Inserter::hook_without_world);
     if (!has_colour_) return {"", "has no function that computes the colour of a ray in a world"};
-    for (const std::string_view head : outline_.heads) insert(head.data(), "::std::unitbuf << ");
+    show_heads();
     hurry_through_images();
     const std::string end = reads_world ? tail() : R"(namespace tyndall_book {
 template <class C> std::string described_camera(const C&) { return {}; }
-void take_over(session& s) { take_samples(s); }
+void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
 }
 )";
     return {with_insertions() + "\n# 1 \"tyndall/book/names\"\n" + end, "", draws_by_pdf_, decodes_images()};
@@ -84,26 +92,18 @@ void take_over(session& s) { take_samples(s); }
     for (auto one = insertions_.rbegin(); one != insertions_.rend(); ++one) made.insert(one->first, one->second);
     return made;
   }
-  const OutlinedClass* class_named(const std::string& name) const {
-    for (const OutlinedClass& one : outline_.classes)
-      if (one.name == name) return &one;
-    return nullptr;
-  }
   std::string qualified(const std::string& name) const {
-    const OutlinedClass* known = class_named(name);
-    return known ? known->qualified() : name;
-  }
-  std::string owner_of(const Function& function) const {
-    return function.owner < 0 ? "" : outline_.classes[static_cast<std::size_t>(function.owner)].name;
+    const OutlinedClass* known = outline_.class_named(name);
+    return known ? known->qualified : name;
   }
 
   void find_roles() {
     for (const bool first : {true, false})
       for (const Function& function : outline_.functions) {
-        const std::string key = key_of(function.name), owner = owner_of(function);
-        if (owner.empty() || !function.is_virtual || !class_named(owner)->bases.empty()) continue;
+        const std::string key = key_of(function.name), owner = function.owner;
+        if (owner.empty() || !function.is_virtual || !outline_.class_named(owner)->bases.empty()) continue;
         if (first && shape_.empty() && (begins_with(key, "hit") || begins_with(key, "intersect"))) take_hit(function);
-        if (first && !scatter_ && begins_with(key, "scatter") && function.result == "bool")
+        if (first && !scatter_ && begins_with(key, "scatter") && is_asked(function))
           material_ = owner, scatter_ = &function;
         if (!first && !emitted_ && owner == material_ && begins_with(key, "emit")) emitted_ = &function;
         if (!first && !value_ && contains(key_of(owner), "texture") && function.parameters.size() >= 2)
@@ -113,32 +113,31 @@ void take_over(session& s) { take_samples(s); }
   void take_hit(const Function& function) {
     std::string ray, record;
     for (const Parameter& parameter : function.parameters) {
-      const std::string type = last_of(parameter);
-      if (!class_named(type)) continue;
+      const std::string type = last_of(parameter.type);
+      if (!outline_.class_named(type)) continue;
       if (ray.empty() && contains(key_of(type), "ray"))
         ray = type;
       else if (is_set(parameter))
         record = type;
     }
-    if (ray.empty() || record.empty() || function.result != "bool") return;
-    shape_ = owner_of(function), ray_ = ray, record_ = record, hit_ = &function;
+    if (ray.empty() || record.empty() || !is_asked(function)) return;
+    shape_ = function.owner, ray_ = ray, record_ = record, hit_ = &function;
   }
 
   // The calls -------------------------------------------------------------------------------------------------------
 
   void hook(const Function& function) {
-    const std::string owner = owner_of(function);
-    if (function.name == hit_->name && outline_.is_derived(owner, shape_)) hook_hit(function);
-    if (function.result.empty() && outline_.is_derived(owner, texture_) && !function.parameters.empty())
+    if (function.name == hit_->name && outline_.is_derived(function.owner, shape_)) hook_hit(function);
+    if (function.result.empty() && outline_.is_derived(function.owner, texture_) && !function.parameters.empty())
       insert(function, " ::tyndall_book::texture_made(this);");
     if (!may_be_hooked(function)) return;
     for (const Parameter& parameter : function.parameters)
-      for (const std::string& name : parameter.identifiers)
+      for (const std::string& name : parameter.type)
         if (outline_.is_derived(name, shape_)) return hook_colour(function, parameter.name);
   }
   /// Whether it is none of the things' own functions, and can be called again.
   bool may_be_called(const Function& function) const {
-    const std::string owner = owner_of(function);
+    const std::string& owner = function.owner;
     if (owner == ray_ || outline_.is_derived(owner, shape_) || outline_.is_derived(owner, material_)) return false;
     return std::none_of(function.parameters.begin(), function.parameters.end(),
                         [&](const Parameter& one) { return one.name.empty() || one.names(record_); });
@@ -150,12 +149,11 @@ void take_over(session& s) { take_samples(s); }
                        [&](const Parameter& one) { return one.names(ray_); });
   }
   bool is_camera(const Function& function) const {
-    const std::string result = function.result.substr(function.result.rfind(' ') + 1);
     if (!may_be_called(function) || !contains(key_of(function.name), "ray") || function.parameters.size() < 2)
       return false;
     const Parameter &first = function.parameters[0], &second = function.parameters[1];
-    return (result == ray_ || result.ends_with(":" + ray_)) && is_number(first) && is_number(second) &&
-           !class_named(last_of(first));
+    return !function.result.empty() && function.result.back() == ray_ && is_number(first) && is_number(second) &&
+           !outline_.class_named(last_of(first.type));
   }
   void hook_camera(const Function& function) {
     if (!is_camera(function)) return;
@@ -167,7 +165,7 @@ void take_over(session& s) { take_samples(s); }
     insert(function,
            fmt::format(" if (!::tyndall_book::is_ours) ::tyndall_book::ray_wanted({}, [=](auto tyndall_a, auto "
                        "tyndall_b) {{ return {}({}); }}, {}, {});",
-                       function.owner >= 0 && !function.is_static ? "*this" : "0", function.name, arguments, first,
+                       !function.owner.empty() && !function.is_static ? "*this" : "0", function.name, arguments, first,
                        second));
   }
   /// The world answers by its hit() unless it is asked to answer for us.
@@ -204,8 +202,8 @@ void take_over(session& s) { take_samples(s); }
     });
     insert(function,
            fmt::format(" if (!::tyndall_book::is_ours) return ::tyndall_book::colour_wanted<{}, {}>([&](const auto& "
-                       "tyndall_ray) -> {} {{ return {}({}); }}, {}, {}, static_cast<int>({}));",
-                       qualified(shape_), has_camera_, function.result, function.name, arguments, ray, world, depth));
+                       "tyndall_ray) {{ return {}({}); }}, {}, {}, static_cast<int>({}));",
+                       qualified(shape_), has_camera_, function.name, arguments, ray, world, depth));
   }
   /// A function of a ray alone, whose world is a member or a global object that it asks for hits.
   void hook_without_world(const Function& function) {
@@ -219,6 +217,13 @@ void take_over(session& s) { take_samples(s); }
     }
   }
 
+  /// What begins a picture in the P3 format is not kept in a buffer.
+  void show_heads() {
+    for (const char* head : {"\"P3", "\"P6"})
+      for (std::size_t at = 0; (at = text_.find(head, at + 1)) != std::string::npos;)
+        if (const std::size_t before = text_.find_last_not_of(" \t\n", at - 1); text_.compare(before - 1, 2, "<<") == 0)
+          insert(text_.data() + at, "::std::unitbuf << ");
+  }
   /// A library that decodes images is as long as all else, and takes no time when it runs: it is not optimised.
   void hurry_through_images() {
     const std::size_t first = text_.find("stb_image.h\" 1"), last = text_.rfind("stb_image.h\"");
@@ -238,7 +243,7 @@ void take_over(session& s) { take_samples(s); }
                          if (parameter.names(ray_)) return "in";
                          if (parameter.names(record_)) return "record";
                          if (is_real(parameter)) return reals++ == 0 ? first : second;
-                         return &function == hit_ ? qualified(last_of(parameter)) + "(low, high)" : "p";
+                         return &function == hit_ ? qualified(last_of(parameter.type)) + "(low, high)" : "p";
                        }));
   }
   /// scatter() answers by a colour and a ray, by a colour and a direction, or by a record of its own.
@@ -255,7 +260,7 @@ void take_over(session& s) { take_samples(s); }
       const bool real = is_real(parameter);
       draws_by_pdf_ = draws_by_pdf_ || real;
       std::string name = real ? "density" : others.empty() ? "part" : "to";
-      const std::string type = real ? last_of(parameter) : qualified(last_of(parameter));
+      const std::string type = real ? last_of(parameter.type) : qualified(last_of(parameter.type));
       begin += fmt::format("{} {}{{}}; ", type, name);
       if (!real) others.push_back(type);
       return name;
@@ -278,7 +283,7 @@ void take_over(session& s) { take_samples(s); }
       if (one.name != root && one.can_be_named && outline_.is_derived(one.name, root))
         text += fmt::format(
             "    if (typeid(o) == typeid({0})) return description<names>::of(dynamic_cast<const {0}&>(o));\n",
-            one.qualified());
+            one.qualified);
     return text + "    (void)o;\n    return {};\n  }\n";
   }
   /// What tells the members of the reader's classes.
@@ -289,10 +294,10 @@ void take_over(session& s) { take_samples(s); }
       text += fmt::format(
           "template <> struct members<{}> {{ template <class O, class F> static void each(O& o, const F& "
           "f) {{ (void)o, (void)f; ",
-          one.qualified());
+          one.qualified);
       for (const std::string& base : one.bases)
-        if (const OutlinedClass* known = class_named(base); known && known->can_be_named)
-          text += fmt::format("members<{}>::each(o, f); ", known->qualified());
+        if (const OutlinedClass* known = outline_.class_named(base); known && known->can_be_named)
+          text += fmt::format("members<{}>::each(o, f); ", known->qualified);
       for (const std::string& member : one.members)
         text += fmt::format("f(\"{0}\", {1}, o.{0}); ", member, role_of(member));
       text += "} };\n";
@@ -328,7 +333,7 @@ void take_over(session& s) { take_samples(s); }
            members_of(shape_, "shape") + members_of(material_, "material") + members_of(texture_, "texture") +
            R"(};
 template <class C> std::string described_camera(const C& camera) { return description<names>::of(camera); }
-void take_over(session& s) { take_over_world<names>(s); }
+void take_over(session& s) { s.is_float = ray_traits<names::ray>::is_float(), serve(s, answer<names>); }
 }
 )";
   }

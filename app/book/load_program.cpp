@@ -1,6 +1,5 @@
 #include "app/book/load_program.h"
 
-#include "app/book/compile_program.h"
 #include "app/book/reading.h"
 #include "app/text/values.h"
 #include "core/base/error.h"
@@ -118,14 +117,13 @@ bool read_messages(const ProgramTask& task, Reading& reading) {
 
 /// The scene's text. Throws NotTaken, and IoError where the program has ended.
 std::string read_scene(Reading& reading) {
-  read_world(reading);
-  const std::string camera = read_camera(reading), sky = read_sky(reading);
+  const std::string objects = read_world(reading), camera = read_camera(reading), sky = read_sky(reading);
   const ProgramScene& scene = reading.scene;
   return fmt::format(
       "{{\"tyndall\":1,\"image\":{{\"width\":{},\"height\":{}}},\n{},\n\"background\":{},\n\"render\":{{\"spp\":{},"
       "\"max_depth\":{}}},\n\"textures\":{{{}}},\n\"materials\":{{{}}},\n\"objects\":[{}]}}\n",
       scene.width, scene.height, camera, sky, std::max(scene.samples, 1), read_depth(reading), reading.textures,
-      reading.materials, joined(reading.objects, ",\n"));
+      reading.materials, objects);
 }
 
 }  // namespace
@@ -154,7 +152,7 @@ ProgramScene load_program(const ProgramRequest& request) {
     scene.own = {new OwnProgram(task.name, plan_of(task, program, main), request.seconds, go_on), remove};
     Reading reading{scene, *scene.own};
     bool told = read_messages(task, reading);
-    scene.own->set_deadline(20);  // for its world
+    scene.own->let_run(20, go_on);  // for its world
     if (told && !failed.empty()) scene.reason = failed;
     try {
       if (told && scene.reason.empty()) scene.json = read_scene(reading);
@@ -173,7 +171,7 @@ ProgramScene load_program(const ProgramRequest& request) {
   if (scene.has_images && !program.decodes_images)
     scene.notes.push_back(task.name +
                           ": its program takes the numbers of images as they are, Tyndall takes them as sRGB");
-  scene.own->set_lasting();
+  scene.own->let_run(1e9, nullptr);
   return scene;
 }
 

@@ -1,6 +1,7 @@
 #include "app/book/reading.h"
 #include "core/base/math.h"
 #include "core/base/text.h"
+#include "core/materials/dielectric.h"
 
 #include <fmt/core.h>
 
@@ -9,7 +10,7 @@
 namespace tyndall {
 namespace {
 
-constexpr SurfacePoint slanted{}, behind{{0.3, -0.2, 0.7}, {0.8, 0.6, 0}, 0};
+constexpr SurfacePoint slanted{}, behind{slanted.p, slanted.u, slanted.v, {0.8, 0.6, 0}, 0};
 
 Vector mirror(Vector to) { return {to.x, -to.y, to.z}; }
 Vector mean_of(const std::vector<Vector>& all) {
@@ -17,16 +18,17 @@ Vector mean_of(const std::vector<Vector>& all) {
   for (const Vector& one : all) sum = sum + one;
   return (1.0 / static_cast<double>(std::max(all.size(), std::size_t(1)))) * sum;
 }
-/// Share of reflected light by Fresnel's equations, and by Schlick's rule; cosine: of incidence.
-double fresnel(double cosine, double ratio) {
-  const double sin2 = (1 - cosine * cosine) * ratio * ratio, out = std::sqrt(std::fmax(0, 1 - sin2));
-  if (sin2 >= 1) return 1;
-  const double s = (ratio * cosine - out) / (ratio * cosine + out), p = (ratio * out - cosine) / (ratio * out + cosine);
-  return 0.5 * (s * s + p * p);
+std::vector<Vector> same_ones(const std::vector<Vector>& all) { return std::vector<Vector>(all.size(), all[0]); }
+bool are_near(const std::vector<Vector>& a, const std::vector<Vector>& b, double precision) {
+  return std::equal(a.begin(), a.end(), b.begin(), [&](Vector x, Vector y) { return is_near(x, y, precision); });
 }
-double schlick(double cosine, double ratio) {
-  const double r0 = (1 - ratio) / (1 + ratio);
-  return ratio * ratio * (1 - cosine * cosine) >= 1 ? 1 : r0 * r0 + (1 - r0 * r0) * std::pow(1 - cosine, 5);
+/// The slanted one, and others at random.
+std::vector<SurfacePoint> some_points(int count, double far) {
+  RandomNumbers random;
+  std::vector<SurfacePoint> points{slanted};
+  for (int k = 0; k < count; ++k)
+    points.push_back({random.between(0, far) * random.on_sphere(), random.next(), random.next()});
+  return points;
 }
 
 class MaterialReader {
@@ -39,7 +41,7 @@ class MaterialReader {
   std::string text() {
     const std::vector<Vector> light = emitted({slanted, behind});
     const bool shines = largest(light[0]) > 0 || largest(light[1]) > 0;
-    if (shines && scatter(slanted)[0].does != 0) o_.refuse("it shines and scatters: Tyndall's lights do one of both");
+    if (shines && scatter({slanted})[0].does != 0) o_.refuse("it shines and scatters: Tyndall's lights do one of both");
     if (shines) {
       const std::string colour = colour_of([&](const auto& points) { return emitted(points); });
       if (colour[0] == '[') r_.shining = m_, r_.light = light[0];
@@ -47,21 +49,18 @@ class MaterialReader {
       return "{\"type\":\"light\",\"radiance\":" + colour + "}";
     }
     for (const std::size_t count : {2000U, 40000U})  // what 2,000 rays leave open, more decide
-      if (std::string made = scattering(scatter(slanted, count)); !made.empty()) return made;
+      if (std::string made = scattering(scatter({slanted}, count)); !made.empty()) return made;
     o_.refuse("no such material in Tyndall");
   }
   std::string medium_albedo() {
     std::vector<Vector> to;
-    for (const ScatterAnswer& one : scatter(slanted, 2000)) to.push_back(normalized(one.to));
+    for (const ScatterAnswer& one : scatter({slanted}, 2000)) to.push_back(normalized(one.to));
     if (!(length(mean_of(to)) < 0.06)) o_.refuse("its fog does not scatter to all sides alike");
     return albedo();
   }
 
  private:
-  std::vector<ScatterAnswer> scatter(const SurfacePoint& at, std::size_t count = 1) {
-    return scatter(std::vector{at}, count);
-  }
-  std::vector<ScatterAnswer> scatter(const std::vector<SurfacePoint>& points, std::size_t count) {
+  std::vector<ScatterAnswer> scatter(const std::vector<SurfacePoint>& points, std::size_t count = 0) {
     std::vector<ScatterAnswer> all = r_.program.ask<ScatterAnswer>('x', m_, points, count);
     for (ScatterAnswer& one : all)
       if (one.does != 0 && !(length(one.to) > 0)) one.to = {0, 1, 0};
@@ -76,7 +75,7 @@ class MaterialReader {
     SurfacePoint steep = slanted;
     steep.to = {0.28, -0.96, 0};
     std::vector<Vector> through;
-    for (const ScatterAnswer& one : scatter(steep, 200))
+    for (const ScatterAnswer& one : scatter({steep}, 200))
       if (one.to.y < 0) through.push_back(normalized(one.to));
     if (through.size() > 100 && to.size() == all.size()) return glass(steep.to, through[0]);
     if (to.empty()) return "{\"type\":\"lambertian\",\"albedo\":[0,0,0]}";
@@ -118,21 +117,12 @@ class MaterialReader {
   /// A colour, or the name of the texture that it comes from. of: the values at points of a surface.
   template <class F>
   std::string colour_of(const F& of) {
-    std::vector<SurfacePoint> points{slanted};
-    std::vector<TexturePlace> places{{slanted.u, slanted.v, slanted.p}};
-    RandomNumbers random;
-    for (int k = 0; k < 40; ++k) {
-      places.push_back({random.next(), random.next(), random.between(0, 30) * random.on_sphere()});
-      points.push_back({places.back().p, slanted.to, 1, places.back().u, places.back().v});
-    }
+    const std::vector<SurfacePoint> points = some_points(40, 30);
     const std::vector<Vector> values = of(points);
-    const auto is = [&](const std::vector<Vector>& wanted) {
-      return std::equal(values.begin(), values.end(), wanted.begin(),
-                        [](Vector a, Vector b) { return is_near(a, b, 1e-6); });
-    };
-    if (is(std::vector<Vector>(values.size(), values[0]))) return triple(values[0]);
+    if (are_near(values, same_ones(values), 1e-6)) return triple(values[0]);
     for (const double texture : o_.all('t'))
-      if (texture != 0 && is(r_.program.ask<Vector>('v', texture, places))) return texture_name(r_, texture);
+      if (texture != 0 && are_near(values, r_.program.ask<Vector>('v', texture, points), 1e-6))
+        return texture_name(r_, texture);
     o_.refuse("its colour is neither one colour nor one of its textures");
   }
   std::string albedo() {
@@ -147,7 +137,7 @@ class MaterialReader {
   std::string metal(double fuzz) {
     SurfacePoint above = slanted;
     above.to = {0, -2, 0};
-    if (!is_near(normalized(scatter(above)[0].to), Vector{0, 1, 0}, fuzz > 0 ? 2 : 1e-3))
+    if (!is_near(normalized(scatter({above})[0].to), Vector{0, 1, 0}, fuzz > 0 ? 2 : 1e-3))
       o_.refuse("it is no mirror from everywhere");
     const std::string part = albedo();
     if (part[0] != '[') o_.refuse("its colour is a texture: Tyndall's metals have one colour");
@@ -163,24 +153,25 @@ class MaterialReader {
     return fmt::format("{{\"type\":\"dielectric\",\"refractive_index\":{}}}", index);
   }
   void check_glass(double index, double front, double cosine) {
-    const double sine = std::sqrt(1 - cosine * cosine), ratio = front != 0 ? 1 / index : index,
-                 side = front != 0 ? -1 : 1;
+    const double sine = std::sqrt(1 - cosine * cosine), side = front != 0 ? -1 : 1,
+                 eta = front != 0 ? index : 1 / index;
     constexpr std::size_t rounds = 1500;
     int reflected = 0;
-    for (const ScatterAnswer& one : scatter({slanted.p, {sine, side * cosine, 0}, front}, rounds)) {
+    for (const ScatterAnswer& one :
+         scatter({{slanted.p, slanted.u, slanted.v, {sine, side * cosine, 0}, front}}, rounds)) {
       const Vector to = normalized(one.to);
       if (one.does == 0 || !is_near(one.part, {1, 1, 1}, 1e-3))
         o_.refuse("its glass takes light away: Tyndall's is clear");
       const bool back = to.y * side < 0;
       reflected += back ? 1 : 0;
-      if (!(std::fabs(to.x - (back ? 1 : ratio) * sine) <= 0.01))
+      if (!(std::fabs(to.x - (back ? 1 : 1 / eta) * sine) <= 0.01))
         o_.refuse("it refracts otherwise than the books' glass");
     }
     const double fraction = reflected / double(rounds);
-    for (const double known : {schlick(cosine, ratio), fresnel(cosine, ratio), schlick(cosine, 1 / ratio)})
+    for (const double known : {schlick(cosine, eta), fresnel(cosine, eta), schlick(cosine, 1 / eta)})
       if (std::fabs(fraction - known) < 5 * std::sqrt(known * (1 - known) / rounds) + 0.004) return;
     o_.refuse(fmt::format("at a cosine of {} it reflects {:.3f}, the books' glass {:.3f}", cosine, fraction,
-                          schlick(cosine, ratio)));
+                          schlick(cosine, eta)));
   }
 
   Reading& r_;
@@ -193,19 +184,13 @@ class TextureReader {
   TextureReader(Reading& reading, double texture) : r_(reading), t_(texture), o_(reading.described('t', texture)) {}
 
   std::string text() {
-    std::vector<TexturePlace> points{{}}, flat_ones{{}};
-    for (int k = 0; k < 60; ++k) {
-      points.push_back({random_.next(), random_.next(), random_.between(0, 40) * random_.on_sphere()});
-      flat_ones.push_back({points.back().u, points.back().v, {}});
-    }
-    const std::vector<Vector> values = value(points), flat = value(flat_ones);
-    const auto is = [&](const auto& wanted) {
-      return std::equal(values.begin(), values.end(), wanted.begin(),
-                        [](Vector a, Vector b) { return is_near(a, b, 1e-9); });
-    };
-    if (is(std::vector<Vector>(values.size(), values[0]))) return triple(values[0]);
-    if (is(flat) && o_.file.empty()) o_.refuse("no such texture in Tyndall");
-    if (is(flat)) {
+    std::vector<SurfacePoint> points = some_points(60, 40);
+    const std::vector<Vector> values = value(points);
+    if (are_near(values, same_ones(values), 1e-9)) return triple(values[0]);
+    for (SurfacePoint& one : points) one.p = {};
+    const bool is_flat = are_near(values, value(points), 1e-9);
+    if (is_flat && o_.file.empty()) o_.refuse("no such texture in Tyndall");
+    if (is_flat) {
       r_.scene.has_images = true;
       return "{\"type\":\"image\",\"file\":" + in_quotes(o_.file) + "}";
     }
@@ -217,7 +202,7 @@ class TextureReader {
   }
 
  private:
-  std::vector<Vector> value(const std::vector<TexturePlace>& places) { return r_.program.ask<Vector>('v', t_, places); }
+  std::vector<Vector> value(const std::vector<SurfacePoint>& points) { return r_.program.ask<Vector>('v', t_, points); }
   /// The colours that it holds.
   std::vector<std::string> colours_of() {
     std::vector<std::string> colours;
@@ -234,13 +219,13 @@ class TextureReader {
     for (const double number : o_.all('n'))
       if (number > 0) scales.insert(scales.end(), {1 / number, number});
     for (const double scale : scales) {
-      std::vector<TexturePlace> points;
+      std::vector<SurfacePoint> points;
       std::vector<std::string> wanted;
       while (points.size() < 400) {
         const Vector q = random_.between(0, 20) * random_.on_sphere();
         const auto to_edge = [](double a) { return std::fabs(a - std::round(a)); };
         if (std::fmin(to_edge(q.x), std::fmin(to_edge(q.y), to_edge(q.z))) < 1e-3) continue;
-        points.push_back({0.5, 0.5, scale * q});
+        points.push_back({scale * q});
         wanted.push_back(std::fmod(std::fabs(std::floor(q.x) + std::floor(q.y) + std::floor(q.z)), 2) < 0.5 ? even
                                                                                                             : odd);
       }
@@ -253,13 +238,11 @@ class TextureReader {
   }
   /// The lattice of noise is anybody's: it is told by range, mean and spread.
   std::string noise() {
-    const double* member = o_.named("scale");
-    const double scale = member ? *member : 1;
+    const double scale = o_.named("scale", 1);
     double sum = 0, squares = 0;
     constexpr int rounds = 6000;
-    std::vector<TexturePlace> points;
-    for (int k = 0; k < rounds; ++k)
-      points.push_back({0.5, 0.5, (random_.between(0, 60) / scale) * random_.on_sphere()});
+    std::vector<SurfacePoint> points;
+    for (int k = 0; k < rounds; ++k) points.push_back({(random_.between(0, 60) / scale) * random_.on_sphere()});
     bool is_grey = true;
     for (const Vector& one : value(points)) {
       is_grey = is_grey && is_near(one, {one.x, one.x, one.x}, 1e-3) && one.x >= -0.01 && one.x <= 1.01;

@@ -46,32 +46,28 @@ class CameraReader {
   void fit() {
     const double inset = picture_.less != 0 ? 0 : 0.5, right = picture_.width - 1 + inset,
                  above = inset + picture_.first_row, below = above + picture_.height - 1;
-    std::vector<RayAnswer> corners[4];
-    Vector forward;
-    bool is_unit = true;  // then directions do not end in the plane of focus
-    for (std::size_t k = 0; k < 4; ++k) {
-      corners[k] = rays({{k % 2 == 0 ? inset : right, k < 2 ? above : below}}, 2000);
-      for (const RayAnswer& ray : corners[k]) {
-        forward = forward + normalized(ray.to);
-        is_unit = is_unit && std::fabs(length(ray.to) - 1) < 1e-3;
-      }
+    constexpr std::size_t rounds = 2000;
+    std::vector<RayAnswer> all;
+    for (const PixelPlace& corner : {PixelPlace{inset, above}, {right, above}, {inset, below}, {right, below}})
+      for (const RayAnswer& ray : rays({corner}, rounds)) all.push_back(ray);
+    Vector forward, from, ends[4];
+    for (const RayAnswer& ray : all) forward = forward + normalized(ray.to);
+    const bool is_unit = std::all_of(all.begin(), all.end(), [](const RayAnswer& ray) {
+      return std::fabs(length(ray.to) - 1) < 1e-3;  // then directions do not end in the plane of focus
+    });
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (is_unit) all[k].to = (1 / dot(all[k].to, normalized(forward))) * all[k].to;
+      from = from + (0.25 / rounds) * all[k].from;
+      ends[k / rounds] = ends[k / rounds] + (1.0 / rounds) * (all[k].from + all[k].to);
     }
-    forward = normalized(forward);
-    Vector ends[4], from, middle;
-    for (std::size_t k = 0; k < 4; ++k) {
-      for (RayAnswer& ray : corners[k]) {
-        if (is_unit) ray.to = (1 / dot(ray.to, forward)) * ray.to;
-        from = from + (1.0 / 8000) * ray.from, ends[k] = ends[k] + (1.0 / 2000) * (ray.from + ray.to);
-      }
-      middle = middle + 0.25 * ends[k];
-    }
-    const Vector across = (1 + 2 * inset / (right - inset)) * (ends[1] - ends[0]),
+    const Vector middle = 0.25 * (ends[0] + ends[1] + ends[2] + ends[3]),
+                 across = (1 + 2 * inset / (right - inset)) * (ends[1] - ends[0]),
                  down = (1 + 2 * inset / (below - above)) * (ends[2] - ends[0]), w = normalized(cross(down, across));
     const double distance = std::fabs(dot(middle - from, w));
     double lens = 0, jitter = 0;
-    for (const RayAnswer& ray : corners[0]) {
-      lens = std::fmax(lens, length(ray.from - from));
-      jitter = std::fmax(jitter, length(ray.from + ray.to - ends[0]));
+    for (std::size_t k = 0; k < rounds; ++k) {
+      lens = std::fmax(lens, length(all[k].from - from));
+      jitter = std::fmax(jitter, length(all[k].from + all[k].to - ends[0]));
     }
     noise_ = 1e-3 * r_.precision + 0.1 * jitter / std::fmin(length(across), length(down));
     if (lens < 1e-3 * r_.precision * std::fmax(1, largest(from))) lens = 0;
@@ -158,9 +154,6 @@ class CameraReader {
   double noise_ = 0;  ///< of what was measured, as a part of it
 };
 
-std::vector<LightAnswer> light(Reading& reading, const std::vector<LightQuestion>& questions) {
-  return reading.program.ask<LightAnswer>('c', 0, questions);
-}
 void expect(Vector wanted, Vector found, double precision, const char* of) {
   if (!is_near(wanted, found, 100 * precision))
     throw NotTaken{
@@ -212,8 +205,10 @@ int read_depth(Reading& reading) {
   const int told = std::max(static_cast<int>(reading.picture.depth) - 1, 0);
   const double matt = reading.matt, shining = reading.shining, matts = matt != 0 ? 1 : 0, lights = shining != 0 ? 1 : 0;
   const Vector from = LightQuestion().from, to = LightQuestion().to;
-  const std::vector<LightAnswer> its = light(
-      reading, {{}, {from, to, shining, lights}, {from, to, matt, matts}, {from, to, matt, matts, shining, lights}});
+  const auto its = reading.program.ask<LightAnswer>(
+      'c', 0,
+      std::vector<LightQuestion>{
+          {}, {from, to, shining, lights}, {from, to, matt, matts}, {from, to, matt, matts, shining, lights}});
   if (its[0].high == 0 || (matt == 0 && shining == 0)) return told;  // its world cannot be replaced, or has neither
   if (its[0].low <= 0)
     throw NotTaken{"ray_color() takes hits at t = 0, so that half of the light meets the surface that it leaves"};
@@ -229,7 +224,8 @@ int read_depth(Reading& reading) {
   }
   constexpr double limit = 3000;
   double hits = 0;
-  for (const LightAnswer& one : light(reading, std::vector<LightQuestion>(10, {from, to, matt, limit})))
+  for (const LightAnswer& one :
+       reading.program.ask<LightAnswer>('c', 0, std::vector<LightQuestion>{{from, to, matt, limit}}, 10))
     hits = std::fmax(hits, one.hits);
   return hits >= limit ? 100000 : static_cast<int>(hits) - 1;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <set>
 
 namespace tyndall {
 
@@ -15,9 +14,6 @@ using TokenList = std::vector<std::string_view>;
 bool is_letter(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 bool is_identifier(std::string_view token) {
   return !token.empty() && is_letter(token[0]) && !std::isdigit(static_cast<unsigned char>(token[0]));
-}
-bool is_one_of(std::string_view token, std::initializer_list<std::string_view> all) {
-  return std::find(all.begin(), all.end(), token) != all.end();
 }
 /// The end of a string or character that begins at `at`.
 std::size_t end_of_literal(const std::string& text, std::size_t at) {
@@ -93,23 +89,21 @@ class Outliner {
       } else if (token == ";") {
         if (const std::size_t open = parameters_at(start_, i); open < i)
           add_function(start_, open, {});
-        else if (!scopes_.empty() && scopes_.back().owner >= 0)
-          add_members(outline_.classes[static_cast<std::size_t>(scopes_.back().owner)], i);
+        else if (!scopes_.empty() && scopes_.back().owner != none)
+          add_members(outline_.classes[scopes_.back().owner], i);
         start_ = i + 1;
       } else if (token == ":" && i == start_ + 1 && is_one_of(tokens_[start_], {"public", "private", "protected"})) {
         start_ = i + 1;
       }
     }
-    for (std::size_t i = 1; i < tokens_.size(); ++i)
-      if (tokens_[i - 1] == "<<" && is_one_of(tokens_[i].substr(0, 3), {"\"P3", "\"P6"}))
-        outline_.heads.push_back(tokens_[i]);
   }
 
  private:
   struct Scope {
     std::string name;
-    int owner = -1;  ///< the class; -1: a namespace
+    std::size_t owner = none;  ///< the class; none: a namespace
   };
+  static constexpr std::size_t none = std::string::npos;
 
   bool has(std::string_view word, std::size_t begin, std::size_t end) const {
     return std::find(tokens_.data() + begin, tokens_.data() + end, word) != tokens_.data() + end;
@@ -151,7 +145,7 @@ class Outliner {
       std::string name;
       for (std::size_t i = start_; i < at && !of_language; ++i)
         if (!is_one_of(tokens_[i], {"namespace", "inline"})) name += tokens_[i];
-      scopes_.push_back({name, -1});
+      scopes_.push_back({name});
       start_ = at + 1;
       return at;
     }
@@ -172,12 +166,6 @@ class Outliner {
     }
     if (has("operator", start_, at)) start_ = end + 1;
     return end;
-  }
-  std::string space() const {
-    std::string name;
-    for (const Scope& scope : scopes_)
-      if (!scope.name.empty()) name += (name.empty() ? "" : "::") + scope.name;
-    return name;
   }
   /// The parts between commas that are in no brackets, by their begin and end.
   std::vector<std::pair<std::size_t, std::size_t>> parts(std::size_t begin, std::size_t end) const {
@@ -200,27 +188,28 @@ class Outliner {
       if (is_identifier(tokens_[i]) && tokens_[i] != "final") name = tokens_[i];
     return name;
   }
-  std::string text_of(std::size_t begin, std::size_t end, std::initializer_list<std::string_view> without) const {
-    std::string text;
+  std::vector<std::string> words(std::size_t begin, std::size_t end,
+                                 std::initializer_list<std::string_view> without = {}) const {
+    std::vector<std::string> all;
     for (std::size_t i = begin; i < end; ++i)
-      if (!is_one_of(tokens_[i], without)) text += (text.empty() ? "" : " ") + std::string(tokens_[i]);
-    return text;
+      if (!is_one_of(tokens_[i], without)) all.emplace_back(tokens_[i]);
+    return all;
   }
 
   void add_class(std::size_t end) {
     OutlinedClass one;
-    one.space = space();
-    std::size_t i = start_;
-    if (tokens_[i] == "template") i = behind_angles(i + 1, end);
+    std::size_t i = tokens_[start_] == "template" ? behind_angles(start_ + 1, end) : start_;
     while (i < end && !is_one_of(tokens_[i], {"class", "struct"})) ++i;
     one.name = name_in(i + 1, end);
     one.can_be_named = tokens_[start_] != "template" && !one.name.empty();
-    for (const Scope& scope : scopes_)
-      if (scope.owner >= 0 && !outline_.classes[static_cast<std::size_t>(scope.owner)].can_be_named)
-        one.can_be_named = false;
+    for (const Scope& scope : scopes_) {
+      if (!scope.name.empty()) one.qualified += "::" + scope.name;
+      one.can_be_named = one.can_be_named && (scope.owner == none || outline_.classes[scope.owner].can_be_named);
+    }
+    one.qualified += "::" + one.name;
     while (i < end && tokens_[i] != ":") ++i;
     for (const auto& [from, to] : parts(i + 1, end)) one.bases.push_back(name_in(from, to));
-    scopes_.push_back({one.name, static_cast<int>(outline_.classes.size())});
+    scopes_.push_back({one.name, outline_.classes.size()});
     outline_.classes.push_back(one);
   }
   /// The names in a declaration like "double radius = 1, weights[3];".
@@ -242,9 +231,7 @@ class Outliner {
     const bool is_type = is_one_of(last, {"int", "double", "float", "bool", "char", "unsigned", "signed", "long",
                                           "short", "void", "auto", "const"});
     if (is_identifier(last) && has_type && !is_type) one.name = last, --end;
-    one.type = text_of(begin, end, {});
-    for (std::size_t i = begin; i < end; ++i)
-      if (is_identifier(tokens_[i]) && tokens_[i] != "const") one.identifiers.emplace_back(tokens_[i]);
+    one.type = words(begin, end);
     return one;
   }
   void add_function(std::size_t begin, std::size_t open, std::string_view body) {
@@ -252,14 +239,13 @@ class Outliner {
     Function one;
     one.body = body;
     one.name = tokens_[open - 1];
-    one.owner = scopes_.empty() ? -1 : scopes_.back().owner;
+    if (!scopes_.empty() && scopes_.back().owner != none) one.owner = scopes_.back().name;
     std::size_t name = open - 1;
     for (; name >= begin + 2 && tokens_[name - 1] == "::"; name -= 2)  // defined outside of its class
-      for (std::size_t k = 0; k < outline_.classes.size(); ++k)
-        if (outline_.classes[k].name == tokens_[name - 2]) one.owner = static_cast<int>(k);
+      if (outline_.class_named(std::string(tokens_[name - 2]))) one.owner = tokens_[name - 2];
     if (tokens_[begin] == "template") begin = behind_angles(begin + 1, open);
     one.is_virtual = has("virtual", begin, name), one.is_static = has("static", begin, name);
-    one.result = text_of(begin, name, {"virtual", "static", "inline", "constexpr", "explicit", "[", "]", "nodiscard"});
+    one.result = words(begin, name, {"virtual", "static", "inline", "constexpr", "explicit", "[", "]", "nodiscard"});
     for (const auto& [from, to] : parts(open + 1, closing(open))) one.parameters.push_back(parameter_of(from, to));
     outline_.functions.push_back(one);
   }
@@ -272,22 +258,20 @@ class Outliner {
 
 }  // namespace
 
-bool Parameter::names(const std::string& identifier) const {
-  return std::find(identifiers.begin(), identifiers.end(), identifier) != identifiers.end();
+const OutlinedClass* ProgramOutline::class_named(const std::string& name) const {
+  const auto known =
+      std::find_if(classes.begin(), classes.end(), [&](const OutlinedClass& one) { return one.name == name; });
+  return known == classes.end() ? nullptr : &*known;
 }
 
 bool ProgramOutline::is_derived(const std::string& name, const std::string& root) const {
-  std::set<std::string> seen;
-  std::vector<std::string> open{name};
-  while (!open.empty()) {
-    const std::string one = open.back();
-    open.pop_back();
-    if (one == root) return !root.empty();
-    if (!seen.insert(one).second) continue;
+  std::vector<std::string> found{name};
+  for (std::size_t k = 0; k < found.size(); ++k)
     for (const OutlinedClass& known : classes)
-      if (known.name == one) open.insert(open.end(), known.bases.begin(), known.bases.end());
-  }
-  return false;
+      if (known.name == found[k])
+        for (const std::string& base : known.bases)
+          if (std::find(found.begin(), found.end(), base) == found.end()) found.push_back(base);
+  return !root.empty() && std::find(found.begin(), found.end(), root) != found.end();
 }
 
 std::string key_of(const std::string& name) {

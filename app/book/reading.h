@@ -17,7 +17,6 @@ using Shot = tyndall_book::shot;
 using ShotAnswer = tyndall_book::shot_answer;
 using SurfacePoint = tyndall_book::surface_point;
 using ScatterAnswer = tyndall_book::scatter_answer;
-using TexturePlace = tyndall_book::texture_place;
 using PixelPlace = tyndall_book::pixel_place;
 using RayAnswer = tyndall_book::ray_answer;
 using LightQuestion = tyndall_book::light_question;
@@ -58,21 +57,21 @@ struct NotTaken {
 /// An object of the program's, by its members.
 struct Described {
   struct Member {
-    char kind = 0;  ///< see description in tyndall/book/take.h
-    std::string name;
+    char kind = 0;    ///< see description in tyndall/book/take.h
+    std::string key;  ///< of its name
     std::vector<double> numbers;
   };
   std::string class_name, file;  ///< file: that was read before it was made; "": none
   std::vector<Member> members;
 
-  std::vector<double> all(char kind) const;  ///< the numbers of all members of the kind
-  /// Those whose names have the part, in lower case and without underscores.
+  /// The numbers of all members of the kind, whose keys have the part.
+  std::vector<double> all(char kind, const std::string& part = "") const;
+  /// Of vectors.
   std::vector<Vector> vectors(const std::string& part = "") const;
-  /// The first such number; null: none.
-  const double* named(const std::string& part) const;
+  /// The first of such numbers; if there is none, the other one.
+  double named(const std::string& part, double otherwise) const;
   [[noreturn]] void refuse(const std::string& why) const { throw NotTaken{class_name + ": " + why}; }
 };
-Described described_by(const std::string& text);
 
 /// What is known of a program while its scene is made. Objects of the program's are named by their addresses.
 struct Reading {
@@ -81,7 +80,6 @@ struct Reading {
   tyndall_book::picture_told picture{};
   double precision = 1e-6;              ///< what two computations of the same number may differ by
   std::string textures{}, materials{};  ///< members of JSON objects
-  std::vector<std::string> objects{};   ///< JSON objects
   double matt = 0, shining = 0;         ///< a material that scatters one colour, and one that shines
   Vector albedo{}, light{};             ///< their colours
   std::set<double> one_sided{};         ///< materials that shine where their normals point to
@@ -90,8 +88,6 @@ struct Reading {
   std::map<std::string, int> counts{};
 
   const Described& described(char kind, double object);
-  /// Asks for many at once.
-  void describe(char kind, std::vector<double> wanted);
   /// The quoted name of a texture or material, which is added to `list` when it is asked for first. text: makes it; a
   /// colour needs no name.
   std::string name_of(double object, const std::string& kind, std::string& list,
@@ -101,8 +97,8 @@ struct Reading {
 std::string material_name(Reading& reading, double material);
 std::string texture_name(Reading& reading, double texture);
 std::string medium_colour(Reading& reading, double material);
-/// Makes the objects.
-void read_world(Reading& reading);
+/// The objects, between commas.
+std::string read_world(Reading& reading);
 std::string read_camera(Reading& reading);
 std::string read_sky(Reading& reading);
 /// The longest path, in scattering events; checks the arithmetic of one and of two hits.

@@ -11,9 +11,9 @@ APP = [
 
     ("last words that end in empty lines are lost", "app/book/load_program.cpp",
      "«while (!text.empty() && (text.back() == '\\n' || text.back() == '\\r' || text.back() == ' ')) text.pop_back(); → »", "book/programs.sh"),
-    ("a guarded program that is given up is no failure", "app/book/run_guarded.cpp",
+    ("a guarded program that is given up is no failure", "app/book/compile_program.cpp",
      "«if (end.given_up) throw ProgramInterrupted(task.name + \": given up while \" + doing, signal_terminate); → »", "app/book/load_program"),
-    ("the guard that there is is not taken", "app/book/run_guarded.cpp", "«plan.guard = available_guard(); → »", "app/book/load_program book/safety.sh"),
+    ("the guard that there is is not taken", "app/book/compile_program.cpp", "«plan.guard = available_guard(); → »", "app/book/load_program book/safety.sh"),
     ("functions that are defined outside of their class belong to none", "app/book/program_outline.cpp",
      "if (outline_.classes[k].name == tokens_[name - 2]) one.owner = «static_cast<int>(k) → -1»;", "app/book/program_outline"),
     ("a file with the ending .cxx is no program", "app/book/load_program.cpp", "|| «ending == \".cxx\" → false»;", "app/book/load_program"),

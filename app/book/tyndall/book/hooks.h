@@ -3,10 +3,9 @@
 #include "values.h"
 
 #include <pthread.h>
-#include <time.h>
 #include <unistd.h>
 
-#include <cstdint>
+#include <chrono>
 #include <new>
 
 /// The calls that `tyndall main.cc` inserts into the reader's functions, and what it learns by them before anything is
@@ -24,10 +23,9 @@ inline void send_bytes(const void* bytes, std::size_t size) {
     at += sent, size -= static_cast<std::size_t>(sent);
   }
 }
-/// Tells the caller, by a letter and a text, whose size is the count. F: a file that is missing, P: the picture, D: an
-/// object, E: why there is nothing to be shown.
+/// Tells the caller. F: a file that is missing, P: the picture, A: answers, E: why there is nothing to be shown.
 inline void tell(char kind, const std::string& text) {
-  const question head{double(kind), 0, double(text.size())};
+  const question head{double(kind), 0, 0, double(text.size())};
   send_bytes(&head, sizeof head), send_bytes(text.data(), text.size());
 }
 
@@ -102,7 +100,7 @@ class watcher {
   /// Whether all is known; called for each ray of the loop.
   static bool knows(session& s) {
     if (seen_.empty()) {
-      thread_ = pthread_self(), begin_ = seconds(), size_ = rays.size();
+      thread_ = pthread_self(), begin_ = std::chrono::steady_clock::now(), size_ = rays.size();
       read_head(size_);
       rows_rise_ = !rays.by_pixels && rays.side(0, 1).y > 0;
     }
@@ -121,10 +119,8 @@ class watcher {
   struct place {
     double first, second;
   };
-  static double seconds() {
-    timespec time{};
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+  static bool is_later(int seconds) {
+    return std::chrono::steady_clock::now() - begin_ > std::chrono::seconds(seconds);
   }
   static bool count_samples(session& s) {
     const auto column = [&](const place& at) {
@@ -132,12 +128,12 @@ class watcher {
     };
     const bool same = column(seen_.back()) == column(seen_.front());
     s.samples = double(seen_.size()) - (same ? 0 : 1);
-    return !same || seen_.size() >= 20000 || seconds() - begin_ > 2;
+    return !same || seen_.size() >= 20000 || is_later(2);
   }
   /// The size, by a whole row of the loop.
   static bool take_size(session& s) {
     if (seen_.size() < 2) return false;
-    if (seconds() - begin_ > 10) give_up("the size of the picture is not known");
+    if (is_later(10)) give_up("the size of the picture is not known");
     if (seen_.back().first > seen_[seen_.size() - 2].first - (rays.by_pixels ? 2 : 0.5)) return false;
     const std::size_t row = seen_.size() - 1;
     for (std::size_t samples = 1; samples <= row; ++samples) {
@@ -157,7 +153,7 @@ class watcher {
   }
 
   inline static pthread_t thread_{};
-  inline static double begin_ = 0;
+  inline static std::chrono::steady_clock::time_point begin_;
   inline static bool rows_rise_ = false;  ///< rows go up in the world: the picture is turned when it is written
   inline static picture_told size_;
   inline static std::vector<place> seen_;
