@@ -1,6 +1,6 @@
 #include "app/book/compile_program.h"
 
-#include "app/book/inserted_calls.h"
+#include "app/book/program_outline.h"
 #include "app/text/values.h"
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -1,4 +1,4 @@
-#include "app/book/inserted_calls.h"
+#include "app/book/program_outline.h"
 
 #include "core/base/text.h"
 

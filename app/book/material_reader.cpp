@@ -194,47 +194,38 @@ class TextureReader {
       r_.scene.has_images = true;
       return "{\"type\":\"image\",\"file\":" + in_quotes(o_.file) + "}";
     }
-    const std::vector<std::string> colours = colours_of();
-    for (const std::string& even : colours)
-      for (const std::string& odd : colours)
-        if (std::string made = checker(even, odd); &even != &odd && !made.empty()) return made;
+    for (const double texture : o_.all('t'))
+      if (texture != 0 && texture_name(r_, texture)[0] != '[')
+        o_.refuse("Tyndall's checker takes two colours, not textures");
+    std::vector<double> scales{pi / 10};  // of the sines of editions 1 to 3
+    for (const double number : o_.all('n'))
+      if (number > 0) scales.insert(scales.end(), {1 / number, number});
+    for (const double scale : scales)
+      if (std::string made = checker(scale); !made.empty()) return made;
     return noise();
   }
 
  private:
   std::vector<Vector> value(const std::vector<SurfacePoint>& points) { return r_.program.ask<Vector>('v', t_, points); }
-  /// The colours that it holds.
-  std::vector<std::string> colours_of() {
-    std::vector<std::string> colours;
-    for (const Vector& one : o_.vectors()) colours.push_back(triple(one));
-    for (const double texture : o_.all('t'))
-      if (texture != 0) colours.push_back(texture_name(r_, texture));
-    for (const std::string& one : colours)
-      if (one[0] != '[') o_.refuse("Tyndall's checker takes two colours, not textures");
-    return colours;
-  }
   /// "": its squares are not those of the books.
-  std::string checker(const std::string& even, const std::string& odd) {
-    std::vector<double> scales{pi / 10};  // of the sines of editions 1 to 3
-    for (const double number : o_.all('n'))
-      if (number > 0) scales.insert(scales.end(), {1 / number, number});
-    for (const double scale : scales) {
-      std::vector<SurfacePoint> points;
-      std::vector<std::string> wanted;
-      while (points.size() < 400) {
-        const Vector q = random_.between(0, 20) * random_.on_sphere();
-        const auto to_edge = [](double a) { return std::fabs(a - std::round(a)); };
-        if (std::fmin(to_edge(q.x), std::fmin(to_edge(q.y), to_edge(q.z))) < 1e-3) continue;
-        points.push_back({scale * q});
-        wanted.push_back(std::fmod(std::fabs(std::floor(q.x) + std::floor(q.y) + std::floor(q.z)), 2) < 0.5 ? even
-                                                                                                            : odd);
-      }
-      const std::vector<Vector> values = value(points);
-      if (std::equal(values.begin(), values.end(), wanted.begin(),
-                     [](Vector a, const std::string& b) { return triple(a) == b; }))
-        return fmt::format("{{\"type\":\"checker\",\"scale\":{},\"even\":{},\"odd\":{}}}", scale, even, odd);
+  std::string checker(double scale) {
+    std::vector<SurfacePoint> points;
+    std::vector<std::size_t> parity;
+    while (points.size() < 400) {
+      const Vector q = random_.between(0, 20) * random_.on_sphere();
+      const auto to_edge = [](double a) { return std::fabs(a - std::round(a)); };
+      if (std::fmin(to_edge(q.x), std::fmin(to_edge(q.y), to_edge(q.z))) < 1e-3) continue;
+      points.push_back({scale * q});
+      parity.push_back(std::fmod(std::fabs(std::floor(q.x) + std::floor(q.y) + std::floor(q.z)), 2) < 0.5 ? 0 : 1);
     }
-    return "";
+    const std::vector<Vector> values = value(points);
+    std::string colours[2];
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      std::string& known = colours[parity[k]];
+      if (known.empty()) known = triple(values[k]);
+      if (triple(values[k]) != known) return "";
+    }
+    return fmt::format("{{\"type\":\"checker\",\"scale\":{},\"even\":{},\"odd\":{}}}", scale, colours[0], colours[1]);
   }
   /// The lattice of noise is anybody's: it is told by range, mean and spread.
   std::string noise() {

@@ -18,9 +18,10 @@ OwnProgram::OwnProgram(std::string name, ChildPlan plan, double seconds, std::fu
     const std::lock_guard lock(wanted_mutex_);
     return !stops_ && std::chrono::steady_clock::now() < deadline_ && (!go_on_ || go_on_());
   };
-  thread_ = std::thread([this, plan = std::move(plan), its = std::move(its)]() mutable {
-    end_ = run_child(plan);
+  end_ = std::async(std::launch::async, [plan = std::move(plan), its = std::move(its)]() mutable {
+    ChildEnd end = run_child(plan);
     its.close();
+    return end;
   });
 }
 
@@ -66,8 +67,7 @@ std::string OwnProgram::describe(char kind, double object) {
 
 const ChildEnd& OwnProgram::end() {
   stops_ = true;
-  if (thread_.joinable()) thread_.join();
-  return end_;
+  return end_.get();
 }
 
 }  // namespace tyndall

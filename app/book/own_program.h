@@ -9,11 +9,11 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace tyndall {
@@ -71,9 +71,8 @@ class OwnProgram {
   Mutex wanted_mutex_;
   std::chrono::steady_clock::time_point deadline_;
   std::function<bool()> go_on_;
-  ChildEnd end_;
   Mutex mutex_;  ///< one question at a time
-  std::thread thread_;
+  std::shared_future<ChildEnd> end_;
 };
 
 /// What a program shows: a scene, or samples of its own.

@@ -1,5 +1,4 @@
 #include "app/book/program_outline.h"
-#include "app/book/inserted_calls.h"
 
 #include <doctest/doctest.h>
 
