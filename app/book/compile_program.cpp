@@ -143,6 +143,11 @@ bool holds(const std::vector<T>& all, const T& one) {
   return std::find(all.begin(), all.end(), one) != all.end();
 }
 
+/// Of the reader's code.
+struct CompilerError {
+  std::string text;
+};
+
 class Compilation {
  public:
   explicit Compilation(const ProgramTask& task)
@@ -154,21 +159,18 @@ class Compilation {
 
   CompiledProgram run() {
     std::vector<std::string> errors;
-    for (const char* standard : {"-std=c++17", "-std=c++20"}) {
-      standard_ = standard;
-      if (const std::string error = preprocess(); !error.empty()) {
-        errors.push_back(error);
-        continue;
+    for (const char* standard : {"-std=c++17", "-std=c++20"}) try {
+        standard_ = standard;
+        preprocess();
+        for (const bool reads_world : {true, false}) {
+          const InsertedCalls calls = insert_calls(text_, outline_, reads_world);
+          if (!calls.problem.empty()) throw UsageError(task_.name + ": " + calls.problem);
+          if (compile(calls.text, reads_world))
+            return {task_.folder / "program", outline_.files, calls.draws_by_pdf, calls.decodes_images};
+        }
+      } catch (const CompilerError& error) {
+        errors.push_back(all_printable(error.text));
       }
-      for (const bool reads_world : {true, false}) {
-        const InsertedCalls calls = insert_calls(text_, outline_, reads_world);
-        if (!calls.problem.empty()) throw UsageError(task_.name + ": " + calls.problem);
-        const std::string error = compile(calls.text);
-        if (error.empty()) return {task_.folder / "program", outline_.files, calls.draws_by_pdf, calls.decodes_images};
-        if (!reads_world || !is_in_ours_) errors.push_back(error);
-        if (!is_in_ours_) break;
-      }
-    }
     // What is wrong at the same place for both is told in the words of the older one, which are plainer. Else the code
     // is C++20, and the older one's error means nothing.
     const auto place = [](const std::string& error) { return error.substr(0, error.find(": ")); };
@@ -176,8 +178,8 @@ class Compilation {
   }
 
  private:
-  /// Makes the text of the program and its outline; returns an error.
-  std::string preprocess() {
+  /// Makes the text of the program and its outline.
+  void preprocess() {
     for (std::size_t known = 0; known != sources_.size();) {
       known = sources_.size();
       std::string all = "#include \"" + (headers_ / "take.h").string() + "\"\n";
@@ -187,7 +189,7 @@ class Compilation {
       const ChildEnd end = call({"-E", file.string(), "-o", "all.ii"});
       if (!end.succeeded()) {
         const fs::path folder = folder_with(missing_header(end.errors), sources_.front());
-        if (folder.empty() || holds(options_, folder.string())) return all_printable(first_error(end.errors, main_));
+        if (folder.empty() || holds(options_, folder.string())) throw CompilerError{first_error(end.errors, main_)};
         options_.insert(options_.end(), {"-I", folder.string()});
         known = 0;
         continue;
@@ -196,7 +198,6 @@ class Compilation {
       outline_ = outline_of(text_, {headers_, task_.folder});
       add_sources();
     }
-    return "";
   }
   void add_sources() {
     for (const fs::path& file : outline_.files)
@@ -204,17 +205,17 @@ class Compilation {
           !source.empty() && !holds(sources_, source) && !holds(outline_.files, source))
         sources_.push_back(source);
   }
-  std::string compile(const std::string& text) {
+  /// False: it fails in our headers, where his world is read.
+  bool compile(const std::string& text, bool reads_world) {
     write_text(task_.folder / "program.ii", text);
     const ChildEnd end = call({"-O1", "-fno-access-control", "-fpermissive", "program.ii", "-o", "program", "-ldl"});
     std::error_code ignored;  // what is no program cannot be started
     if (end.succeeded())      // a guard may refuse linkers that
-      fs::permissions(task_.folder / "program", fs::perms::owner_exec, fs::perm_options::add, ignored);
-    const std::string error = end.succeeded() ? "" : first_error(end.errors, main_);
+      return fs::permissions(task_.folder / "program", fs::perms::owner_exec, fs::perm_options::add, ignored), true;
     const std::size_t first = end.errors.rfind('\n', end.errors.find("error: "));
     const std::string place = end.errors.substr(first == std::string::npos ? 0 : first + 1);
-    is_in_ours_ = place.rfind(headers_.string(), 0) == 0 || place.rfind("tyndall/book/", 0) == 0;
-    return all_printable(error);
+    if (reads_world && (place.rfind(headers_.string(), 0) == 0 || place.rfind("tyndall/book/", 0) == 0)) return false;
+    throw CompilerError{first_error(end.errors, main_)};
   }
   ChildEnd call(const std::vector<std::string>& more) const {
     std::vector<std::string> arguments{standard_, "-w", "-pthread", "-fmax-errors=20", "-fdiagnostics-color=never"};
@@ -229,7 +230,6 @@ class Compilation {
   std::vector<std::string> options_;
   std::string standard_, text_;
   ProgramOutline outline_;
-  bool is_in_ours_ = false;  ///< the last error
 };
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace tyndall {
 namespace {
 
-constexpr SurfacePoint slanted{}, behind{slanted.p, slanted.u, slanted.v, {0.8, 0.6, 0}, 0};
+constexpr book::surface_point slanted{}, behind{slanted.p, slanted.u, slanted.v, {0.8, 0.6, 0}, 0};
 
 Vector mirror(Vector to) { return {to.x, -to.y, to.z}; }
 Vector mean_of(const std::vector<Vector>& all) {
@@ -18,14 +18,13 @@ Vector mean_of(const std::vector<Vector>& all) {
   for (const Vector& one : all) sum = sum + one;
   return (1.0 / static_cast<double>(std::max(all.size(), std::size_t(1)))) * sum;
 }
-std::vector<Vector> same_ones(const std::vector<Vector>& all) { return std::vector<Vector>(all.size(), all[0]); }
 bool are_near(const std::vector<Vector>& a, const std::vector<Vector>& b, double precision) {
   return std::equal(a.begin(), a.end(), b.begin(), [&](Vector x, Vector y) { return is_near(x, y, precision); });
 }
 /// The slanted one, and others at random.
-std::vector<SurfacePoint> some_points(int count, double far) {
+std::vector<book::surface_point> some_points(int count, double far) {
   RandomNumbers random;
-  std::vector<SurfacePoint> points{slanted};
+  std::vector<book::surface_point> points{slanted};
   for (int k = 0; k < count; ++k)
     points.push_back({random.between(0, far) * random.on_sphere(), random.next(), random.next()});
   return points;
@@ -35,7 +34,7 @@ class MaterialReader {
  public:
   MaterialReader(Reading& reading, double material) : r_(reading), m_(material), o_(reading.described('m', material)) {}
 
-  std::vector<Vector> emitted(const std::vector<SurfacePoint>& points) {
+  std::vector<Vector> emitted(const std::vector<book::surface_point>& points) {
     return r_.program.ask<Vector>('e', m_, points);
   }
   std::string text() {
@@ -54,28 +53,28 @@ class MaterialReader {
   }
   std::string medium_albedo() {
     std::vector<Vector> to;
-    for (const ScatterAnswer& one : scatter({slanted}, 2000)) to.push_back(normalized(one.to));
+    for (const book::scatter_answer& one : scatter({slanted}, 2000)) to.push_back(normalized(one.to));
     if (!(length(mean_of(to)) < 0.06)) o_.refuse("its fog does not scatter to all sides alike");
     return albedo();
   }
 
  private:
-  std::vector<ScatterAnswer> scatter(const std::vector<SurfacePoint>& points, std::size_t count = 0) {
-    std::vector<ScatterAnswer> all = r_.program.ask<ScatterAnswer>('x', m_, points, count);
-    for (ScatterAnswer& one : all)
+  std::vector<book::scatter_answer> scatter(const std::vector<book::surface_point>& points, std::size_t count = 0) {
+    std::vector<book::scatter_answer> all = r_.program.ask<book::scatter_answer>('x', m_, points, count);
+    for (book::scatter_answer& one : all)
       if (one.does != 0 && !(length(one.to) > 0)) one.to = {0, 1, 0};
     return all;
   }
 
   /// The material by how it scatters; "": by none of the books' rules.
-  std::string scattering(const std::vector<ScatterAnswer>& all) {
+  std::string scattering(const std::vector<book::scatter_answer>& all) {
     std::vector<Vector> to;
-    for (const ScatterAnswer& one : all)
+    for (const book::scatter_answer& one : all)
       if (one.does != 0) to.push_back(normalized(one.to));
-    SurfacePoint steep = slanted;
+    book::surface_point steep = slanted;
     steep.to = {0.28, -0.96, 0};
     std::vector<Vector> through;
-    for (const ScatterAnswer& one : scatter({steep}, 200))
+    for (const book::scatter_answer& one : scatter({steep}, 200))
       if (one.to.y < 0) through.push_back(normalized(one.to));
     if (through.size() > 100 && to.size() == all.size()) return glass(steep.to, through[0]);
     if (to.empty()) return "{\"type\":\"lambertian\",\"albedo\":[0,0,0]}";
@@ -117,9 +116,9 @@ class MaterialReader {
   /// A colour, or the name of the texture that it comes from. of: the values at points of a surface.
   template <class F>
   std::string colour_of(const F& of) {
-    const std::vector<SurfacePoint> points = some_points(40, 30);
+    const std::vector<book::surface_point> points = some_points(40, 30);
     const std::vector<Vector> values = of(points);
-    if (are_near(values, same_ones(values), 1e-6)) return triple(values[0]);
+    if (are_near(values, std::vector(values.size(), values[0]), 1e-6)) return triple(values[0]);
     for (const double texture : o_.all('t'))
       if (texture != 0 && are_near(values, r_.program.ask<Vector>('v', texture, points), 1e-6))
         return texture_name(r_, texture);
@@ -128,14 +127,14 @@ class MaterialReader {
   std::string albedo() {
     return colour_of([&](const auto& points) {
       std::vector<Vector> parts(points.size());
-      const std::vector<ScatterAnswer> all = scatter(points, 12 * points.size());  // some rays are lost
+      const std::vector<book::scatter_answer> all = scatter(points, 12 * points.size());  // some rays are lost
       for (std::size_t k = 0; k < all.size(); ++k)
         if (all[k].does != 0) parts[k % points.size()] = all[k].part;
       return parts;
     });
   }
   std::string metal(double fuzz) {
-    SurfacePoint above = slanted;
+    book::surface_point above = slanted;
     above.to = {0, -2, 0};
     if (!is_near(normalized(scatter({above})[0].to), Vector{0, 1, 0}, fuzz > 0 ? 2 : 1e-3))
       o_.refuse("it is no mirror from everywhere");
@@ -157,7 +156,7 @@ class MaterialReader {
                  eta = front != 0 ? index : 1 / index;
     constexpr std::size_t rounds = 1500;
     int reflected = 0;
-    for (const ScatterAnswer& one :
+    for (const book::scatter_answer& one :
          scatter({{slanted.p, slanted.u, slanted.v, {sine, side * cosine, 0}, front}}, rounds)) {
       const Vector to = normalized(one.to);
       if (one.does == 0 || !is_near(one.part, {1, 1, 1}, 1e-3))
@@ -184,10 +183,10 @@ class TextureReader {
   TextureReader(Reading& reading, double texture) : r_(reading), t_(texture), o_(reading.described('t', texture)) {}
 
   std::string text() {
-    std::vector<SurfacePoint> points = some_points(60, 40);
+    std::vector<book::surface_point> points = some_points(60, 40);
     const std::vector<Vector> values = value(points);
-    if (are_near(values, same_ones(values), 1e-9)) return triple(values[0]);
-    for (SurfacePoint& one : points) one.p = {};
+    if (are_near(values, std::vector(values.size(), values[0]), 1e-9)) return triple(values[0]);
+    for (book::surface_point& one : points) one.p = {};
     const bool is_flat = are_near(values, value(points), 1e-9);
     if (is_flat && o_.file.empty()) o_.refuse("no such texture in Tyndall");
     if (is_flat) {
@@ -206,10 +205,12 @@ class TextureReader {
   }
 
  private:
-  std::vector<Vector> value(const std::vector<SurfacePoint>& points) { return r_.program.ask<Vector>('v', t_, points); }
+  std::vector<Vector> value(const std::vector<book::surface_point>& points) {
+    return r_.program.ask<Vector>('v', t_, points);
+  }
   /// "": its squares are not those of the books.
   std::string checker(double scale) {
-    std::vector<SurfacePoint> points;
+    std::vector<book::surface_point> points;
     std::vector<std::size_t> parity;
     while (points.size() < 400) {
       const Vector q = random_.between(0, 20) * random_.on_sphere();
@@ -232,7 +233,7 @@ class TextureReader {
     const double scale = o_.named("scale", 1);
     double sum = 0, squares = 0;
     constexpr int rounds = 6000;
-    std::vector<SurfacePoint> points;
+    std::vector<book::surface_point> points;
     for (int k = 0; k < rounds; ++k) points.push_back({(random_.between(0, 60) / scale) * random_.on_sphere()});
     bool is_grey = true;
     for (const Vector& one : value(points)) {

@@ -39,20 +39,21 @@ class CameraReader {
   }
 
  private:
-  std::vector<RayAnswer> rays(const std::vector<PixelPlace>& places, std::size_t count = 0) {
-    return r_.program.ask<RayAnswer>('r', 0, places, count);
+  std::vector<book::ray_answer> rays(const std::vector<book::pixel_place>& places, std::size_t count = 0) {
+    return r_.program.ask<book::ray_answer>('r', 0, places, count);
   }
   /// By the means of many rays at the corners: jitter and lens move single ones.
   void fit() {
     const double inset = picture_.less != 0 ? 0 : 0.5, right = picture_.width - 1 + inset,
                  above = inset + picture_.first_row, below = above + picture_.height - 1;
     constexpr std::size_t rounds = 2000;
-    std::vector<RayAnswer> all;
-    for (const PixelPlace& corner : {PixelPlace{inset, above}, {right, above}, {inset, below}, {right, below}})
-      for (const RayAnswer& ray : rays({corner}, rounds)) all.push_back(ray);
+    std::vector<book::ray_answer> all;
+    for (const book::pixel_place& corner :
+         {book::pixel_place{inset, above}, {right, above}, {inset, below}, {right, below}})
+      for (const book::ray_answer& ray : rays({corner}, rounds)) all.push_back(ray);
     Vector forward, from, ends[4];
-    for (const RayAnswer& ray : all) forward = forward + normalized(ray.to);
-    const bool is_unit = std::all_of(all.begin(), all.end(), [](const RayAnswer& ray) {
+    for (const book::ray_answer& ray : all) forward = forward + normalized(ray.to);
+    const bool is_unit = std::all_of(all.begin(), all.end(), [](const book::ray_answer& ray) {
       return std::fabs(length(ray.to) - 1) < 1e-3;  // then directions do not end in the plane of focus
     });
     for (std::size_t k = 0; k < all.size(); ++k) {
@@ -113,11 +114,11 @@ class CameraReader {
     const double lens = camera_.focus_distance * std::tan(camera_.defocus_angle * pi / 360);
     const double rounding = 0.01 * r_.precision * largest(camera_.look_from) / size;
     const double wide = (picture_.by_pixels != 0 ? 1.01 : picture_.less != 0 ? 1.52 : 0.02) + rounding;
-    std::vector<PixelPlace> places;
+    std::vector<book::pixel_place> places;
     RandomNumbers random;
     for (int k = 0; k < 500; ++k)
       places.push_back({random.between(0, picture_.width), random.between(0, picture_.height)});
-    const std::vector<RayAnswer> all = rays(places);
+    const std::vector<book::ray_answer> all = rays(places);
     double widest = 0;
     for (std::size_t k = 0; k < all.size(); ++k) {
       const Vector from = all[k].from - camera_.look_from, to = all[k].to;
@@ -136,7 +137,7 @@ class CameraReader {
   /// By the times of 2,000 rays, and two numbers of the members between which they lie.
   std::string shutter() {
     double low = endless, high = -endless;
-    for (const RayAnswer& ray : rays({{0.5, 0.5}}, 2000))
+    for (const book::ray_answer& ray : rays({{0.5, 0.5}}, 2000))
       low = std::fmin(low, ray.time), high = std::fmax(high, ray.time);
     if (high - low < 1e-9) return fmt::format("[{},{}]", low, low);
     const std::vector<double> numbers = o_.all('n');
@@ -148,7 +149,7 @@ class CameraReader {
   }
 
   Reading& r_;
-  const tyndall_book::picture_told& picture_;
+  const book::picture_told& picture_;
   const Described& o_;
   CameraValues camera_;
   double noise_ = 0;  ///< of what was measured, as a part of it
@@ -166,10 +167,12 @@ Vector product(Vector a, Vector b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 std::string read_camera(Reading& reading) { return CameraReader(reading).text(); }
 
 std::string read_sky(Reading& reading) {
-  const auto colours = [&](const std::vector<RayAnswer>& rays) { return reading.program.ask<Vector>('y', 0, rays); };
+  const auto colours = [&](const std::vector<book::ray_answer>& rays) {
+    return reading.program.ask<Vector>('y', 0, rays);
+  };
   const std::vector<Vector> ends = colours({{{}, {0, -1, 0}}, {{}, {0, 1, 0}}});
   const Vector bottom = ends[0], top = ends[1];
-  const auto check = [&](const std::vector<RayAnswer>& rays) {
+  const auto check = [&](const std::vector<book::ray_answer>& rays) {
     const std::vector<Vector> found = colours(rays);
     for (std::size_t k = 0; k < rays.size(); ++k) {
       const double a = 0.5 * (normalized(rays[k].to).y + 1);
@@ -180,10 +183,10 @@ std::string read_sky(Reading& reading) {
     }
   };
   RandomNumbers random;
-  std::vector<PixelPlace> places;
+  std::vector<book::pixel_place> places;
   for (int k = 0; k < 20000; ++k)  // what the camera sees
     places.push_back({random.between(0, reading.picture.width), random.between(0, reading.picture.height)});
-  std::vector<RayAnswer> rays = reading.program.ask<RayAnswer>('r', 0, places);
+  std::vector<book::ray_answer> rays = reading.program.ask<book::ray_answer>('r', 0, places);
   check(rays);
   const Vector eye = rays[0].from;
   constexpr int rows = 1024, columns = 2048;
@@ -204,11 +207,8 @@ std::string read_sky(Reading& reading) {
 int read_depth(Reading& reading) {
   const int told = std::max(static_cast<int>(reading.picture.depth) - 1, 0);
   const double matt = reading.matt, shining = reading.shining, matts = matt != 0 ? 1 : 0, lights = shining != 0 ? 1 : 0;
-  const Vector from = LightQuestion().from, to = LightQuestion().to;
-  const auto its = reading.program.ask<LightAnswer>(
-      'c', 0,
-      std::vector<LightQuestion>{
-          {}, {from, to, shining, lights}, {from, to, matt, matts}, {from, to, matt, matts, shining, lights}});
+  const auto its = reading.program.ask<book::light_answer>(
+      'c', 0, std::vector<book::light_question>{{}, {shining, lights}, {matt, matts}, {matt, matts, shining, lights}});
   if (its[0].high == 0 || (matt == 0 && shining == 0)) return told;  // its world cannot be replaced, or has neither
   if (its[0].low <= 0)
     throw NotTaken{"ray_color() takes hits at t = 0, so that half of the light meets the surface that it leaves"};
@@ -217,15 +217,15 @@ int read_depth(Reading& reading) {
   if (shining != 0) expect(reading.light, its[1].colour, reading.precision, "a light");
   if (matt == 0) return told;
   if (!reading.scene.draws_by_pdf) {
-    const Vector sky = reading.program.ask<Vector>('y', 0, std::vector{RayAnswer{{}, its[2].second}})[0];
+    const Vector sky = reading.program.ask<Vector>('y', 0, std::vector{book::ray_answer{{}, its[2].second}})[0];
     expect(product(reading.albedo, sky), its[2].colour, reading.precision, "one hit");
     if (shining != 0)
       expect(product(reading.albedo, reading.light), its[3].colour, reading.precision, "a hit and a light");
   }
   constexpr double limit = 3000;
   double hits = 0;
-  for (const LightAnswer& one :
-       reading.program.ask<LightAnswer>('c', 0, std::vector<LightQuestion>{{from, to, matt, limit}}, 10))
+  for (const book::light_answer& one :
+       reading.program.ask<book::light_answer>('c', 0, std::vector<book::light_question>{{matt, limit}}, 10))
     hits = std::fmax(hits, one.hits);
   return hits >= limit ? 100000 : static_cast<int>(hits) - 1;
 }

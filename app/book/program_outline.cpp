@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 namespace tyndall {
 
@@ -73,15 +74,30 @@ TokenList tokens_of(const std::string& text, const std::vector<fs::path>& ours, 
   return tokens;
 }
 
+/// Where the brackets that open are closed; all other tokens are closed where they are. Angles are brackets behind
+/// names, where no end of a declaration is within.
+std::vector<std::size_t> ends_of(const TokenList& tokens) {
+  std::vector<std::size_t> ends(tokens.size()), open;
+  for (std::size_t i = 0; i < tokens.size(); ++i) {
+    ends[i] = i;
+    const bool opens_angle = tokens[i] == "<" && i > 0 && is_identifier(tokens[i - 1]) && tokens[i - 1] != "operator";
+    const bool closes = is_one_of(tokens[i], {")", "]", "}"});
+    while ((closes || tokens[i] == ";") && !open.empty() && tokens[open.back()] == "<") open.pop_back();
+    if (!open.empty() && (closes || (tokens[i] == ">" && tokens[open.back()] == "<")))
+      ends[open.back()] = i, open.pop_back();
+    if (opens_angle || is_one_of(tokens[i], {"(", "[", "{"})) open.push_back(i);
+  }
+  return ends;
+}
+
 class Outliner {
  public:
-  Outliner(TokenList tokens, ProgramOutline& outline) : tokens_(std::move(tokens)), outline_(outline) {}
+  Outliner(TokenList tokens, ProgramOutline& outline)
+      : tokens_(std::move(tokens)), ends_(ends_of(tokens_)), outline_(outline) {}
   void run() {
     for (std::size_t i = 0; i < tokens_.size(); ++i) {
       const std::string_view token = tokens_[i];
-      if (token == "(" || token == "[") {
-        i = closing(i);
-      } else if (token == "{") {
+      if (token == "{") {
         i = open_brace(i);
       } else if (token == "}") {
         if (!scopes_.empty()) scopes_.pop_back();
@@ -94,6 +110,8 @@ class Outliner {
         start_ = i + 1;
       } else if (token == ":" && i == start_ + 1 && is_one_of(tokens_[start_], {"public", "private", "protected"})) {
         start_ = i + 1;
+      } else {
+        i = ends_[i];
       }
     }
   }
@@ -108,33 +126,13 @@ class Outliner {
   bool has(std::string_view word, std::size_t begin, std::size_t end) const {
     return std::find(tokens_.data() + begin, tokens_.data() + end, word) != tokens_.data() + end;
   }
-  std::size_t closing(std::size_t open) const {
-    int depth = 0;
-    for (std::size_t i = open; i < tokens_.size(); ++i) {
-      if (is_one_of(tokens_[i], {"(", "[", "{"})) ++depth;
-      if (is_one_of(tokens_[i], {")", "]", "}"}) && --depth == 0) return i;
-    }
-    return tokens_.size() - 1;
-  }
-  /// Behind the < ... > that begins at `at`, else `at`.
-  std::size_t behind_angles(std::size_t at, std::size_t end) const {
-    if (at >= end || tokens_[at] != "<") return at;
-    int depth = 0;
-    for (std::size_t i = at; i < end; ++i) {
-      if (tokens_[i] == "<") ++depth;
-      if (tokens_[i] == ">" && --depth == 0) return i + 1;
-      if (is_one_of(tokens_[i], {";", "{", "}"})) return at;
-    }
-    return at;
-  }
+  /// Behind a token, or behind the bracket that closes what it opens.
+  std::size_t next(std::size_t at) const { return ends_[at] + 1; }
+  std::size_t behind_template(std::size_t at) const { return tokens_[at] == "template" ? next(at + 1) : at; }
   /// Where the parameters of a function's declaration begin; `end`: it is none.
   std::size_t parameters_at(std::size_t begin, std::size_t end) const {
-    if (begin < end && tokens_[begin] == "template") begin = behind_angles(begin + 1, end);
-    for (std::size_t i = begin; i < end; ++i) {
-      if (i > begin && is_identifier(tokens_[i - 1]) && tokens_[i - 1] != "operator")
-        i = std::max(i, behind_angles(i, end));
-      if (i >= end || tokens_[i] == "=" || tokens_[i] == "using" || tokens_[i] == "typedef" || tokens_[i] == "friend")
-        return end;
+    for (std::size_t i = behind_template(begin); i < end; i = next(i)) {
+      if (is_one_of(tokens_[i], {"=", "using", "typedef", "friend"})) return end;
       if (tokens_[i] == "(") return i > begin && is_identifier(tokens_[i - 1]) ? i : end;
     }
     return end;
@@ -149,9 +147,9 @@ class Outliner {
       start_ = at + 1;
       return at;
     }
-    const std::size_t open = parameters_at(start_, at), end = closing(at);
+    const std::size_t open = parameters_at(start_, at), end = ends_[at];
     if (open < at) {
-      if (has(":", closing(open), at) && (is_identifier(tokens_[at - 1]) || tokens_[at - 1] == ">"))
+      if (has(":", ends_[open], at) && (is_identifier(tokens_[at - 1]) || tokens_[at - 1] == ">"))
         return end;  // a member of a constructor's list
       const char* from = tokens_[at].data();
       add_function(start_, open, std::string_view(from, static_cast<std::size_t>(tokens_[end].data() + 1 - from)));
@@ -170,21 +168,15 @@ class Outliner {
   /// The parts between commas that are in no brackets, by their begin and end.
   std::vector<std::pair<std::size_t, std::size_t>> parts(std::size_t begin, std::size_t end) const {
     std::vector<std::pair<std::size_t, std::size_t>> all;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (i > begin && is_identifier(tokens_[i - 1])) i = std::max(i, behind_angles(i, end));
-      if (i < end && is_one_of(tokens_[i], {"(", "[", "{"})) i = closing(i);
-      if (i < end && tokens_[i] != ",") continue;
-      all.emplace_back(begin, i);
-      begin = i + 1;
-    }
+    for (std::size_t i = begin; i < end; i = next(i))
+      if (tokens_[i] == ",") all.emplace_back(std::exchange(begin, i + 1), i);
     if (begin < end) all.emplace_back(begin, end);
     return all;
   }
   /// The last name up to what it is set to, or an end.
   std::string name_in(std::size_t begin, std::size_t end) const {
     std::string name;
-    for (std::size_t i = begin; i < end && !is_one_of(tokens_[i], {"=", "{", "[", ":", "("});
-         i = std::max(i + 1, behind_angles(i + 1, end)))
+    for (std::size_t i = begin; i < end && !is_one_of(tokens_[i], {"=", "{", "[", ":", "("}); i = next(i))
       if (is_identifier(tokens_[i]) && tokens_[i] != "final") name = tokens_[i];
     return name;
   }
@@ -198,7 +190,7 @@ class Outliner {
 
   void add_class(std::size_t end) {
     OutlinedClass one;
-    std::size_t i = tokens_[start_] == "template" ? behind_angles(start_ + 1, end) : start_;
+    std::size_t i = behind_template(start_);
     while (i < end && !is_one_of(tokens_[i], {"class", "struct"})) ++i;
     one.name = name_in(i + 1, end);
     one.can_be_named = tokens_[start_] != "template" && !one.name.empty();
@@ -243,14 +235,15 @@ class Outliner {
     std::size_t name = open - 1;
     for (; name >= begin + 2 && tokens_[name - 1] == "::"; name -= 2)  // defined outside of its class
       if (outline_.class_named(std::string(tokens_[name - 2]))) one.owner = tokens_[name - 2];
-    if (tokens_[begin] == "template") begin = behind_angles(begin + 1, open);
+    begin = behind_template(begin);
     one.is_virtual = has("virtual", begin, name), one.is_static = has("static", begin, name);
     one.result = words(begin, name, {"virtual", "static", "inline", "constexpr", "explicit", "[", "]", "nodiscard"});
-    for (const auto& [from, to] : parts(open + 1, closing(open))) one.parameters.push_back(parameter_of(from, to));
+    for (const auto& [from, to] : parts(open + 1, ends_[open])) one.parameters.push_back(parameter_of(from, to));
     outline_.functions.push_back(one);
   }
 
   TokenList tokens_;
+  std::vector<std::size_t> ends_;
   ProgramOutline& outline_;
   std::vector<Scope> scopes_;
   std::size_t start_ = 0;  ///< of the declaration

@@ -12,15 +12,8 @@
 /// functions answer must be what the books' would.
 namespace tyndall {
 
-using Vector = tyndall_book::vector;
-using Shot = tyndall_book::shot;
-using ShotAnswer = tyndall_book::shot_answer;
-using SurfacePoint = tyndall_book::surface_point;
-using ScatterAnswer = tyndall_book::scatter_answer;
-using PixelPlace = tyndall_book::pixel_place;
-using RayAnswer = tyndall_book::ray_answer;
-using LightQuestion = tyndall_book::light_question;
-using LightAnswer = tyndall_book::light_answer;
+namespace book = tyndall_book;
+using Vector = book::vector;
 
 constexpr double endless = HUGE_VAL;
 
@@ -77,7 +70,7 @@ struct Described {
 struct Reading {
   ProgramScene& scene;
   OwnProgram& program;
-  tyndall_book::picture_told picture{};
+  book::picture_told picture{};
   double precision = 1e-6;              ///< what two computations of the same number may differ by
   std::string textures{}, materials{};  ///< members of JSON objects
   double matt = 0, shining = 0;         ///< a material that scatters one colour, and one that shines

@@ -19,11 +19,11 @@ std::string Candidate::text() const {
                      is_disk() ? fmt::format(",\"inner\":{}", inner / radius) : "");
 }
 
-Shot Candidate::shot_at(double a, double b) const {
+book::shot Candidate::shot_at(double a, double b) const {
   const Vector away = (length(u) + length(v)) * normalized(normal());
   return {place(a, b) + away, -1 * away};
 }
-Shot Candidate::aim(RandomNumbers& random, double time) const {
+book::shot Candidate::aim(RandomNumbers& random, double time) const {
   if (is_sphere()) {
     const Vector from = place(time, 0) + (size() * random.between(0, 3)) * random.on_sphere();
     return {from, place(time, 0) + (size() * random.between(0, 1.4)) * random.on_sphere() - from, time};
@@ -35,7 +35,7 @@ Shot Candidate::aim(RandomNumbers& random, double time) const {
   return {from, target - from};
 }
 
-std::optional<std::vector<Crossing>> Candidate::crossings(const Shot& shot, double precision) const {
+std::optional<std::vector<Crossing>> Candidate::crossings(const book::shot& shot, double precision) const {
   if (is_sphere()) {
     const Vector from = shot.from - place(shot.time, 0);
     const double a = dot(shot.to, shot.to), b = dot(from, shot.to), square = radius * radius,

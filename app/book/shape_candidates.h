@@ -29,12 +29,12 @@ struct Candidate {
   double size() const;
   std::string text() const;  ///< JSON, without its end
   /// A shot from a flat one's front; meets the place at t = 1.
-  Shot shot_at(double a, double b) const;
+  book::shot shot_at(double a, double b) const;
   /// A shot near it.
-  Shot aim(RandomNumbers& random, double time) const;
+  book::shot aim(RandomNumbers& random, double time) const;
   /// Where the line of a shot meets it, nearest first; nothing: it is too near an edge to be sure. Normals point out of
   /// spheres.
-  std::optional<std::vector<Crossing>> crossings(const Shot& shot, double precision) const;
+  std::optional<std::vector<Crossing>> crossings(const book::shot& shot, double precision) const;
 };
 
 /// The spheres that one with these members may be, slow ones before those that stand still.

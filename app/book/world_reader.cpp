@@ -30,7 +30,7 @@ struct Move {
   Vector by{};
   double sine = 0, cosine = 1;
   Vector out(Vector a) const { return {cosine * a.x + sine * a.z, a.y, cosine * a.z - sine * a.x}; }
-  Shot out(const Shot& a) const { return {out(a.from) + by, out(a.to), a.time}; }
+  book::shot out(const book::shot& a) const { return {out(a.from) + by, out(a.to), a.time}; }
   std::string text() const {
     if (sine != 0 || cosine != 1) return fmt::format("{{\"rotate_y\":{}}}", std::atan2(sine, cosine) * 180 / pi);
     return length(by) > 0 ? "{\"translate\":" + triple(by) + "}" : "";
@@ -74,18 +74,18 @@ class WorldReader {
     --depth_;
   }
 
-  std::vector<ShotAnswer> shoot(double shape, std::vector<Shot> shots, std::size_t count = 0) {
-    for (Shot& shot : shots) shot.shape = shape;
-    return r_.program.ask<ShotAnswer>('h', 0, shots, count);
+  std::vector<book::shot_answer> shoot(double shape, std::vector<book::shot> shots, std::size_t count = 0) {
+    for (book::shot& shot : shots) shot.shape = shape;
+    return r_.program.ask<book::shot_answer>('h', 0, shots, count);
   }
   /// Whether hit() answers 300 shots from all sides, in different intervals of t, as the candidate would; then it is
   /// taken over, and met_ is one of the hits, in front if its normal is.
   bool take(double shape, const Described& o, const Candidate& candidate) {
     RandomNumbers random;
-    std::vector<Shot> shots;
+    std::vector<book::shot> shots;
     std::vector<Crossing> expected;
     for (int k = 0; k < 300; ++k) {
-      Shot shot = candidate.aim(random, k % 4 == 0 ? 1 : k % 4 == 1 ? 0 : random.next());
+      book::shot shot = candidate.aim(random, k % 4 == 0 ? 1 : k % 4 == 1 ? 0 : random.next());
       const auto all = candidate.crossings(shot, r_.precision);
       if (!all) continue;
       const double far = all->empty() ? 0 : std::fabs(all->back().t);
@@ -99,18 +99,18 @@ class WorldReader {
                                       [&](const Crossing& one) { return one.t > shot.low && one.t < shot.high; });
       shots.push_back(shot), expected.push_back(first == all->end() ? Crossing{endless, {}} : *first);
     }
-    const std::vector<ShotAnswer> answers = shoot(shape, shots);
+    const std::vector<book::shot_answer> answers = shoot(shape, shots);
     met_ = {};
     const char* wrong = nullptr;
     bool outward = true, against = true;
     const double place = std::fmax(candidate.size(), largest(candidate.middle()));
     for (std::size_t k = 0; k < shots.size(); ++k) {
-      const Shot& shot = shots[k];
+      const book::shot& shot = shots[k];
       const auto& [t, normal] = expected[k];
-      const ShotAnswer& its = answers[k];
+      const book::shot_answer& its = answers[k];
       const double allowed = 10 * r_.precision * std::fmax(place / length(shot.to), t);
       if ((its.found != 0) != (t < endless) || (t < endless && !(std::fabs(its.t - t) <= allowed))) {
-        if (shot.low == Shot().low && shot.high == endless) return false;
+        if (shot.low == book::shot().low && shot.high == endless) return false;
         wrong = "its hit() does not keep the interval of t";
       }
       if (its.found == 0 || wrong) continue;
@@ -155,11 +155,12 @@ class WorldReader {
     return false;
   }
   std::vector<bool> meets(double shape, const Candidate& plane, const std::vector<double>& along_u, double along_v) {
-    std::vector<Shot> shots;
+    std::vector<book::shot> shots;
     for (const double place : along_u) shots.push_back(plane.shot_at(place, along_v));
     const double allowed = 10 * r_.precision * std::fmax(1, largest(plane.at) / length(shots[0].to));
     std::vector<bool> all;
-    for (const ShotAnswer& its : shoot(shape, shots)) all.push_back(its.found != 0 && std::fabs(its.t - 1) < allowed);
+    for (const book::shot_answer& its : shoot(shape, shots))
+      all.push_back(its.found != 0 && std::fabs(its.t - 1) < allowed);
     return all;
   }
   /// Measures the radii of a disk or ring; false: its plane is not met, or everywhere.
@@ -223,20 +224,20 @@ class WorldReader {
                                     std::size_t begin) {
     for (std::size_t k = begin; k < pieces_.size(); ++k)
       if (pieces_[k].is_medium) return false;  // whose hits are random
-    std::vector<Shot> shots;
+    std::vector<book::shot> shots;
     for (int k = 0; k < 60; ++k) {
-      const Shot inside = aimed(begin);
+      const book::shot inside = aimed(begin);
       shots.push_back(move.out(inside)), shots.back().shape = shape;
       for (const double part : parts) shots.push_back(inside), shots.back().shape = part;
     }
-    const std::vector<ShotAnswer> all = r_.program.ask<ShotAnswer>('h', 0, shots);
+    const std::vector<book::shot_answer> all = r_.program.ask<book::shot_answer>('h', 0, shots);
     bool is_same = false, is_turned = false;
     for (auto its = all.begin(), end = its; its != all.end(); its = end) {
       end = its + static_cast<std::ptrdiff_t>(parts.size()) + 1;
-      const auto nearest = std::min_element(its + 1, end, [](const ShotAnswer& a, const ShotAnswer& b) {
+      const auto nearest = std::min_element(its + 1, end, [](const book::shot_answer& a, const book::shot_answer& b) {
         return (a.found != 0 ? a.t : endless) < (b.found != 0 ? b.t : endless);
       });
-      const ShotAnswer expected = nearest != end ? *nearest : ShotAnswer{};
+      const book::shot_answer expected = nearest != end ? *nearest : book::shot_answer{};
       if (its->found != expected.found || (its->found != 0 && !is_near(its->t, expected.t, 0.01))) return {};
       if (its->found != 0) (its->front == expected.front ? is_same : is_turned) = true;
     }
@@ -262,21 +263,21 @@ class WorldReader {
     return true;
   }
   /// Counts how often rays pass the fog.
-  void check_passing(double shape, const Described& o, double boundary, double extinction, Shot shot) {
+  void check_passing(double shape, const Described& o, double boundary, double extinction, book::shot shot) {
     shot.to = normalized(shot.to);
-    const ShotAnswer in = shoot(boundary, {{shot.from, shot.to, 0, -1e9}})[0],
-                     out = shoot(boundary, {{shot.from, shot.to, 0, in.t + 1e-4}})[0];
+    const book::shot_answer in = shoot(boundary, {{shot.from, shot.to, 0, -1e9}})[0],
+                            out = shoot(boundary, {{shot.from, shot.to, 0, in.t + 1e-4}})[0];
     if (in.found == 0 || out.found == 0) return;
     constexpr int rounds = 4000;
     int passed = 0;
-    for (const ShotAnswer& one : shoot(shape, {{shot.from, shot.to}}, rounds)) passed += one.found != 0 ? 0 : 1;
+    for (const book::shot_answer& one : shoot(shape, {{shot.from, shot.to}}, rounds)) passed += one.found != 0 ? 0 : 1;
     const double expected = rounds * std::exp(-extinction * (out.t - in.t));
     if (std::fabs(passed - expected) > 5 * std::sqrt(expected + 1) + 3)
       o.refuse("it is denser or thinner than the books' fog");
   }
 
   /// A ray near one of the objects from that one on, if there are any.
-  Shot aimed(std::size_t begin) {
+  book::shot aimed(std::size_t begin) {
     const double count = static_cast<double>(pieces_.size() - begin);
     const Piece one = count > 0 ? pieces_[begin + static_cast<std::size_t>(random_.between(0, count))] : Piece{};
     const Vector at = one.centre + (random_.between(0, 0.7) * one.size) * random_.on_sphere();
@@ -313,7 +314,7 @@ class WorldReader {
   Reading& r_;
   std::vector<Piece> pieces_;
   RandomNumbers random_;
-  ShotAnswer met_;
+  book::shot_answer met_;
   std::string reason_;
   int depth_ = 0;
   bool is_boundary_ = false;  ///< of a medium: it is written without a material

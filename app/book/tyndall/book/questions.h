@@ -70,8 +70,8 @@ struct ray_answer {
 };
 /// c: the colour of a ray that hits one material so often, then another so often, then nothing.
 struct light_question {
-  vector from{0, 1, 0}, to{0.6, -0.8, 0};
   double first = 0, firsts = 0, then = 0, thens = 0;
+  vector from{0, 1, 0}, to{0.6, -0.8, 0};
 };
 struct light_answer {
   vector colour;

@@ -173,7 +173,7 @@ class replies {
     return made;
   }
   static vector sky(const session& s, const void* of, const ray_answer& seen) {
-    return light(s, of, {seen.from, seen.to}).colour;
+    return light(s, of, {0, 0, 0, 0, seen.from, seen.to}).colour;
   }
 
  private:
