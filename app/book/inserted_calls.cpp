@@ -5,40 +5,26 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 
 namespace tyndall {
 namespace {
 
-bool begins_with(const std::string& text, const char* with) { return text.rfind(with, 0) == 0; }
 bool contains(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
-/// The type's own name: the last word of it.
-std::string last_of(const std::vector<std::string>& type) {
-  std::string last;
-  for (const std::string& word : type)
-    if (word != "const" && (std::isalpha(static_cast<unsigned char>(word[0])) || word[0] == '_')) last = word;
-  return last;
-}
-bool is_number(const Parameter& one) {
-  const bool is_one_word = last_of(one.type) == last_of({one.type.rbegin(), one.type.rend()});
-  return is_one_word && !one.names("<") && !one.names("*");
-}
+bool is_number(const Parameter& one) { return one.words.size() == 1 && !one.has("<") && !one.has("*"); }
+/// The type's own name.
+std::string last_of(const Parameter& one) { return one.words.empty() ? "" : one.words.back(); }
 bool is_integer(const Parameter& parameter) {
-  const std::string last = last_of(parameter.type);
+  const std::string last = last_of(parameter);
   return contains(last, "int") || is_one_of(last, {"long", "unsigned", "short", "size_t"});
 }
 /// Whether the function may set it.
-bool is_set(const Parameter& one) { return !one.names("const") && one.names("&"); }
+bool is_set(const Parameter& one) { return !one.has("const") && one.has("&"); }
 bool is_real(const Parameter& parameter) {
-  return is_one_of(last_of(parameter.type), {"double", "float", "real", "Real", "Float"});
+  return is_one_of(last_of(parameter), {"double", "float", "real", "Real", "Float"});
 }
-/// Whether it answers by yes or no.
-bool is_asked(const Function& function) { return function.result == std::vector<std::string>{"bool"}; }
 bool is_colour(const Function& function) {
-  return !function.result.empty() &&
-         (function.result.size() > 1 ||
-          !is_one_of(function.result[0], {"bool", "void", "double", "float", "int", "auto"}));
+  return !is_one_of(function.result, {"", "bool", "void", "double", "float", "int", "auto"});
 }
 /// What a member is for, by its name; see members in tyndall/book/values.h.
 std::string role_of(const std::string& member) {
@@ -102,10 +88,10 @@ void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
       for (const Function& function : outline_.functions) {
         const std::string key = key_of(function.name), owner = function.owner;
         if (owner.empty() || !function.is_virtual || !outline_.class_named(owner)->bases.empty()) continue;
-        if (first && shape_.empty() && (begins_with(key, "hit") || begins_with(key, "intersect"))) take_hit(function);
-        if (first && !scatter_ && begins_with(key, "scatter") && is_asked(function))
+        if (first && shape_.empty() && (key.starts_with("hit") || key.starts_with("intersect"))) take_hit(function);
+        if (first && !scatter_ && key.starts_with("scatter") && function.result == "bool")
           material_ = owner, scatter_ = &function;
-        if (!first && !emitted_ && owner == material_ && begins_with(key, "emit")) emitted_ = &function;
+        if (!first && !emitted_ && owner == material_ && key.starts_with("emit")) emitted_ = &function;
         if (!first && !value_ && contains(key_of(owner), "texture") && function.parameters.size() >= 2)
           texture_ = owner, value_ = &function;
       }
@@ -113,14 +99,14 @@ void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
   void take_hit(const Function& function) {
     std::string ray, record;
     for (const Parameter& parameter : function.parameters) {
-      const std::string type = last_of(parameter.type);
+      const std::string type = last_of(parameter);
       if (!outline_.class_named(type)) continue;
       if (ray.empty() && contains(key_of(type), "ray"))
         ray = type;
       else if (is_set(parameter))
         record = type;
     }
-    if (ray.empty() || record.empty() || !is_asked(function)) return;
+    if (ray.empty() || record.empty() || function.result != "bool") return;
     shape_ = function.owner, ray_ = ray, record_ = record, hit_ = &function;
   }
 
@@ -132,7 +118,7 @@ void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
       insert(function, " ::tyndall_book::texture_made(this);");
     if (!may_be_hooked(function)) return;
     for (const Parameter& parameter : function.parameters)
-      for (const std::string& name : parameter.type)
+      for (const std::string& name : parameter.words)
         if (outline_.is_derived(name, shape_)) return hook_colour(function, parameter.name);
   }
   /// Whether it is none of the things' own functions, and can be called again.
@@ -140,20 +126,20 @@ void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
     const std::string& owner = function.owner;
     if (owner == ray_ || outline_.is_derived(owner, shape_) || outline_.is_derived(owner, material_)) return false;
     return std::none_of(function.parameters.begin(), function.parameters.end(),
-                        [&](const Parameter& one) { return one.name.empty() || one.names(record_); });
+                        [&](const Parameter& one) { return one.name.empty() || one.has(record_); });
   }
   /// Whether it computes the colour of a ray.
   bool may_be_hooked(const Function& function) const {
     return may_be_called(function) && is_colour(function) && !is_camera(function) &&
            std::any_of(function.parameters.begin(), function.parameters.end(),
-                       [&](const Parameter& one) { return one.names(ray_); });
+                       [&](const Parameter& one) { return one.has(ray_); });
   }
   bool is_camera(const Function& function) const {
     if (!may_be_called(function) || !contains(key_of(function.name), "ray") || function.parameters.size() < 2)
       return false;
     const Parameter &first = function.parameters[0], &second = function.parameters[1];
-    return !function.result.empty() && function.result.back() == ray_ && is_number(first) && is_number(second) &&
-           !outline_.class_named(last_of(first.type));
+    return (" " + function.result).ends_with(" " + ray_) && is_number(first) && is_number(second) &&
+           !outline_.class_named(last_of(first));
   }
   void hook_camera(const Function& function) {
     if (!is_camera(function)) return;
@@ -174,9 +160,9 @@ void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
     int reals = 0;
     for (const Parameter& parameter : function.parameters) {
       if (parameter.name.empty()) return;
-      if (parameter.names(ray_))
+      if (parameter.has(ray_))
         ray = parameter.name;
-      else if (parameter.names(record_))
+      else if (parameter.has(record_))
         record = parameter.name;
       else if (is_real(parameter))
         (reals++ == 0 ? low : high) = parameter.name;
@@ -196,7 +182,7 @@ void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
     std::string ray, depth = "0";
     const std::string arguments = for_each_parameter(function, [&](const Parameter& parameter) -> std::string {
       if (depth == "0" && is_number(parameter) && is_integer(parameter)) depth = parameter.name;
-      if (!parameter.names(ray_) || !ray.empty()) return parameter.name;
+      if (!parameter.has(ray_) || !ray.empty()) return parameter.name;
       ray = parameter.name;
       return "tyndall_ray";
     });
@@ -240,10 +226,10 @@ void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
     int reals = 0;
     return fmt::format("const_cast<{}.{}({})", object, function.name,
                        for_each_parameter(function, [&](const Parameter& parameter) -> std::string {
-                         if (parameter.names(ray_)) return "in";
-                         if (parameter.names(record_)) return "record";
+                         if (parameter.has(ray_)) return "in";
+                         if (parameter.has(record_)) return "record";
                          if (is_real(parameter)) return reals++ == 0 ? first : second;
-                         return &function == hit_ ? qualified(last_of(parameter.type)) + "(low, high)" : "p";
+                         return &function == hit_ ? qualified(last_of(parameter)) + "(low, high)" : "p";
                        }));
   }
   /// scatter() answers by a colour and a ray, by a colour and a direction, or by a record of its own.
@@ -253,14 +239,14 @@ void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
     std::string begin, end = "read_record<names>(part, one);";
     bool has_ray = false;
     const std::string arguments = for_each_parameter(*scatter_, [&](const Parameter& parameter) -> std::string {
-      if (parameter.names(record_)) return "record";
-      if (parameter.names(ray_) && !is_set(parameter)) return "in";
-      has_ray = has_ray || parameter.names(ray_);
-      if (parameter.names(ray_)) return "out";
+      if (parameter.has(record_)) return "record";
+      if (parameter.has(ray_) && !is_set(parameter)) return "in";
+      has_ray = has_ray || parameter.has(ray_);
+      if (parameter.has(ray_)) return "out";
       const bool real = is_real(parameter);
       draws_by_pdf_ = draws_by_pdf_ || real;
       std::string name = real ? "density" : others.empty() ? "part" : "to";
-      const std::string type = real ? last_of(parameter.type) : qualified(last_of(parameter.type));
+      const std::string type = real ? last_of(parameter) : qualified(last_of(parameter));
       begin += fmt::format("{} {}{{}}; ", type, name);
       if (!real) others.push_back(type);
       return name;
@@ -273,7 +259,7 @@ void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
   }
   bool decodes_images() const {
     return std::any_of(outline_.functions.begin(), outline_.functions.end(), [](const Function& function) {
-      return !begins_with(function.name, "stbi") && contains(function.body, "stbi_loadf");
+      return !function.name.starts_with("stbi") && contains(function.body, "stbi_loadf");
     });
   }
   /// A function that describes the members of an object by its class.

@@ -1,5 +1,7 @@
 #include "app/book/program_outline.h"
 
+#include "core/base/text.h"
+
 #include <algorithm>
 #include <cctype>
 #include <utility>
@@ -224,6 +226,8 @@ class Outliner {
                                           "short", "void", "auto", "const"});
     if (is_identifier(last) && has_type && !is_type) one.name = last, --end;
     one.type = words(begin, end);
+    for (const std::string& token : one.type)
+      if (is_identifier(token) && token != "const") one.words.push_back(token);
     return one;
   }
   void add_function(std::size_t begin, std::size_t open, std::string_view body) {
@@ -237,7 +241,8 @@ class Outliner {
       if (outline_.class_named(std::string(tokens_[name - 2]))) one.owner = tokens_[name - 2];
     begin = behind_template(begin);
     one.is_virtual = has("virtual", begin, name), one.is_static = has("static", begin, name);
-    one.result = words(begin, name, {"virtual", "static", "inline", "constexpr", "explicit", "[", "]", "nodiscard"});
+    one.result = joined(
+        words(begin, name, {"virtual", "static", "inline", "constexpr", "explicit", "[", "]", "nodiscard"}), " ");
     for (const auto& [from, to] : parts(open + 1, ends_[open])) one.parameters.push_back(parameter_of(from, to));
     outline_.functions.push_back(one);
   }

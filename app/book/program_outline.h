@@ -10,14 +10,13 @@
 namespace tyndall {
 
 struct Parameter {
-  std::vector<std::string> type;  ///< its tokens
-  std::string name;               ///< "": it has none
-  bool names(const std::string& word) const { return std::find(type.begin(), type.end(), word) != type.end(); }
+  std::vector<std::string> type, words;  ///< the tokens of its type; words: the names in it
+  std::string name;                      ///< "": it has none
+  bool has(std::string_view token) const { return std::find(type.begin(), type.end(), token) != type.end(); }
 };
 
 struct Function {
-  std::string name, owner;          ///< owner: the class, "": none
-  std::vector<std::string> result;  ///< the type that it returns; none: a constructor
+  std::string name, owner, result;  ///< owner: the class, "": none; result: the type that it returns; "": a constructor
   std::vector<Parameter> parameters;
   bool is_virtual = false, is_static = false;
   std::string_view body;  ///< with its braces; empty: it is only declared

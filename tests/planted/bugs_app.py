@@ -15,7 +15,7 @@ APP = [
      "«if (end.given_up) throw ProgramInterrupted(task.name + \": given up while \" + doing, signal_terminate); → »", "app/book/load_program"),
     ("the guard that there is is not taken", "app/book/compile_program.cpp", "«plan.guard = available_guard(); → »", "app/book/load_program book/safety.sh"),
     ("functions that are defined outside of their class belong to none", "app/book/program_outline.cpp",
-     "if (outline_.classes[k].name == tokens_[name - 2]) one.owner = «static_cast<int>(k) → -1»;", "app/book/program_outline"),
+     "if (outline_.class_named(std::string(tokens_[name - 2]))) one.owner = «tokens_[name - 2] → \"\"»;", "app/book/program_outline"),
     ("a file with the ending .cxx is no program", "app/book/load_program.cpp", "|| «ending == \".cxx\" → false»;", "app/book/load_program"),
     ("a missing compiler ends the search for one", "app/book/compile_program.cpp",
      "if («end.start_error == ENOENT || end.start_error == EACCES → false») continue;", "book/programs.sh"),
