@@ -80,28 +80,6 @@ void check_end(const ProgramTask& task, const std::string& compiler, const Child
                   " while it compiled " + name);
 }
 
-/// Compiles by the first compiler that can be started.
-ChildEnd compile_by_any(const ProgramTask& task, const std::vector<std::string>& arguments) {
-  for (const std::vector<std::string>& compiler : compilers(task.compiler)) {
-    ChildPlan plan;
-    plan.command = compiler;
-    plan.command.insert(plan.command.end(), arguments.begin(), arguments.end());
-    plan.folder = task.folder;
-    plan.environment = {"LC_ALL=C", "TMPDIR=" + task.folder.string(), "CCACHE_DISABLE=1"};
-    plan.seconds = 120;
-    plan.max_errors = std::size_t(1) << 20;
-    ChildEnd end = run_guarded(task, plan, "it was compiled");
-    if (end.start_error == ENOENT || end.start_error == EACCES) continue;
-    if (end.start_error != 0) throw IoError(compiler[0] + " cannot be started: " + error_text(end.start_error));
-    check_end(task, compiler[0], end);
-    return end;
-  }
-  if (const std::string chosen = chosen_compiler(); !chosen.empty())
-    throw IoError("CXX: found " + in_quotes(chosen) + ", which cannot be run, expected a C++ compiler");
-  throw IoError(
-      "no C++ compiler was found (c++, g++, clang++), which is needed for programs; to install one: apt install g++");
-}
-
 /// A file as the user names it: from the folder of main as he named that.
 std::string shown(const std::string& file, const fs::path& main) {
   const fs::path below = fs::path(file).lexically_relative(fs::absolute(main).lexically_normal().parent_path());
@@ -217,11 +195,29 @@ class Compilation {
     if (reads_world && (place.rfind(headers_.string(), 0) == 0 || place.rfind("tyndall/book/", 0) == 0)) return false;
     throw CompilerError{first_error(end.errors, main_)};
   }
+  /// Calls the first compiler that can be started.
   ChildEnd call(const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments{standard_, "-w", "-pthread", "-fmax-errors=20", "-fdiagnostics-color=never"};
-    arguments.insert(arguments.end(), options_.begin(), options_.end());
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return compile_by_any(task_, arguments);
+    for (const std::vector<std::string>& compiler : compilers(task_.compiler)) {
+      ChildPlan plan;
+      plan.command = compiler;
+      for (const auto& part :
+           {std::vector<std::string>{standard_, "-w", "-pthread", "-fmax-errors=20", "-fdiagnostics-color=never"},
+            options_, more})
+        plan.command.insert(plan.command.end(), part.begin(), part.end());
+      plan.folder = task_.folder;
+      plan.environment = {"LC_ALL=C", "TMPDIR=" + task_.folder.string(), "CCACHE_DISABLE=1"};
+      plan.seconds = 120;
+      plan.max_errors = std::size_t(1) << 20;
+      ChildEnd end = run_guarded(task_, plan, "it was compiled");
+      if (end.start_error == ENOENT || end.start_error == EACCES) continue;
+      if (end.start_error != 0) throw IoError(compiler[0] + " cannot be started: " + error_text(end.start_error));
+      check_end(task_, compiler[0], end);
+      return end;
+    }
+    if (const std::string chosen = chosen_compiler(); !chosen.empty())
+      throw IoError("CXX: found " + in_quotes(chosen) + ", which cannot be run, expected a C++ compiler");
+    throw IoError(
+        "no C++ compiler was found (c++, g++, clang++), which is needed for programs; to install one: apt install g++");
   }
 
   const ProgramTask& task_;

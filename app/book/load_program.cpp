@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <memory>
 #include <system_error>
 
 namespace tyndall {
@@ -24,29 +25,21 @@ namespace fs = std::filesystem;
 namespace {
 
 /// An empty folder among the temporary files ($TMPDIR, else /tmp), only for this user; removed with all that is in it.
-struct ScratchFolder {
-  ScratchFolder() {
-    int problem = 0;
-    std::error_code error;
-    path = make_temporary_folder("tyndall-book-", &problem);
-    if (path.empty())
-      throw IoError(printable(temporary_folder().string()) +
-                    ": cannot make a temporary folder: " + error_text(problem));
-    if (const fs::path whole = fs::canonical(path, error); !error) path = whole;
-  }
-  ~ScratchFolder() {
-    std::error_code error;
-    fs::remove_all(path, error);
-    if (!error) return;
-    for (fs::recursive_directory_iterator at(path, error), end; !error && at != end; at.increment(error))
-      fs::permissions(at->path(), fs::perms::owner_all, fs::perm_options::add, error);  // a program took them away
-    fs::remove_all(path, error);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  fs::path path;
-};
+std::shared_ptr<const fs::path> scratch_folder() {
+  int problem = 0;
+  std::error_code error;
+  const fs::path made = make_temporary_folder("tyndall-book-", &problem), whole = fs::canonical(made, error);
+  if (made.empty())
+    throw IoError(printable(temporary_folder().string()) + ": cannot make a temporary folder: " + error_text(problem));
+  return {new fs::path(error ? made : whole), [](const fs::path* path) {
+            std::error_code failed;
+            fs::remove_all(*path, failed);
+            for (fs::recursive_directory_iterator at(*path, failed), end; !failed && at != end; at.increment(failed))
+              fs::permissions(at->path(), fs::perms::owner_all, fs::perm_options::add, failed);  // what was taken away
+            fs::remove_all(*path, failed);
+            delete path;
+          }};
+}
 
 /// The last line of text, for a message; "": there is none.
 std::string last_line(std::string text) {
@@ -138,9 +131,9 @@ ProgramScene load_program(const ProgramRequest& request) {
   if (!runs_children())
     throw UsageError(printable(main.string()) +
                      ": is not run: builds for Windows run no programs, which need a compiler");
-  const auto scratch = std::make_shared<ScratchFolder>();
+  const auto scratch = scratch_folder();
   ProgramRequest task = request;
-  task.name = printable(main.string()), task.folder = scratch->path;
+  task.name = printable(main.string()), task.folder = *scratch;
   const CompiledProgram program = compile_program(task);
   const SignalWatch signals(request.watch_signals ? WatchedSignals::end : WatchedSignals::none);
   const auto go_on = [&] { return signals.received() == 0 && (!request.go_on || request.go_on()); };
