@@ -12,14 +12,14 @@ namespace {
 
 constexpr book::surface_point slanted{}, behind{slanted.p, slanted.u, slanted.v, {0.8, 0.6, 0}, 0};
 
-Vector mirror(Vector to) { return {to.x, -to.y, to.z}; }
-Vector mean_of(const std::vector<Vector>& all) {
-  Vector sum;
-  for (const Vector& one : all) sum = sum + one;
+Vec3d mirror(Vec3d to) { return {to.x, -to.y, to.z}; }
+Vec3d mean_of(const std::vector<Vec3d>& all) {
+  Vec3d sum;
+  for (const Vec3d& one : all) sum = sum + one;
   return (1.0 / static_cast<double>(std::max(all.size(), std::size_t(1)))) * sum;
 }
-bool are_near(const std::vector<Vector>& a, const std::vector<Vector>& b, double precision) {
-  return std::equal(a.begin(), a.end(), b.begin(), [&](Vector x, Vector y) { return is_near(x, y, precision); });
+bool are_near(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b, double precision) {
+  return std::equal(a.begin(), a.end(), b.begin(), [&](Vec3d x, Vec3d y) { return is_near(x, y, precision); });
 }
 /// The slanted one, and others at random.
 std::vector<book::surface_point> some_points(int count, double far) {
@@ -34,11 +34,11 @@ class MaterialReader {
  public:
   MaterialReader(Reading& reading, double material) : r_(reading), m_(material), o_(reading.described('m', material)) {}
 
-  std::vector<Vector> emitted(const std::vector<book::surface_point>& points) {
-    return r_.program.ask<Vector>('e', m_, points);
+  std::vector<Vec3d> emitted(const std::vector<book::surface_point>& points) {
+    return r_.program.ask<Vec3d>('e', m_, points);
   }
   std::string text() {
-    const std::vector<Vector> light = emitted({slanted, behind});
+    const std::vector<Vec3d> light = emitted({slanted, behind});
     const bool shines = largest(light[0]) > 0 || largest(light[1]) > 0;
     if (shines && scatter({slanted})[0].does != 0) o_.refuse("it shines and scatters: Tyndall's lights do one of both");
     if (shines) {
@@ -52,8 +52,8 @@ class MaterialReader {
     o_.refuse("no such material in Tyndall");
   }
   std::string medium_albedo() {
-    std::vector<Vector> to;
-    for (const book::scatter_answer& one : scatter({slanted}, 2000)) to.push_back(normalized(one.to));
+    std::vector<Vec3d> to;
+    for (const book::scatter_answer& one : scatter({slanted}, 2000)) to.push_back(normalize(one.to));
     if (!(length(mean_of(to)) < 0.06)) o_.refuse("its fog does not scatter to all sides alike");
     return albedo();
   }
@@ -68,20 +68,20 @@ class MaterialReader {
 
   /// The material by how it scatters; "": by none of the books' rules.
   std::string scattering(const std::vector<book::scatter_answer>& all) {
-    std::vector<Vector> to;
+    std::vector<Vec3d> to;
     for (const book::scatter_answer& one : all)
-      if (one.does != 0) to.push_back(normalized(one.to));
+      if (one.does != 0) to.push_back(normalize(one.to));
     book::surface_point steep = slanted;
     steep.to = {0.28, -0.96, 0};
-    std::vector<Vector> through;
+    std::vector<Vec3d> through;
     for (const book::scatter_answer& one : scatter({steep}, 200))
-      if (one.to.y < 0) through.push_back(normalized(one.to));
+      if (one.to.y < 0) through.push_back(normalize(one.to));
     if (through.size() > 100 && to.size() == all.size()) return glass(steep.to, through[0]);
     if (to.empty()) return "{\"type\":\"lambertian\",\"albedo\":[0,0,0]}";
-    const bool same = std::all_of(to.begin(), to.end(), [&](Vector one) { return is_near(one, to[0], 1e-4); });
+    const bool same = std::all_of(to.begin(), to.end(), [&](Vec3d one) { return is_near(one, to[0], 1e-4); });
     if (same && is_near(to[0], mirror(slanted.to), 1e-3)) return metal(0);
-    const Vector mean = mean_of(to);
-    const bool above = std::all_of(to.begin(), to.end(), [](Vector one) { return one.y >= 0; });
+    const Vec3d mean = mean_of(to);
+    const bool above = std::all_of(to.begin(), to.end(), [](Vec3d one) { return one.y >= 0; });
     // By a point on the sphere it is matt; by one in the ball, as in editions 1 and 2, its mean cosine is larger.
     for (const double cosine : {2.0 / 3, 0.8}) {
       if (to.size() != all.size() || !above || std::fabs(mean.y - cosine) > 0.02 || std::hypot(mean.x, mean.z) > 0.06)
@@ -101,13 +101,13 @@ class MaterialReader {
   }
   /// Whether so many rays go as those of metals, by a point in the ball around the mirror's direction, or on its sphere
   /// as in edition 4.
-  static bool is_fuzzy(const std::vector<Vector>& to, std::size_t count, double fuzz, bool on_sphere) {
+  static bool is_fuzzy(const std::vector<Vec3d>& to, std::size_t count, double fuzz, bool on_sphere) {
     RandomNumbers random;
-    std::vector<Vector> ours;
+    std::vector<Vec3d> ours;
     for (std::size_t k = 0; k < 2 * count; ++k) {
       const double radius = fuzz * (on_sphere ? 1 : std::cbrt(random.next()));
-      const Vector one = mirror(slanted.to) + radius * random.on_sphere();
-      if (one.y > 0) ours.push_back(normalized(one));
+      const Vec3d one = mirror(slanted.to) + radius * random.on_sphere();
+      if (one.y > 0) ours.push_back(normalize(one));
     }
     const double more =
         (0.5 * static_cast<double>(ours.size()) - static_cast<double>(to.size())) / static_cast<double>(count);
@@ -117,16 +117,16 @@ class MaterialReader {
   template <class F>
   std::string colour_of(const F& of) {
     const std::vector<book::surface_point> points = some_points(40, 30);
-    const std::vector<Vector> values = of(points);
+    const std::vector<Vec3d> values = of(points);
     if (are_near(values, std::vector(values.size(), values[0]), 1e-6)) return triple(values[0]);
     for (const double texture : o_.all('t'))
-      if (texture != 0 && are_near(values, r_.program.ask<Vector>('v', texture, points), 1e-6))
+      if (texture != 0 && are_near(values, r_.program.ask<Vec3d>('v', texture, points), 1e-6))
         return texture_name(r_, texture);
     o_.refuse("its colour is neither one colour nor one of its textures");
   }
   std::string albedo() {
     return colour_of([&](const auto& points) {
-      std::vector<Vector> parts(points.size());
+      std::vector<Vec3d> parts(points.size());
       const std::vector<book::scatter_answer> all = scatter(points, 12 * points.size());  // some rays are lost
       for (std::size_t k = 0; k < all.size(); ++k)
         if (all[k].does != 0) parts[k % points.size()] = all[k].part;
@@ -136,14 +136,14 @@ class MaterialReader {
   std::string metal(double fuzz) {
     book::surface_point above = slanted;
     above.to = {0, -2, 0};
-    if (!is_near(normalized(scatter({above})[0].to), Vector{0, 1, 0}, fuzz > 0 ? 2 : 1e-3))
+    if (!is_near(normalize(scatter({above})[0].to), Vec3d{0, 1, 0}, fuzz > 0 ? 2 : 1e-3))
       o_.refuse("it is no mirror from everywhere");
     const std::string part = albedo();
     if (part[0] != '[') o_.refuse("its colour is a texture: Tyndall's metals have one colour");
     return fmt::format("{{\"type\":\"metal\",\"albedo\":{},\"fuzz\":{}}}", part, fuzz);
   }
   /// to, through: a direction from above, and where it goes in the glass.
-  std::string glass(Vector to, Vector through) {
+  std::string glass(Vec3d to, Vec3d through) {
     double index = to.x / std::sqrt(through.x * through.x + through.z * through.z);
     for (const double member : o_.all('n'))
       if (is_near(member, index, 1e-4)) index = member;
@@ -158,7 +158,7 @@ class MaterialReader {
     int reflected = 0;
     for (const book::scatter_answer& one :
          scatter({{slanted.p, slanted.u, slanted.v, {sine, side * cosine, 0}, front}}, rounds)) {
-      const Vector to = normalized(one.to);
+      const Vec3d to = normalize(one.to);
       if (one.does == 0 || !is_near(one.part, {1, 1, 1}, 1e-3))
         o_.refuse("its glass takes light away: Tyndall's is clear");
       const bool back = to.y * side < 0;
@@ -184,7 +184,7 @@ class TextureReader {
 
   std::string text() {
     std::vector<book::surface_point> points = some_points(60, 40);
-    const std::vector<Vector> values = value(points);
+    const std::vector<Vec3d> values = value(points);
     if (are_near(values, std::vector(values.size(), values[0]), 1e-9)) return triple(values[0]);
     for (book::surface_point& one : points) one.p = {};
     const bool is_flat = are_near(values, value(points), 1e-9);
@@ -205,21 +205,21 @@ class TextureReader {
   }
 
  private:
-  std::vector<Vector> value(const std::vector<book::surface_point>& points) {
-    return r_.program.ask<Vector>('v', t_, points);
+  std::vector<Vec3d> value(const std::vector<book::surface_point>& points) {
+    return r_.program.ask<Vec3d>('v', t_, points);
   }
   /// "": its squares are not those of the books.
   std::string checker(double scale) {
     std::vector<book::surface_point> points;
     std::vector<std::size_t> parity;
     while (points.size() < 400) {
-      const Vector q = random_.between(0, 20) * random_.on_sphere();
+      const Vec3d q = random_.between(0, 20) * random_.on_sphere();
       const auto to_edge = [](double a) { return std::fabs(a - std::round(a)); };
       if (std::fmin(to_edge(q.x), std::fmin(to_edge(q.y), to_edge(q.z))) < 1e-3) continue;
       points.push_back({scale * q});
       parity.push_back(std::fmod(std::fabs(std::floor(q.x) + std::floor(q.y) + std::floor(q.z)), 2) < 0.5 ? 0 : 1);
     }
-    const std::vector<Vector> values = value(points);
+    const std::vector<Vec3d> values = value(points);
     std::string colours[2];
     for (std::size_t k = 0; k < values.size(); ++k) {
       std::string& known = colours[parity[k]];
@@ -236,7 +236,7 @@ class TextureReader {
     std::vector<book::surface_point> points;
     for (int k = 0; k < rounds; ++k) points.push_back({(random_.between(0, 60) / scale) * random_.on_sphere()});
     bool is_grey = true;
-    for (const Vector& one : value(points)) {
+    for (const Vec3d& one : value(points)) {
       is_grey = is_grey && is_near(one, {one.x, one.x, one.x}, 1e-3) && one.x >= -0.01 && one.x <= 1.01;
       sum += one.x, squares += one.x * one.x;
     }

@@ -1,5 +1,5 @@
 #pragma once
-#include "app/book/tyndall/book/questions.h"
+#include "core/base/vec.h"
 #include "core/system/child.h"
 #include "core/system/connection.h"
 #include "core/system/locks.h"
@@ -15,6 +15,11 @@
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace tyndall_book {
+using vector = tyndall::Vec3d;
+}
+#include "app/book/tyndall/book/questions.h"
 
 namespace tyndall {
 
@@ -54,8 +59,8 @@ class OwnProgram {
   /// The members of an object, see described_object there.
   std::string describe(char kind, double object);
   /// Linear colours of places in the picture.
-  std::vector<tyndall_book::vector> samples(const std::vector<tyndall_book::pixel_place>& places) {
-    return ask<tyndall_book::vector>('p', 0, places);
+  std::vector<Vec3d> samples(const std::vector<tyndall_book::pixel_place>& places) {
+    return ask<Vec3d>('p', 0, places);
   }
 
   /// How it ended, after something has found that it did.

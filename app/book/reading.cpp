@@ -9,14 +9,14 @@
 
 namespace tyndall {
 
-double largest(Vector a) { return std::fmax(std::fabs(a.x), std::fmax(std::fabs(a.y), std::fabs(a.z))); }
+double largest(Vec3d a) { return std::fmax(std::fabs(a.x), std::fmax(std::fabs(a.y), std::fabs(a.z))); }
 bool is_near(double a, double b, double precision) {
   return std::fabs(a - b) <= precision * std::fmax(1.0, std::fmax(std::fabs(a), std::fabs(b)));
 }
-bool is_near(Vector a, Vector b, double precision) {
+bool is_near(Vec3d a, Vec3d b, double precision) {
   return largest(a - b) <= precision * std::fmax(1.0, std::fmax(largest(a), largest(b)));
 }
-std::string triple(Vector a) { return fmt::format("[{},{},{}]", a.x, a.y, a.z); }
+std::string triple(Vec3d a) { return fmt::format("[{},{},{}]", a.x, a.y, a.z); }
 
 std::vector<double> Described::all(char kind, const std::string& part) const {
   std::vector<double> found;
@@ -25,9 +25,9 @@ std::vector<double> Described::all(char kind, const std::string& part) const {
       found.insert(found.end(), one.numbers.begin(), one.numbers.end());
   return found;
 }
-std::vector<Vector> Described::vectors(const std::string& part) const {
+std::vector<Vec3d> Described::vectors(const std::string& part) const {
   const std::vector<double> numbers = all('v', part);
-  std::vector<Vector> found;
+  std::vector<Vec3d> found;
   for (std::size_t k = 0; k + 2 < numbers.size(); k += 3) found.push_back({numbers[k], numbers[k + 1], numbers[k + 2]});
   return found;
 }

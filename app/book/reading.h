@@ -1,5 +1,6 @@
 #pragma once
 #include "app/book/own_program.h"
+#include "core/base/sampling.h"
 
 #include <functional>
 #include <map>
@@ -13,30 +14,22 @@
 namespace tyndall {
 
 namespace book = tyndall_book;
-using Vector = book::vector;
 
 constexpr double endless = HUGE_VAL;
 
-inline Vector cross(Vector a, Vector b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline Vector normalized(Vector a) { return (1 / length(a)) * a; }
-double largest(Vector a);
+double largest(Vec3d a);
 /// Whether two values agree to that part of them, or of 1 if they are smaller.
 bool is_near(double a, double b, double precision);
-bool is_near(Vector a, Vector b, double precision);
+bool is_near(Vec3d a, Vec3d b, double precision);
 /// As a JSON array.
-std::string triple(Vector a);
+std::string triple(Vec3d a);
 
 /// Random numbers, the same ones each time.
 class RandomNumbers {
  public:
   double between(double a, double b) { return a + (b - a) * static_cast<double>(engine_() >> 11) * 0x1p-53; }
   double next() { return between(0, 1); }
-  Vector on_sphere() {
-    const double z = between(-1, 1), angle = between(0, 6.283185307179586), r = std::sqrt(1 - z * z);
-    return {r * std::cos(angle), r * std::sin(angle), z};
-  }
+  Vec3d on_sphere() { return tyndall::on_sphere(Pair<double>{next(), next()}); }
 
  private:
   std::mt19937_64 engine_;
@@ -60,7 +53,7 @@ struct Described {
   /// The numbers of all members of the kind, whose keys have the part.
   std::vector<double> all(char kind, const std::string& part = "") const;
   /// Of vectors.
-  std::vector<Vector> vectors(const std::string& part = "") const;
+  std::vector<Vec3d> vectors(const std::string& part = "") const;
   /// The first of such numbers; if there is none, the other one.
   double named(const std::string& part, double otherwise) const;
   [[noreturn]] void refuse(const std::string& why) const { throw NotTaken{class_name + ": " + why}; }
@@ -74,7 +67,7 @@ struct Reading {
   double precision = 1e-6;              ///< what two computations of the same number may differ by
   std::string textures{}, materials{};  ///< members of JSON objects
   double matt = 0, shining = 0;         ///< a material that scatters one colour, and one that shines
-  Vector albedo{}, light{};             ///< their colours
+  Vec3d albedo{}, light{};              ///< their colours
   std::set<double> one_sided{};         ///< materials that shine where their normals point to
   std::map<double, Described> described_ones{};
   std::map<double, std::string> names{};

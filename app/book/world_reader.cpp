@@ -15,10 +15,10 @@ namespace {
 struct Piece {
   std::string body, material{}, moves{}, end{};  ///< JSON; moves: innermost first; end: behind them
   std::string turned{};                          ///< its body where the sides of what is hit are turned; "": the same
-  Vector centre{};
+  Vec3d centre{};
   double size = 1;
   bool is_solid = false, is_medium = false;
-  std::vector<Vector> corners{};  ///< of a rectangle: opposite ones
+  std::vector<Vec3d> corners{};  ///< of a rectangle: opposite ones
 
   std::string text() const {
     return body + material + (moves.empty() ? "" : ",\"transform\":[" + moves + "]") + end + "}";
@@ -27,9 +27,9 @@ struct Piece {
 
 /// The books' translate and rotate_y.
 struct Move {
-  Vector by{};
+  Vec3d by{};
   double sine = 0, cosine = 1;
-  Vector out(Vector a) const { return {cosine * a.x + sine * a.z, a.y, cosine * a.z - sine * a.x}; }
+  Vec3d out(Vec3d a) const { return {cosine * a.x + sine * a.z, a.y, cosine * a.z - sine * a.x}; }
   book::shot out(const book::shot& a) const { return {out(a.from) + by, out(a.to), a.time}; }
   std::string text() const {
     if (sine != 0 || cosine != 1) return fmt::format("{{\"rotate_y\":{}}}", std::atan2(sine, cosine) * 180 / pi);
@@ -39,7 +39,7 @@ struct Move {
 /// By the members of an object that holds another; the last one is none.
 std::vector<Move> moves_of(const Described& o) {
   std::vector<Move> moves;
-  for (const Vector& by : o.vectors()) moves.push_back({by});
+  for (const Vec3d& by : o.vectors()) moves.push_back({by});
   const std::vector<double> numbers = o.all('n');
   for (std::size_t k = 0; k + 1 < numbers.size(); ++k) {
     const double a = numbers[k], b = numbers[k + 1];
@@ -50,8 +50,8 @@ std::vector<Move> moves_of(const Described& o) {
   return moves;
 }
 
-Vector lower(Vector a, Vector b) { return {std::fmin(a.x, b.x), std::fmin(a.y, b.y), std::fmin(a.z, b.z)}; }
-Vector upper(Vector a, Vector b) { return -1 * lower(-1 * a, -1 * b); }
+Vec3d lower(Vec3d a, Vec3d b) { return {std::fmin(a.x, b.x), std::fmin(a.y, b.y), std::fmin(a.z, b.z)}; }
+Vec3d upper(Vec3d a, Vec3d b) { return -1.0 * lower(-1.0 * a, -1.0 * b); }
 
 class WorldReader {
  public:
@@ -185,7 +185,7 @@ class WorldReader {
   }
   /// Black, close behind a light: Tyndall's lights shine on both sides, those of the third book on one.
   void add_back(const Candidate& light, bool is_front) {
-    const Vector away = (1e-5 * std::sqrt(length(light.normal()))) * normalized(light.normal());
+    const Vec3d away = (1e-5 * std::sqrt(length(light.normal()))) * normalize(light.normal());
     Candidate below = light, above = light;
     below.at = light.at - away, above.at = light.at + away;
     if (!is_front) std::swap(below, above);
@@ -264,7 +264,7 @@ class WorldReader {
   }
   /// Counts how often rays pass the fog.
   void check_passing(double shape, const Described& o, double boundary, double extinction, book::shot shot) {
-    shot.to = normalized(shot.to);
+    shot.to = normalize(shot.to);
     const book::shot_answer in = shoot(boundary, {{shot.from, shot.to, 0, -1e9}})[0],
                             out = shoot(boundary, {{shot.from, shot.to, 0, in.t + 1e-4}})[0];
     if (in.found == 0 || out.found == 0) return;
@@ -280,8 +280,8 @@ class WorldReader {
   book::shot aimed(std::size_t begin) {
     const double count = static_cast<double>(pieces_.size() - begin);
     const Piece one = count > 0 ? pieces_[begin + static_cast<std::size_t>(random_.between(0, count))] : Piece{};
-    const Vector at = one.centre + (random_.between(0, 0.7) * one.size) * random_.on_sphere();
-    const Vector from = one.centre + (random_.between(1.5, 6) * one.size) * random_.on_sphere();
+    const Vec3d at = one.centre + (random_.between(0, 0.7) * one.size) * random_.on_sphere();
+    const Vec3d from = one.centre + (random_.between(1.5, 6) * one.size) * random_.on_sphere();
     return {from, at - from, 0.5};
   }
 
@@ -289,16 +289,15 @@ class WorldReader {
   void join_box(std::size_t begin) {
     if (pieces_.size() != begin + 6 || pieces_[begin].corners.empty()) return;
     const Piece first = pieces_[begin];
-    Vector low = first.corners[0], high = low;
+    Vec3d low = first.corners[0], high = low;
     for (std::size_t k = begin; k < begin + 6; ++k)
-      for (const Vector& corner : pieces_[k].corners) low = lower(low, corner), high = upper(high, corner);
+      for (const Vec3d& corner : pieces_[k].corners) low = lower(low, corner), high = upper(high, corner);
     const double allowed = r_.precision * std::fmax(largest(low), largest(high));
     unsigned sides = 0;
     for (std::size_t k = begin; k < begin + 6; ++k) {
       const Piece& one = pieces_[k];
       if (one.corners.empty() || one.material != first.material || one.moves != first.moves) return;
-      const Vector from = lower(one.corners[0], one.corners[1]) - low,
-                   to = high - upper(one.corners[0], one.corners[1]);
+      const Vec3d from = lower(one.corners[0], one.corners[1]) - low, to = high - upper(one.corners[0], one.corners[1]);
       unsigned away = 0;  // a bit for each side of the box that it does not touch
       for (const double distance : {from.x, from.y, from.z, to.x, to.y, to.z})
         away = 2 * away + (distance > allowed ? 1 : 0);

@@ -74,7 +74,7 @@ OwnSamples::OwnSamples()
         const std::shared_ptr<OwnProgram> program = its->program;
         lock.unlock();
         if (!program) return;
-        const tyndall_book::vector colour = program->samples({{x, y}})[0];
+        const Vec3d colour = program->samples({{x, y}})[0];
         rgb[0] = colour.x, rgb[1] = colour.y, rgb[2] = colour.z;
       })) {}
 

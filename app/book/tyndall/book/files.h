@@ -1,5 +1,5 @@
 #pragma once
-#include "questions.h"
+#include "values.h"
 
 #include <dlfcn.h>
 

@@ -2,17 +2,8 @@
 #include <cmath>
 
 /// What a reader's program is asked, and what it answers, as both sides write it. All are numbers, which go from one
-/// program to the other as they lie in memory.
+/// program to the other as they lie in memory. Whoever includes this has a vector: x, y and z.
 namespace tyndall_book {
-
-struct vector {
-  double x = 0, y = 0, z = 0;
-};
-inline vector operator+(vector a, vector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline vector operator-(vector a, vector b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline vector operator*(double s, vector a) { return {s * a.x, s * a.y, s * a.z}; }
-inline double dot(vector a, vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline double length(vector a) { return std::sqrt(dot(a, a)); }
 
 /// How the program's loop goes through the picture, and its world, as it tells before it is asked.
 struct picture_told {
