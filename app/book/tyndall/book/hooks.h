@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <new>
+#include <optional>
 
 /// The calls that `tyndall main.cc` inserts into the reader's functions, and what it learns by them before anything is
 /// taken over: how get_ray() and the loop around it name a place in the picture.
@@ -164,23 +164,22 @@ template <class C, class F, class A, class B>
 void ray_wanted(const C& camera, F call, A first, B second) {
   using ray = decltype(call(first, second));
   static const C* seen;
-  alignas(F) static unsigned char kept[sizeof(F)];
+  static std::optional<F> kept;
   const one_thread only;
-  seen = &camera;
-  new (kept) F(call);
+  seen = &camera, kept.emplace(call);
   ray_source& rays = watcher::rays;
   rays.first = double(first), rays.second = double(second);
   rays.by_pixels = std::is_integral<A>::value;
   rays.size = [] { return size_of(*seen); };
   rays.described = [] { return described_camera(*seen); };
   rays.make = [](double a, double b) -> const void* {
-    alignas(ray) static unsigned char memory[sizeof(ray)];
-    return new (memory) ray((*reinterpret_cast<F*>(kept))(static_cast<A>(a), static_cast<B>(b)));
+    static std::optional<ray> made;
+    return &made.emplace((*kept)(static_cast<A>(a), static_cast<B>(b)));
   };
   rays.side = [](int a, int b) {
     vector sum;  // a lens moves single rays
     for (int k = 0; k < 400; ++k) {
-      const ray one = (*reinterpret_cast<F*>(kept))(static_cast<A>(k % 2 * a), static_cast<B>(k % 2 * b));
+      const ray one = (*kept)(static_cast<A>(k % 2 * a), static_cast<B>(k % 2 * b));
       sum = sum + ((k % 2 * 2 - 1) / 200.0) * (ray_traits<ray>::origin(one) + ray_traits<ray>::direction(one));
     }
     return sum;
@@ -211,8 +210,8 @@ bool knows_rows(session& s, const R& ray) {
   corner = rows[0] - (0.5 * s.width) * right - 0.5 * down;
   s.rays.by_places = true;
   s.rays.make = [](double x, double y) -> const void* {
-    alignas(R) static unsigned char memory[sizeof(R)];
-    return new (memory) R(rays::make(origin, corner + x * right + y * down, 0));
+    static std::optional<R> made;
+    return &made.emplace(rays::make(origin, corner + x * right + y * down, 0));
   };
   return true;
 }

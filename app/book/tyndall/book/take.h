@@ -94,15 +94,6 @@ void read_record(R& all, scatter_answer& one) {
     });
 }
 
-/// A line each: the class of an object, and the file that was read before it was made.
-inline std::string text_of_object(const std::type_info& type, const void* object) {
-  int failed = 0;
-  char* name = abi::__cxa_demangle(type.name(), nullptr, nullptr, &failed);
-  const std::string text = name ? name : type.name();
-  std::free(name);
-  return text + '\n' + opened_files::get().of_objects[object] + '\n';
-}
-
 /// Answers of the reader's functions.
 template <class N>
 class replies {
@@ -177,9 +168,15 @@ class replies {
   }
 
  private:
+  /// A line each: the class of an object, and the file that was read before it was made; then its members.
   template <class O>
   static std::string text_of(const O& object) {
-    return text_of_object(typeid(object), dynamic_cast<const void*>(&object)) + N::members_of(object);
+    int failed = 0;
+    char* name = abi::__cxa_demangle(typeid(object).name(), nullptr, nullptr, &failed);
+    const std::string text = name ? name : typeid(object).name();
+    std::free(name);
+    const std::string& file = opened_files::get().of_objects[dynamic_cast<const void*>(&object)];
+    return text + '\n' + file + '\n' + N::members_of(object);
   }
   static bool answer(const void* met, double low, double high, void* into) {
     if (told_->hits == 0) told_->low = low, told_->high = high;
