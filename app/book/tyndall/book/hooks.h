@@ -2,11 +2,12 @@
 #include "files.h"
 #include "values.h"
 
-#include <pthread.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <mutex>
 #include <optional>
+#include <thread>
 
 /// The calls that `tyndall main.cc` inserts into the reader's functions, and what it learns by them before anything is
 /// taken over: how get_ray() and the loop around it name a place in the picture.
@@ -87,9 +88,8 @@ struct session : picture_told {
 
 /// Only one of the reader's threads at a time; the one that takes over keeps it for good, and the others wait.
 struct one_thread {
-  inline static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
-  one_thread() { pthread_mutex_lock(&mutex); }
-  ~one_thread() { pthread_mutex_unlock(&mutex); }
+  inline static std::mutex mutex;
+  const std::lock_guard<std::mutex> lock{mutex};
 };
 
 /// Watches the first pixels of the reader's loop, whose rays get black at once, until it is known what it does.
@@ -100,11 +100,11 @@ class watcher {
   /// Whether all is known; called for each ray of the loop.
   static bool knows(session& s) {
     if (seen_.empty()) {
-      thread_ = pthread_self(), begin_ = std::chrono::steady_clock::now(), size_ = rays.size();
+      thread_ = std::this_thread::get_id(), begin_ = std::chrono::steady_clock::now(), size_ = rays.size();
       read_head(size_);
       rows_rise_ = !rays.by_pixels && rays.side(0, 1).y > 0;
     }
-    if (!pthread_equal(thread_, pthread_self())) return false;
+    if (thread_ != std::this_thread::get_id()) return false;
     seen_.push_back({rays.first, rays.second});
     static_cast<picture_told&>(s) = size_;
     s.rays = rays, s.by_pixels = rays.by_pixels;
@@ -152,7 +152,7 @@ class watcher {
     give_up("the size of the picture is not known");
   }
 
-  inline static pthread_t thread_{};
+  inline static std::thread::id thread_;
   inline static std::chrono::steady_clock::time_point begin_;
   inline static bool rows_rise_ = false;  ///< rows go up in the world: the picture is turned when it is written
   inline static picture_told size_;
