@@ -60,11 +60,6 @@ std::string OwnProgram::exchange(const tyndall_book::question& head, const void*
   return std::move(message->text);
 }
 
-std::string OwnProgram::describe(char kind, double object) {
-  const tyndall_book::described_object question{double(kind)};
-  return exchange({'o', object, 0, sizeof question}, &question);
-}
-
 const ChildEnd& OwnProgram::end() {
   stops_ = true;
   return end_.get();

@@ -56,8 +56,8 @@ class OwnProgram {
     std::memcpy(answers.data(), bytes.data(), bytes.size());
     return answers;
   }
-  /// The members of an object, see described_object there.
-  std::string describe(char kind, double object);
+  /// The members of an object, as text.
+  std::string describe(char kind, double object) { return exchange({double(kind), object}, ""); }
   /// Linear colours of places in the picture.
   std::vector<Vec3d> samples(const std::vector<tyndall_book::pixel_place>& places) {
     return ask<Vec3d>('p', 0, places);

@@ -17,15 +17,11 @@ struct picture_told {
 };
 
 /// Begins each question, each answer, and what is told without a question. Objects are named by their addresses, which
-/// are exact as numbers.
+/// are exact as numbers. s, m, t, k: the members of a shape, a material, a texture or the camera; see take.h.
 struct question {
   double letter = 0, object = 0;
   double count = 0;  ///< how many answers are wanted, to questions that begin again behind the last one; 0: one each
   double size = 0;   ///< of the bytes that follow
-};
-/// o: the members of an object, of a shape (s), material (m), texture (t) or the camera (k); see take.h.
-struct described_object {
-  double kind = 0;
 };
 
 /// h: a ray that a shape is asked for, between two ends of t. One question can be put to many shapes.

@@ -105,11 +105,11 @@ class replies {
   using ray = typename N::ray;
   using rays = ray_traits<ray>;
 
-  static std::string described(const session& s, const void* object, const described_object& one) {
-    if (one.kind == 'k') return "\n\n" + (s.rays.described ? s.rays.described() : "");
-    if (one.kind == 's') return text_of(*static_cast<const shape*>(object));
-    if (one.kind == 'm') return text_of(*static_cast<const material*>(object));
-    return text_of(*static_cast<const texture*>(object));
+  static std::string described(const session& s, char kind, const void* object) {
+    if (kind == 'k') return "\n\n" + (s.rays.described ? s.rays.described() : "");
+    if (kind == 's') return text_of(*static_cast<const shape*>(object));
+    if (kind == 'm') return text_of(*static_cast<const material*>(object));
+    return kind == 't' ? text_of(*static_cast<const texture*>(object)) : "";
   }
   static shot_answer hit(const session&, const void*, const shot& one) {
     record r{};
@@ -226,7 +226,6 @@ inline void receive_bytes(void* to, std::size_t size) {
     at += got, size -= static_cast<std::size_t>(got);
   }
 }
-inline void add(std::string& answers, const std::string& text) { answers += text; }
 template <class A>
 void add(std::string& answers, const A& one) {
   answers.append(reinterpret_cast<const char*>(&one), sizeof one);
@@ -235,10 +234,12 @@ void add(std::string& answers, const A& one) {
 struct asked {
   question head;
   std::string given, answers;
+  char letter() const { return static_cast<char>(head.letter); }
 
-  /// Answers by numbers that are none (NaN) where the reader's function throws.
+  /// Answers if it is the question of this letter; by numbers that are none (NaN) where the reader's function throws.
   template <class A, class Q>
-  void answer(const session& s, A (*of)(const session&, const void*, const Q&)) {
+  void answer(char of_letter, const session& s, A (*of)(const session&, const void*, const Q&)) {
+    if (letter() != of_letter) return;
     const std::size_t different = given.size() / sizeof(Q);
     const std::size_t count = head.count > 0 ? static_cast<std::size_t>(head.count) : different;
     for (std::size_t k = 0; k < count; ++k) try {
@@ -250,30 +251,14 @@ struct asked {
   }
 };
 inline vector sample(const session& s, const void*, const pixel_place& at) { return s.colour(s.ray_at(at.x, at.y)); }
-inline void answer_samples(const session& s, asked& one) { one.answer(s, sample); }
+inline void answer_samples(const session& s, asked& one) { one.answer('p', s, sample); }
 template <class N>
 void answer(const session& s, asked& one) {
   using its = replies<N>;
-  switch (static_cast<char>(one.head.letter)) {
-    case 'o':
-      return one.answer(s, its::described);
-    case 'h':
-      return one.answer(s, its::hit);
-    case 'x':
-      return one.answer(s, its::scatter);
-    case 'e':
-      return one.answer(s, its::emitted);
-    case 'v':
-      return one.answer(s, its::value);
-    case 'r':
-      return one.answer(s, its::ray_at);
-    case 'c':
-      return one.answer(s, its::light);
-    case 'y':
-      return one.answer(s, its::sky);
-    default:
-      answer_samples(s, one);
-  }
+  one.answer('h', s, its::hit), one.answer('x', s, its::scatter), one.answer('e', s, its::emitted);
+  one.answer('v', s, its::value), one.answer('r', s, its::ray_at), one.answer('c', s, its::light);
+  one.answer('y', s, its::sky), answer_samples(s, one);
+  one.answers += its::described(s, one.letter(), address_of(one.head.object));
 }
 
 /// Tells the picture, then answers for as long as questions come.
