@@ -171,11 +171,9 @@ void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
         high = fmt::format("::tyndall_book::end_of({}, true)", parameter.name);
     }
     if (!ray.empty() && !record.empty())
-      insert(
-          function,
-          fmt::format(" if (::tyndall_book::replaced_world && ::tyndall_book::replaced_world == static_cast<const {}*>"
-                      "(this)) return ::tyndall_book::answer_of_world(&{}, {}, {}, &{});",
-                      qualified(shape_), ray, low, high, record));
+      insert(function, fmt::format(" if (::tyndall_book::replaced_world == static_cast<const {}*>"
+                                   "(this)) return ::tyndall_book::answer_of_world(&{}, {}, {}, &{});",
+                                   qualified(shape_), ray, low, high, record));
   }
   void hook_colour(const Function& function, const std::string& world) {
     has_colour_ = true;
@@ -270,17 +268,15 @@ void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
         text += fmt::format(
             "    if (typeid(o) == typeid({0})) return description<names>::of(dynamic_cast<const {0}&>(o));\n",
             one.qualified);
-    return text + "    (void)o;\n    return {};\n  }\n";
+    return text + "    return {};\n  }\n";
   }
   /// What tells the members of the reader's classes.
   std::string members() const {
     std::string text;
     for (const OutlinedClass& one : outline_.classes) {
       if (!one.can_be_named) continue;
-      text += fmt::format(
-          "template <> struct members<{}> {{ template <class O, class F> static void each(O& o, const F& "
-          "f) {{ (void)o, (void)f; ",
-          one.qualified);
+      text += "template <> struct members<" + one.qualified + "> {\n";
+      text += "  template <class O, class F> static void each(O& o, const F& f) { ";
       for (const std::string& base : one.bases)
         if (const OutlinedClass* known = outline_.class_named(base); known && known->can_be_named)
           text += fmt::format("members<{}>::each(o, f); ", known->qualified);
@@ -305,13 +301,10 @@ void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
   using material = {};
   using texture = {};
   static bool hit(const shape& o, const ray& in, double low, double high, record& record) {{ return {}; }}
-  static scatter_answer scatter(const material& m, const ray& in, record& record) {{
-    (void)m, (void)in, (void)record; {} }}
+  static scatter_answer scatter(const material& m, const ray& in, record& record) {{ {} }}
   template <class P>
-  static vector emitted(const material& m, const ray& in, record& record, double u, double v, const P& p) {{
-    (void)m, (void)in, (void)record, (void)u, (void)v, (void)p; {} }}
-  template <class P> static vector value(const texture& t, double u, double v, const P& p) {{
-    (void)t, (void)u, (void)v, (void)p; {} }}
+  static vector emitted(const material& m, const ray& in, record& record, double u, double v, const P& p) {{ {} }}
+  template <class P> static vector value(const texture& t, double u, double v, const P& p) {{ {} }}
 )",
                        qualified(shape_), qualified(ray_), qualified(record_), class_or(material_, "absent_class<'m'>"),
                        class_or(texture_, "absent_class<'t'>"), call(*hit_, "shape&>(o)", "low", "high"),
