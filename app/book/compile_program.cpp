@@ -1,6 +1,6 @@
 #include "app/book/compile_program.h"
 
-#include "app/book/inserted_calls.h"
+#include "app/book/program_outline.h"
 #include "app/text/values.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -16,6 +16,7 @@
 #include <regex>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 namespace tyndall {
 
@@ -53,23 +54,18 @@ fs::path book_folder() {
       (program / "book").string() + " has take.h");
 }
 
+/// What the user names as the compiler, with arguments; "": nothing.
+std::string chosen_compiler() {
+  const char* chosen = std::getenv("CXX");
+  return chosen ? chosen : "";
+}
 /// Compilers by their names, each with arguments that the user gave.
 std::vector<std::vector<std::string>> compilers(const std::string& wanted) {
   if (!wanted.empty()) return {{wanted}};
-  const char* chosen = std::getenv("CXX");
-  std::istringstream chosen_words(chosen ? chosen : "");
-  std::vector<std::string> command;
-  for (std::string word; chosen_words >> word;) command.push_back(word);
+  std::istringstream words(chosen_compiler());
+  const std::vector<std::string> command{std::istream_iterator<std::string>(words), {}};
   if (!command.empty()) return {command};
   return {{"c++"}, {"g++"}, {"clang++"}};
-}
-
-[[noreturn]] void fail_without_compiler() {
-  const char* chosen = std::getenv("CXX");
-  if (chosen && *chosen)
-    throw IoError("CXX: found " + in_quotes(chosen) + ", which cannot be run, expected a C++ compiler");
-  throw IoError(
-      "no C++ compiler was found (c++, g++, clang++), which is needed for programs; to install one: apt install g++");
 }
 
 /// Throws for what has nothing to do with the reader's code.
@@ -82,25 +78,6 @@ void check_end(const ProgramTask& task, const std::string& compiler, const Child
   if (end.signal != 0 || killed != std::string::npos)
     throw IoError(compiler + " was ended by " + signal_name(end.signal != 0 ? end.signal : signal_kill) +
                   " while it compiled " + name);
-}
-
-/// Compiles by the first compiler that can be started.
-ChildEnd compile_by_any(const ProgramTask& task, const std::vector<std::string>& arguments) {
-  for (const std::vector<std::string>& compiler : compilers(task.compiler)) {
-    ChildPlan plan;
-    plan.command = compiler;
-    plan.command.insert(plan.command.end(), arguments.begin(), arguments.end());
-    plan.folder = task.folder;
-    plan.environment = {"LC_ALL=C", "TMPDIR=" + task.folder.string(), "CCACHE_DISABLE=1"};
-    plan.seconds = 120;
-    plan.max_errors = std::size_t(1) << 20;
-    ChildEnd end = run_guarded(task, plan, "it was compiled");
-    if (end.start_error == ENOENT || end.start_error == EACCES) continue;
-    if (end.start_error != 0) throw IoError(compiler[0] + " cannot be started: " + error_text(end.start_error));
-    check_end(task, compiler[0], end);
-    return end;
-  }
-  fail_without_compiler();
 }
 
 /// A file as the user names it: from the folder of main as he named that.
@@ -139,6 +116,16 @@ fs::path folder_with(const std::string& header, const fs::path& program) {
   return first;
 }
 
+template <class T>
+bool holds(const std::vector<T>& all, const T& one) {
+  return std::find(all.begin(), all.end(), one) != all.end();
+}
+
+/// Of the reader's code.
+struct CompilerError {
+  std::string text;
+};
+
 class Compilation {
  public:
   explicit Compilation(const ProgramTask& task)
@@ -150,21 +137,18 @@ class Compilation {
 
   CompiledProgram run() {
     std::vector<std::string> errors;
-    for (const char* standard : {"-std=c++17", "-std=c++20"}) {
-      standard_ = standard;
-      if (const std::string error = preprocess(); !error.empty()) {
-        errors.push_back(error);
-        continue;
+    for (const char* standard : {"-std=c++17", "-std=c++20"}) try {
+        standard_ = standard;
+        preprocess();
+        for (const bool reads_world : {true, false}) {
+          const InsertedCalls calls = insert_calls(text_, outline_, reads_world);
+          if (!calls.problem.empty()) throw UsageError(task_.name + ": " + calls.problem);
+          if (compile(calls.text, reads_world))
+            return {task_.folder / "program", outline_.files, calls.draws_by_pdf, calls.decodes_images};
+        }
+      } catch (const CompilerError& error) {
+        errors.push_back(all_printable(error.text));
       }
-      for (const bool reads_world : {true, false}) {
-        const InsertedCalls calls = insert_calls(text_, outline_, reads_world);
-        if (!calls.problem.empty()) throw UsageError(task_.name + ": " + calls.problem);
-        const std::string error = compile(calls.text);
-        if (error.empty()) return {task_.folder / "program", outline_.files, calls.draws_by_pdf, calls.decodes_images};
-        if (!reads_world || !is_in_ours_) errors.push_back(error);
-        if (!is_in_ours_) break;
-      }
-    }
     // What is wrong at the same place for both is told in the words of the older one, which are plainer. Else the code
     // is C++20, and the older one's error means nothing.
     const auto place = [](const std::string& error) { return error.substr(0, error.find(": ")); };
@@ -172,8 +156,8 @@ class Compilation {
   }
 
  private:
-  /// Makes the text of the program and its outline; returns an error.
-  std::string preprocess() {
+  /// Makes the text of the program and its outline.
+  void preprocess() {
     for (std::size_t known = 0; known != sources_.size();) {
       known = sources_.size();
       std::string all = "#include \"" + (headers_ / "take.h").string() + "\"\n";
@@ -183,8 +167,7 @@ class Compilation {
       const ChildEnd end = call({"-E", file.string(), "-o", "all.ii"});
       if (!end.succeeded()) {
         const fs::path folder = folder_with(missing_header(end.errors), sources_.front());
-        if (folder.empty() || std::find(options_.begin(), options_.end(), folder) != options_.end())
-          return all_printable(first_error(end.errors, main_));
+        if (folder.empty() || holds(options_, folder.string())) throw CompilerError{first_error(end.errors, main_)};
         options_.insert(options_.end(), {"-I", folder.string()});
         known = 0;
         continue;
@@ -193,33 +176,48 @@ class Compilation {
       outline_ = outline_of(text_, {headers_, task_.folder});
       add_sources();
     }
-    return "";
   }
   void add_sources() {
-    for (const fs::path& file : outline_.files) {
-      const fs::path source = source_beside(file);
-      const bool known = source.empty() || std::find(sources_.begin(), sources_.end(), source) != sources_.end() ||
-                         std::find(outline_.files.begin(), outline_.files.end(), source) != outline_.files.end();
-      if (!known) sources_.push_back(source);
-    }
+    for (const fs::path& file : outline_.files)
+      if (const fs::path source = source_beside(file);
+          !source.empty() && !holds(sources_, source) && !holds(outline_.files, source))
+        sources_.push_back(source);
   }
-  std::string compile(const std::string& text) {
+  /// False: it fails in our headers, where his world is read.
+  bool compile(const std::string& text, bool reads_world) {
     write_text(task_.folder / "program.ii", text);
     const ChildEnd end = call({"-O1", "-fno-access-control", "-fpermissive", "program.ii", "-o", "program", "-ldl"});
     std::error_code ignored;  // what is no program cannot be started
     if (end.succeeded())      // a guard may refuse linkers that
-      fs::permissions(task_.folder / "program", fs::perms::owner_exec, fs::perm_options::add, ignored);
-    const std::string error = end.succeeded() ? "" : first_error(end.errors, main_);
+      return fs::permissions(task_.folder / "program", fs::perms::owner_exec, fs::perm_options::add, ignored), true;
     const std::size_t first = end.errors.rfind('\n', end.errors.find("error: "));
     const std::string place = end.errors.substr(first == std::string::npos ? 0 : first + 1);
-    is_in_ours_ = place.rfind(headers_.string(), 0) == 0 || place.rfind("tyndall/book/", 0) == 0;
-    return all_printable(error);
+    if (reads_world && (place.rfind(headers_.string(), 0) == 0 || place.rfind("tyndall/book/", 0) == 0)) return false;
+    throw CompilerError{first_error(end.errors, main_)};
   }
+  /// Calls the first compiler that can be started.
   ChildEnd call(const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments{standard_, "-w", "-pthread", "-fmax-errors=20", "-fdiagnostics-color=never"};
-    arguments.insert(arguments.end(), options_.begin(), options_.end());
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return compile_by_any(task_, arguments);
+    for (const std::vector<std::string>& compiler : compilers(task_.compiler)) {
+      ChildPlan plan;
+      plan.command = compiler;
+      for (const auto& part :
+           {std::vector<std::string>{standard_, "-w", "-pthread", "-fmax-errors=20", "-fdiagnostics-color=never"},
+            options_, more})
+        plan.command.insert(plan.command.end(), part.begin(), part.end());
+      plan.folder = task_.folder;
+      plan.environment = {"LC_ALL=C", "TMPDIR=" + task_.folder.string(), "CCACHE_DISABLE=1"};
+      plan.seconds = 120;
+      plan.max_errors = std::size_t(1) << 20;
+      ChildEnd end = run_guarded(task_, plan, "it was compiled");
+      if (end.start_error == ENOENT || end.start_error == EACCES) continue;
+      if (end.start_error != 0) throw IoError(compiler[0] + " cannot be started: " + error_text(end.start_error));
+      check_end(task_, compiler[0], end);
+      return end;
+    }
+    if (const std::string chosen = chosen_compiler(); !chosen.empty())
+      throw IoError("CXX: found " + in_quotes(chosen) + ", which cannot be run, expected a C++ compiler");
+    throw IoError(
+        "no C++ compiler was found (c++, g++, clang++), which is needed for programs; to install one: apt install g++");
   }
 
   const ProgramTask& task_;
@@ -228,10 +226,30 @@ class Compilation {
   std::vector<std::string> options_;
   std::string standard_, text_;
   ProgramOutline outline_;
-  bool is_in_ours_ = false;  ///< the last error
 };
 
 }  // namespace
+
+ChildPlan guarded(const ProgramTask& task, ChildPlan plan) {
+  plan.guard = available_guard();
+  plan.own_folder = task.folder;
+  if (!plan.guard.any() && !task.trusted)
+    throw UsageError(
+        task.name +
+        ": is not run: this system has nothing that keeps a program from changing your files (neither user "
+        "namespaces nor Landlock); --trust runs it as it is");
+  return plan;
+}
+
+ChildEnd run_guarded(const ProgramTask& task, ChildPlan plan, const std::string& doing) {
+  plan = guarded(task, std::move(plan));
+  const SignalWatch signals(task.watch_signals ? WatchedSignals::end : WatchedSignals::none);
+  plan.go_on = [&] { return signals.received() == 0 && (!task.go_on || task.go_on()); };
+  ChildEnd end = run_child(plan);
+  if (signals.received() != 0) throw ProgramInterrupted(task.name + ": interrupted while " + doing, signals.received());
+  if (end.given_up) throw ProgramInterrupted(task.name + ": given up while " + doing, signal_terminate);
+  return end;
+}
 
 std::string first_error(const std::string& output, const fs::path& main) {
   std::istringstream lines(output);

@@ -1,4 +1,4 @@
-#include "app/book/inserted_calls.h"
+#include "app/book/program_outline.h"
 
 #include "core/base/text.h"
 
@@ -10,27 +10,21 @@
 namespace tyndall {
 namespace {
 
-bool begins_with(const std::string& text, const char* with) { return text.rfind(with, 0) == 0; }
 bool contains(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
-bool is_number(const Parameter& parameter) {
-  return parameter.identifiers.size() == 1 && !contains(parameter.type, "<") && !contains(parameter.type, "*");
-}
-std::string last_of(const Parameter& parameter) {
-  return parameter.identifiers.empty() ? parameter.type : parameter.identifiers.back();
-}
+bool is_number(const Parameter& one) { return one.words.size() == 1 && !one.has("<") && !one.has("*"); }
+/// The type's own name.
+std::string last_of(const Parameter& one) { return one.words.empty() ? "" : one.words.back(); }
 bool is_integer(const Parameter& parameter) {
   const std::string last = last_of(parameter);
-  return contains(last, "int") || last == "long" || last == "unsigned" || last == "short" || last == "size_t";
+  return contains(last, "int") || is_one_of(last, {"long", "unsigned", "short", "size_t"});
 }
 /// Whether the function may set it.
-bool is_set(const Parameter& parameter) { return !contains(parameter.type, "const") && parameter.type.ends_with("&"); }
+bool is_set(const Parameter& one) { return !one.has("const") && one.has("&"); }
 bool is_real(const Parameter& parameter) {
-  const std::string last = last_of(parameter);
-  return last == "double" || last == "float" || last == "real" || last == "Real" || last == "Float";
+  return is_one_of(last_of(parameter), {"double", "float", "real", "Real", "Float"});
 }
 bool is_colour(const Function& function) {
-  const auto others = {"", "bool", "void", "double", "float", "int", "auto"};
-  return std::find(others.begin(), others.end(), function.result) == others.end();
+  return !is_one_of(function.result, {"", "bool", "void", "double", "float", "int", "auto"});
 }
 /// What a member is for, by its name; see members in tyndall/book/values.h.
 std::string role_of(const std::string& member) {
@@ -64,11 +58,11 @@ class Inserter {
     each(&Inserter::hook_camera), each(&Inserter::hook);
     if (!has_colour_) each(&Inserter::hook_without_world);
     if (!has_colour_) return {"", "has no function that computes the colour of a ray in a world"};
-    for (const std::string_view head : outline_.heads) insert(head.data(), "::std::unitbuf << ");
+    show_heads();
     hurry_through_images();
     const std::string end = reads_world ? tail() : R"(namespace tyndall_book {
 template <class C> std::string described_camera(const C&) { return {}; }
-void take_over(session& s) { take_samples(s); }
+void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
 }
 )";
     return {with_insertions() + "\n# 1 \"tyndall/book/names\"\n" + end, "", draws_by_pdf_, decodes_images()};
@@ -84,28 +78,20 @@ void take_over(session& s) { take_samples(s); }
     for (auto one = insertions_.rbegin(); one != insertions_.rend(); ++one) made.insert(one->first, one->second);
     return made;
   }
-  const OutlinedClass* class_named(const std::string& name) const {
-    for (const OutlinedClass& one : outline_.classes)
-      if (one.name == name) return &one;
-    return nullptr;
-  }
   std::string qualified(const std::string& name) const {
-    const OutlinedClass* known = class_named(name);
-    return known ? known->qualified() : name;
-  }
-  std::string owner_of(const Function& function) const {
-    return function.owner < 0 ? "" : outline_.classes[static_cast<std::size_t>(function.owner)].name;
+    const OutlinedClass* known = outline_.class_named(name);
+    return known ? known->qualified : name;
   }
 
   void find_roles() {
     for (const bool first : {true, false})
       for (const Function& function : outline_.functions) {
-        const std::string key = key_of(function.name), owner = owner_of(function);
-        if (owner.empty() || !function.is_virtual || !class_named(owner)->bases.empty()) continue;
-        if (first && shape_.empty() && (begins_with(key, "hit") || begins_with(key, "intersect"))) take_hit(function);
-        if (first && !scatter_ && begins_with(key, "scatter") && function.result == "bool")
+        const std::string key = key_of(function.name), owner = function.owner;
+        if (owner.empty() || !function.is_virtual || !outline_.class_named(owner)->bases.empty()) continue;
+        if (first && shape_.empty() && (key.starts_with("hit") || key.starts_with("intersect"))) take_hit(function);
+        if (first && !scatter_ && key.starts_with("scatter") && function.result == "bool")
           material_ = owner, scatter_ = &function;
-        if (!first && !emitted_ && owner == material_ && begins_with(key, "emit")) emitted_ = &function;
+        if (!first && !emitted_ && owner == material_ && key.starts_with("emit")) emitted_ = &function;
         if (!first && !value_ && contains(key_of(owner), "texture") && function.parameters.size() >= 2)
           texture_ = owner, value_ = &function;
       }
@@ -114,48 +100,46 @@ void take_over(session& s) { take_samples(s); }
     std::string ray, record;
     for (const Parameter& parameter : function.parameters) {
       const std::string type = last_of(parameter);
-      if (!class_named(type)) continue;
+      if (!outline_.class_named(type)) continue;
       if (ray.empty() && contains(key_of(type), "ray"))
         ray = type;
       else if (is_set(parameter))
         record = type;
     }
     if (ray.empty() || record.empty() || function.result != "bool") return;
-    shape_ = owner_of(function), ray_ = ray, record_ = record, hit_ = &function;
+    shape_ = function.owner, ray_ = ray, record_ = record, hit_ = &function;
   }
 
   // The calls -------------------------------------------------------------------------------------------------------
 
   void hook(const Function& function) {
-    const std::string owner = owner_of(function);
-    if (function.name == hit_->name && outline_.is_derived(owner, shape_)) hook_hit(function);
-    if (function.result.empty() && outline_.is_derived(owner, texture_) && !function.parameters.empty())
+    if (function.name == hit_->name && outline_.is_derived(function.owner, shape_)) hook_hit(function);
+    if (function.result.empty() && outline_.is_derived(function.owner, texture_) && !function.parameters.empty())
       insert(function, " ::tyndall_book::texture_made(this);");
     if (!may_be_hooked(function)) return;
     for (const Parameter& parameter : function.parameters)
-      for (const std::string& name : parameter.identifiers)
+      for (const std::string& name : parameter.words)
         if (outline_.is_derived(name, shape_)) return hook_colour(function, parameter.name);
   }
   /// Whether it is none of the things' own functions, and can be called again.
   bool may_be_called(const Function& function) const {
-    const std::string owner = owner_of(function);
+    const std::string& owner = function.owner;
     if (owner == ray_ || outline_.is_derived(owner, shape_) || outline_.is_derived(owner, material_)) return false;
     return std::none_of(function.parameters.begin(), function.parameters.end(),
-                        [&](const Parameter& one) { return one.name.empty() || one.names(record_); });
+                        [&](const Parameter& one) { return one.name.empty() || one.has(record_); });
   }
   /// Whether it computes the colour of a ray.
   bool may_be_hooked(const Function& function) const {
     return may_be_called(function) && is_colour(function) && !is_camera(function) &&
            std::any_of(function.parameters.begin(), function.parameters.end(),
-                       [&](const Parameter& one) { return one.names(ray_); });
+                       [&](const Parameter& one) { return one.has(ray_); });
   }
   bool is_camera(const Function& function) const {
-    const std::string result = function.result.substr(function.result.rfind(' ') + 1);
     if (!may_be_called(function) || !contains(key_of(function.name), "ray") || function.parameters.size() < 2)
       return false;
     const Parameter &first = function.parameters[0], &second = function.parameters[1];
-    return (result == ray_ || result.ends_with(":" + ray_)) && is_number(first) && is_number(second) &&
-           !class_named(last_of(first));
+    return (" " + function.result).ends_with(" " + ray_) && is_number(first) && is_number(second) &&
+           !outline_.class_named(last_of(first));
   }
   void hook_camera(const Function& function) {
     if (!is_camera(function)) return;
@@ -167,7 +151,7 @@ void take_over(session& s) { take_samples(s); }
     insert(function,
            fmt::format(" if (!::tyndall_book::is_ours) ::tyndall_book::ray_wanted({}, [=](auto tyndall_a, auto "
                        "tyndall_b) {{ return {}({}); }}, {}, {});",
-                       function.owner >= 0 && !function.is_static ? "*this" : "0", function.name, arguments, first,
+                       !function.owner.empty() && !function.is_static ? "*this" : "0", function.name, arguments, first,
                        second));
   }
   /// The world answers by its hit() unless it is asked to answer for us.
@@ -176,9 +160,9 @@ void take_over(session& s) { take_samples(s); }
     int reals = 0;
     for (const Parameter& parameter : function.parameters) {
       if (parameter.name.empty()) return;
-      if (parameter.names(ray_))
+      if (parameter.has(ray_))
         ray = parameter.name;
-      else if (parameter.names(record_))
+      else if (parameter.has(record_))
         record = parameter.name;
       else if (is_real(parameter))
         (reals++ == 0 ? low : high) = parameter.name;
@@ -187,25 +171,23 @@ void take_over(session& s) { take_samples(s); }
         high = fmt::format("::tyndall_book::end_of({}, true)", parameter.name);
     }
     if (!ray.empty() && !record.empty())
-      insert(
-          function,
-          fmt::format(" if (::tyndall_book::replaced_world && ::tyndall_book::replaced_world == static_cast<const {}*>"
-                      "(this)) return ::tyndall_book::answer_of_world(&{}, {}, {}, &{});",
-                      qualified(shape_), ray, low, high, record));
+      insert(function, fmt::format(" if (::tyndall_book::replaced_world == static_cast<const {}*>"
+                                   "(this)) return ::tyndall_book::answer_of_world(&{}, {}, {}, &{});",
+                                   qualified(shape_), ray, low, high, record));
   }
   void hook_colour(const Function& function, const std::string& world) {
     has_colour_ = true;
     std::string ray, depth = "0";
     const std::string arguments = for_each_parameter(function, [&](const Parameter& parameter) -> std::string {
       if (depth == "0" && is_number(parameter) && is_integer(parameter)) depth = parameter.name;
-      if (!parameter.names(ray_) || !ray.empty()) return parameter.name;
+      if (!parameter.has(ray_) || !ray.empty()) return parameter.name;
       ray = parameter.name;
       return "tyndall_ray";
     });
     insert(function,
            fmt::format(" if (!::tyndall_book::is_ours) return ::tyndall_book::colour_wanted<{}, {}>([&](const auto& "
-                       "tyndall_ray) -> {} {{ return {}({}); }}, {}, {}, static_cast<int>({}));",
-                       qualified(shape_), has_camera_, function.result, function.name, arguments, ray, world, depth));
+                       "tyndall_ray) {{ return {}({}); }}, {}, {}, static_cast<int>({}));",
+                       qualified(shape_), has_camera_, function.name, arguments, ray, world, depth));
   }
   /// A function of a ray alone, whose world is a member or a global object that it asks for hits.
   void hook_without_world(const Function& function) {
@@ -219,6 +201,13 @@ void take_over(session& s) { take_samples(s); }
     }
   }
 
+  /// What begins a picture in the P3 format is not kept in a buffer.
+  void show_heads() {
+    for (const char* head : {"\"P3", "\"P6"})
+      for (std::size_t at = 0; (at = text_.find(head, at + 1)) != std::string::npos;)
+        if (const std::size_t before = text_.find_last_not_of(" \t\n", at - 1); text_.compare(before - 1, 2, "<<") == 0)
+          insert(text_.data() + at, "::std::unitbuf << ");
+  }
   /// A library that decodes images is as long as all else, and takes no time when it runs: it is not optimised.
   void hurry_through_images() {
     const std::size_t first = text_.find("stb_image.h\" 1"), last = text_.rfind("stb_image.h\"");
@@ -235,8 +224,8 @@ void take_over(session& s) { take_samples(s); }
     int reals = 0;
     return fmt::format("const_cast<{}.{}({})", object, function.name,
                        for_each_parameter(function, [&](const Parameter& parameter) -> std::string {
-                         if (parameter.names(ray_)) return "in";
-                         if (parameter.names(record_)) return "record";
+                         if (parameter.has(ray_)) return "in";
+                         if (parameter.has(record_)) return "record";
                          if (is_real(parameter)) return reals++ == 0 ? first : second;
                          return &function == hit_ ? qualified(last_of(parameter)) + "(low, high)" : "p";
                        }));
@@ -248,10 +237,10 @@ void take_over(session& s) { take_samples(s); }
     std::string begin, end = "read_record<names>(part, one);";
     bool has_ray = false;
     const std::string arguments = for_each_parameter(*scatter_, [&](const Parameter& parameter) -> std::string {
-      if (parameter.names(record_)) return "record";
-      if (parameter.names(ray_) && !is_set(parameter)) return "in";
-      has_ray = has_ray || parameter.names(ray_);
-      if (parameter.names(ray_)) return "out";
+      if (parameter.has(record_)) return "record";
+      if (parameter.has(ray_) && !is_set(parameter)) return "in";
+      has_ray = has_ray || parameter.has(ray_);
+      if (parameter.has(ray_)) return "out";
       const bool real = is_real(parameter);
       draws_by_pdf_ = draws_by_pdf_ || real;
       std::string name = real ? "density" : others.empty() ? "part" : "to";
@@ -268,7 +257,7 @@ void take_over(session& s) { take_samples(s); }
   }
   bool decodes_images() const {
     return std::any_of(outline_.functions.begin(), outline_.functions.end(), [](const Function& function) {
-      return !begins_with(function.name, "stbi") && contains(function.body, "stbi_loadf");
+      return !function.name.starts_with("stbi") && contains(function.body, "stbi_loadf");
     });
   }
   /// A function that describes the members of an object by its class.
@@ -278,21 +267,19 @@ void take_over(session& s) { take_samples(s); }
       if (one.name != root && one.can_be_named && outline_.is_derived(one.name, root))
         text += fmt::format(
             "    if (typeid(o) == typeid({0})) return description<names>::of(dynamic_cast<const {0}&>(o));\n",
-            one.qualified());
-    return text + "    (void)o;\n    return {};\n  }\n";
+            one.qualified);
+    return text + "    return {};\n  }\n";
   }
   /// What tells the members of the reader's classes.
   std::string members() const {
     std::string text;
     for (const OutlinedClass& one : outline_.classes) {
       if (!one.can_be_named) continue;
-      text += fmt::format(
-          "template <> struct members<{}> {{ template <class O, class F> static void each(O& o, const F& "
-          "f) {{ (void)o, (void)f; ",
-          one.qualified());
+      text += "template <> struct members<" + one.qualified + "> {\n";
+      text += "  template <class O, class F> static void each(O& o, const F& f) { ";
       for (const std::string& base : one.bases)
-        if (const OutlinedClass* known = class_named(base); known && known->can_be_named)
-          text += fmt::format("members<{}>::each(o, f); ", known->qualified());
+        if (const OutlinedClass* known = outline_.class_named(base); known && known->can_be_named)
+          text += fmt::format("members<{}>::each(o, f); ", known->qualified);
       for (const std::string& member : one.members)
         text += fmt::format("f(\"{0}\", {1}, o.{0}); ", member, role_of(member));
       text += "} };\n";
@@ -314,13 +301,10 @@ void take_over(session& s) { take_samples(s); }
   using material = {};
   using texture = {};
   static bool hit(const shape& o, const ray& in, double low, double high, record& record) {{ return {}; }}
-  static scatter_answer scatter(const material& m, const ray& in, record& record) {{
-    (void)m, (void)in, (void)record; {} }}
+  static scatter_answer scatter(const material& m, const ray& in, record& record) {{ {} }}
   template <class P>
-  static vector emitted(const material& m, const ray& in, record& record, double u, double v, const P& p) {{
-    (void)m, (void)in, (void)record, (void)u, (void)v, (void)p; {} }}
-  template <class P> static vector value(const texture& t, double u, double v, const P& p) {{
-    (void)t, (void)u, (void)v, (void)p; {} }}
+  static vector emitted(const material& m, const ray& in, record& record, double u, double v, const P& p) {{ {} }}
+  template <class P> static vector value(const texture& t, double u, double v, const P& p) {{ {} }}
 )",
                        qualified(shape_), qualified(ray_), qualified(record_), class_or(material_, "absent_class<'m'>"),
                        class_or(texture_, "absent_class<'t'>"), call(*hit_, "shape&>(o)", "low", "high"),
@@ -328,7 +312,7 @@ void take_over(session& s) { take_samples(s); }
            members_of(shape_, "shape") + members_of(material_, "material") + members_of(texture_, "texture") +
            R"(};
 template <class C> std::string described_camera(const C& camera) { return description<names>::of(camera); }
-void take_over(session& s) { take_over_world<names>(s); }
+void take_over(session& s) { s.is_float = ray_traits<names::ray>::is_float(), serve(s, answer<names>); }
 }
 )";
   }

@@ -1,6 +1,5 @@
 #include "app/book/load_program.h"
 
-#include "app/book/compile_program.h"
 #include "app/book/reading.h"
 #include "app/text/values.h"
 #include "core/base/error.h"
@@ -16,6 +15,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <memory>
 #include <system_error>
 
 namespace tyndall {
@@ -25,29 +25,21 @@ namespace fs = std::filesystem;
 namespace {
 
 /// An empty folder among the temporary files ($TMPDIR, else /tmp), only for this user; removed with all that is in it.
-struct ScratchFolder {
-  ScratchFolder() {
-    int problem = 0;
-    std::error_code error;
-    path = make_temporary_folder("tyndall-book-", &problem);
-    if (path.empty())
-      throw IoError(printable(temporary_folder().string()) +
-                    ": cannot make a temporary folder: " + error_text(problem));
-    if (const fs::path whole = fs::canonical(path, error); !error) path = whole;
-  }
-  ~ScratchFolder() {
-    std::error_code error;
-    fs::remove_all(path, error);
-    if (!error) return;
-    for (fs::recursive_directory_iterator at(path, error), end; !error && at != end; at.increment(error))
-      fs::permissions(at->path(), fs::perms::owner_all, fs::perm_options::add, error);  // a program took them away
-    fs::remove_all(path, error);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  fs::path path;
-};
+std::shared_ptr<const fs::path> scratch_folder() {
+  int problem = 0;
+  std::error_code error;
+  const fs::path made = make_temporary_folder("tyndall-book-", &problem), whole = fs::canonical(made, error);
+  if (made.empty())
+    throw IoError(printable(temporary_folder().string()) + ": cannot make a temporary folder: " + error_text(problem));
+  return {new fs::path(error ? made : whole), [](const fs::path* path) {
+            std::error_code failed;
+            fs::remove_all(*path, failed);
+            for (fs::recursive_directory_iterator at(*path, failed), end; !failed && at != end; at.increment(failed))
+              fs::permissions(at->path(), fs::perms::owner_all, fs::perm_options::add, failed);  // what was taken away
+            fs::remove_all(*path, failed);
+            delete path;
+          }};
+}
 
 /// The last line of text, for a message; "": there is none.
 std::string last_line(std::string text) {
@@ -118,14 +110,13 @@ bool read_messages(const ProgramTask& task, Reading& reading) {
 
 /// The scene's text. Throws NotTaken, and IoError where the program has ended.
 std::string read_scene(Reading& reading) {
-  read_world(reading);
-  const std::string camera = read_camera(reading), sky = read_sky(reading);
+  const std::string objects = read_world(reading), camera = read_camera(reading), sky = read_sky(reading);
   const ProgramScene& scene = reading.scene;
   return fmt::format(
       "{{\"tyndall\":1,\"image\":{{\"width\":{},\"height\":{}}},\n{},\n\"background\":{},\n\"render\":{{\"spp\":{},"
       "\"max_depth\":{}}},\n\"textures\":{{{}}},\n\"materials\":{{{}}},\n\"objects\":[{}]}}\n",
       scene.width, scene.height, camera, sky, std::max(scene.samples, 1), read_depth(reading), reading.textures,
-      reading.materials, joined(reading.objects, ",\n"));
+      reading.materials, objects);
 }
 
 }  // namespace
@@ -140,9 +131,9 @@ ProgramScene load_program(const ProgramRequest& request) {
   if (!runs_children())
     throw UsageError(printable(main.string()) +
                      ": is not run: builds for Windows run no programs, which need a compiler");
-  const auto scratch = std::make_shared<ScratchFolder>();
+  const auto scratch = scratch_folder();
   ProgramRequest task = request;
-  task.name = printable(main.string()), task.folder = scratch->path;
+  task.name = printable(main.string()), task.folder = *scratch;
   const CompiledProgram program = compile_program(task);
   const SignalWatch signals(request.watch_signals ? WatchedSignals::end : WatchedSignals::none);
   const auto go_on = [&] { return signals.received() == 0 && (!request.go_on || request.go_on()); };
@@ -154,7 +145,7 @@ ProgramScene load_program(const ProgramRequest& request) {
     scene.own = {new OwnProgram(task.name, plan_of(task, program, main), request.seconds, go_on), remove};
     Reading reading{scene, *scene.own};
     bool told = read_messages(task, reading);
-    scene.own->set_deadline(20);  // for its world
+    scene.own->let_run(20, go_on);  // for its world
     if (told && !failed.empty()) scene.reason = failed;
     try {
       if (told && scene.reason.empty()) scene.json = read_scene(reading);
@@ -173,7 +164,7 @@ ProgramScene load_program(const ProgramRequest& request) {
   if (scene.has_images && !program.decodes_images)
     scene.notes.push_back(task.name +
                           ": its program takes the numbers of images as they are, Tyndall takes them as sRGB");
-  scene.own->set_lasting();
+  scene.own->let_run(1e9, nullptr);
   return scene;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "app/book/compile_program.h"
 #include "app/book/own_program.h"
 
 #include <string>

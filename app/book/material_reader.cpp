@@ -1,6 +1,7 @@
 #include "app/book/reading.h"
 #include "core/base/math.h"
 #include "core/base/text.h"
+#include "core/materials/dielectric.h"
 
 #include <fmt/core.h>
 
@@ -9,37 +10,37 @@
 namespace tyndall {
 namespace {
 
-constexpr SurfacePoint slanted{}, behind{{0.3, -0.2, 0.7}, {0.8, 0.6, 0}, 0};
+constexpr book::surface_point slanted{}, behind{slanted.p, slanted.u, slanted.v, {0.8, 0.6, 0}, 0};
 
-Vector mirror(Vector to) { return {to.x, -to.y, to.z}; }
-Vector mean_of(const std::vector<Vector>& all) {
-  Vector sum;
-  for (const Vector& one : all) sum = sum + one;
+Vec3d mirror(Vec3d to) { return {to.x, -to.y, to.z}; }
+Vec3d mean_of(const std::vector<Vec3d>& all) {
+  Vec3d sum;
+  for (const Vec3d& one : all) sum = sum + one;
   return (1.0 / static_cast<double>(std::max(all.size(), std::size_t(1)))) * sum;
 }
-/// Share of reflected light by Fresnel's equations, and by Schlick's rule; cosine: of incidence.
-double fresnel(double cosine, double ratio) {
-  const double sin2 = (1 - cosine * cosine) * ratio * ratio, out = std::sqrt(std::fmax(0, 1 - sin2));
-  if (sin2 >= 1) return 1;
-  const double s = (ratio * cosine - out) / (ratio * cosine + out), p = (ratio * out - cosine) / (ratio * out + cosine);
-  return 0.5 * (s * s + p * p);
+bool are_near(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b, double precision) {
+  return std::equal(a.begin(), a.end(), b.begin(), [&](Vec3d x, Vec3d y) { return is_near(x, y, precision); });
 }
-double schlick(double cosine, double ratio) {
-  const double r0 = (1 - ratio) / (1 + ratio);
-  return ratio * ratio * (1 - cosine * cosine) >= 1 ? 1 : r0 * r0 + (1 - r0 * r0) * std::pow(1 - cosine, 5);
+/// The slanted one, and others at random.
+std::vector<book::surface_point> some_points(int count, double far) {
+  RandomNumbers random;
+  std::vector<book::surface_point> points{slanted};
+  for (int k = 0; k < count; ++k)
+    points.push_back({random.between(0, far) * random.on_sphere(), random.next(), random.next()});
+  return points;
 }
 
 class MaterialReader {
  public:
   MaterialReader(Reading& reading, double material) : r_(reading), m_(material), o_(reading.described('m', material)) {}
 
-  std::vector<Vector> emitted(const std::vector<SurfacePoint>& points) {
-    return r_.program.ask<Vector>('e', m_, points);
+  std::vector<Vec3d> emitted(const std::vector<book::surface_point>& points) {
+    return r_.program.ask<Vec3d>('e', m_, points);
   }
   std::string text() {
-    const std::vector<Vector> light = emitted({slanted, behind});
+    const std::vector<Vec3d> light = emitted({slanted, behind});
     const bool shines = largest(light[0]) > 0 || largest(light[1]) > 0;
-    if (shines && scatter(slanted)[0].does != 0) o_.refuse("it shines and scatters: Tyndall's lights do one of both");
+    if (shines && scatter({slanted})[0].does != 0) o_.refuse("it shines and scatters: Tyndall's lights do one of both");
     if (shines) {
       const std::string colour = colour_of([&](const auto& points) { return emitted(points); });
       if (colour[0] == '[') r_.shining = m_, r_.light = light[0];
@@ -47,43 +48,40 @@ class MaterialReader {
       return "{\"type\":\"light\",\"radiance\":" + colour + "}";
     }
     for (const std::size_t count : {2000U, 40000U})  // what 2,000 rays leave open, more decide
-      if (std::string made = scattering(scatter(slanted, count)); !made.empty()) return made;
+      if (std::string made = scattering(scatter({slanted}, count)); !made.empty()) return made;
     o_.refuse("no such material in Tyndall");
   }
   std::string medium_albedo() {
-    std::vector<Vector> to;
-    for (const ScatterAnswer& one : scatter(slanted, 2000)) to.push_back(normalized(one.to));
+    std::vector<Vec3d> to;
+    for (const book::scatter_answer& one : scatter({slanted}, 2000)) to.push_back(normalize(one.to));
     if (!(length(mean_of(to)) < 0.06)) o_.refuse("its fog does not scatter to all sides alike");
     return albedo();
   }
 
  private:
-  std::vector<ScatterAnswer> scatter(const SurfacePoint& at, std::size_t count = 1) {
-    return scatter(std::vector{at}, count);
-  }
-  std::vector<ScatterAnswer> scatter(const std::vector<SurfacePoint>& points, std::size_t count) {
-    std::vector<ScatterAnswer> all = r_.program.ask<ScatterAnswer>('x', m_, points, count);
-    for (ScatterAnswer& one : all)
+  std::vector<book::scatter_answer> scatter(const std::vector<book::surface_point>& points, std::size_t count = 0) {
+    std::vector<book::scatter_answer> all = r_.program.ask<book::scatter_answer>('x', m_, points, count);
+    for (book::scatter_answer& one : all)
       if (one.does != 0 && !(length(one.to) > 0)) one.to = {0, 1, 0};
     return all;
   }
 
   /// The material by how it scatters; "": by none of the books' rules.
-  std::string scattering(const std::vector<ScatterAnswer>& all) {
-    std::vector<Vector> to;
-    for (const ScatterAnswer& one : all)
-      if (one.does != 0) to.push_back(normalized(one.to));
-    SurfacePoint steep = slanted;
+  std::string scattering(const std::vector<book::scatter_answer>& all) {
+    std::vector<Vec3d> to;
+    for (const book::scatter_answer& one : all)
+      if (one.does != 0) to.push_back(normalize(one.to));
+    book::surface_point steep = slanted;
     steep.to = {0.28, -0.96, 0};
-    std::vector<Vector> through;
-    for (const ScatterAnswer& one : scatter(steep, 200))
-      if (one.to.y < 0) through.push_back(normalized(one.to));
+    std::vector<Vec3d> through;
+    for (const book::scatter_answer& one : scatter({steep}, 200))
+      if (one.to.y < 0) through.push_back(normalize(one.to));
     if (through.size() > 100 && to.size() == all.size()) return glass(steep.to, through[0]);
     if (to.empty()) return "{\"type\":\"lambertian\",\"albedo\":[0,0,0]}";
-    const bool same = std::all_of(to.begin(), to.end(), [&](Vector one) { return is_near(one, to[0], 1e-4); });
+    const bool same = std::all_of(to.begin(), to.end(), [&](Vec3d one) { return is_near(one, to[0], 1e-4); });
     if (same && is_near(to[0], mirror(slanted.to), 1e-3)) return metal(0);
-    const Vector mean = mean_of(to);
-    const bool above = std::all_of(to.begin(), to.end(), [](Vector one) { return one.y >= 0; });
+    const Vec3d mean = mean_of(to);
+    const bool above = std::all_of(to.begin(), to.end(), [](Vec3d one) { return one.y >= 0; });
     // By a point on the sphere it is matt; by one in the ball, as in editions 1 and 2, its mean cosine is larger.
     for (const double cosine : {2.0 / 3, 0.8}) {
       if (to.size() != all.size() || !above || std::fabs(mean.y - cosine) > 0.02 || std::hypot(mean.x, mean.z) > 0.06)
@@ -103,13 +101,13 @@ class MaterialReader {
   }
   /// Whether so many rays go as those of metals, by a point in the ball around the mirror's direction, or on its sphere
   /// as in edition 4.
-  static bool is_fuzzy(const std::vector<Vector>& to, std::size_t count, double fuzz, bool on_sphere) {
+  static bool is_fuzzy(const std::vector<Vec3d>& to, std::size_t count, double fuzz, bool on_sphere) {
     RandomNumbers random;
-    std::vector<Vector> ours;
+    std::vector<Vec3d> ours;
     for (std::size_t k = 0; k < 2 * count; ++k) {
       const double radius = fuzz * (on_sphere ? 1 : std::cbrt(random.next()));
-      const Vector one = mirror(slanted.to) + radius * random.on_sphere();
-      if (one.y > 0) ours.push_back(normalized(one));
+      const Vec3d one = mirror(slanted.to) + radius * random.on_sphere();
+      if (one.y > 0) ours.push_back(normalize(one));
     }
     const double more =
         (0.5 * static_cast<double>(ours.size()) - static_cast<double>(to.size())) / static_cast<double>(count);
@@ -118,43 +116,34 @@ class MaterialReader {
   /// A colour, or the name of the texture that it comes from. of: the values at points of a surface.
   template <class F>
   std::string colour_of(const F& of) {
-    std::vector<SurfacePoint> points{slanted};
-    std::vector<TexturePlace> places{{slanted.u, slanted.v, slanted.p}};
-    RandomNumbers random;
-    for (int k = 0; k < 40; ++k) {
-      places.push_back({random.next(), random.next(), random.between(0, 30) * random.on_sphere()});
-      points.push_back({places.back().p, slanted.to, 1, places.back().u, places.back().v});
-    }
-    const std::vector<Vector> values = of(points);
-    const auto is = [&](const std::vector<Vector>& wanted) {
-      return std::equal(values.begin(), values.end(), wanted.begin(),
-                        [](Vector a, Vector b) { return is_near(a, b, 1e-6); });
-    };
-    if (is(std::vector<Vector>(values.size(), values[0]))) return triple(values[0]);
+    const std::vector<book::surface_point> points = some_points(40, 30);
+    const std::vector<Vec3d> values = of(points);
+    if (are_near(values, std::vector(values.size(), values[0]), 1e-6)) return triple(values[0]);
     for (const double texture : o_.all('t'))
-      if (texture != 0 && is(r_.program.ask<Vector>('v', texture, places))) return texture_name(r_, texture);
+      if (texture != 0 && are_near(values, r_.program.ask<Vec3d>('v', texture, points), 1e-6))
+        return texture_name(r_, texture);
     o_.refuse("its colour is neither one colour nor one of its textures");
   }
   std::string albedo() {
     return colour_of([&](const auto& points) {
-      std::vector<Vector> parts(points.size());
-      const std::vector<ScatterAnswer> all = scatter(points, 12 * points.size());  // some rays are lost
+      std::vector<Vec3d> parts(points.size());
+      const std::vector<book::scatter_answer> all = scatter(points, 12 * points.size());  // some rays are lost
       for (std::size_t k = 0; k < all.size(); ++k)
         if (all[k].does != 0) parts[k % points.size()] = all[k].part;
       return parts;
     });
   }
   std::string metal(double fuzz) {
-    SurfacePoint above = slanted;
+    book::surface_point above = slanted;
     above.to = {0, -2, 0};
-    if (!is_near(normalized(scatter(above)[0].to), Vector{0, 1, 0}, fuzz > 0 ? 2 : 1e-3))
+    if (!is_near(normalize(scatter({above})[0].to), Vec3d{0, 1, 0}, fuzz > 0 ? 2 : 1e-3))
       o_.refuse("it is no mirror from everywhere");
     const std::string part = albedo();
     if (part[0] != '[') o_.refuse("its colour is a texture: Tyndall's metals have one colour");
     return fmt::format("{{\"type\":\"metal\",\"albedo\":{},\"fuzz\":{}}}", part, fuzz);
   }
   /// to, through: a direction from above, and where it goes in the glass.
-  std::string glass(Vector to, Vector through) {
+  std::string glass(Vec3d to, Vec3d through) {
     double index = to.x / std::sqrt(through.x * through.x + through.z * through.z);
     for (const double member : o_.all('n'))
       if (is_near(member, index, 1e-4)) index = member;
@@ -163,24 +152,25 @@ class MaterialReader {
     return fmt::format("{{\"type\":\"dielectric\",\"refractive_index\":{}}}", index);
   }
   void check_glass(double index, double front, double cosine) {
-    const double sine = std::sqrt(1 - cosine * cosine), ratio = front != 0 ? 1 / index : index,
-                 side = front != 0 ? -1 : 1;
+    const double sine = std::sqrt(1 - cosine * cosine), side = front != 0 ? -1 : 1,
+                 eta = front != 0 ? index : 1 / index;
     constexpr std::size_t rounds = 1500;
     int reflected = 0;
-    for (const ScatterAnswer& one : scatter({slanted.p, {sine, side * cosine, 0}, front}, rounds)) {
-      const Vector to = normalized(one.to);
+    for (const book::scatter_answer& one :
+         scatter({{slanted.p, slanted.u, slanted.v, {sine, side * cosine, 0}, front}}, rounds)) {
+      const Vec3d to = normalize(one.to);
       if (one.does == 0 || !is_near(one.part, {1, 1, 1}, 1e-3))
         o_.refuse("its glass takes light away: Tyndall's is clear");
       const bool back = to.y * side < 0;
       reflected += back ? 1 : 0;
-      if (!(std::fabs(to.x - (back ? 1 : ratio) * sine) <= 0.01))
+      if (!(std::fabs(to.x - (back ? 1 : 1 / eta) * sine) <= 0.01))
         o_.refuse("it refracts otherwise than the books' glass");
     }
     const double fraction = reflected / double(rounds);
-    for (const double known : {schlick(cosine, ratio), fresnel(cosine, ratio), schlick(cosine, 1 / ratio)})
+    for (const double known : {schlick(cosine, eta), fresnel(cosine, eta), schlick(cosine, 1 / eta)})
       if (std::fabs(fraction - known) < 5 * std::sqrt(known * (1 - known) / rounds) + 0.004) return;
     o_.refuse(fmt::format("at a cosine of {} it reflects {:.3f}, the books' glass {:.3f}", cosine, fraction,
-                          schlick(cosine, ratio)));
+                          schlick(cosine, eta)));
   }
 
   Reading& r_;
@@ -193,75 +183,60 @@ class TextureReader {
   TextureReader(Reading& reading, double texture) : r_(reading), t_(texture), o_(reading.described('t', texture)) {}
 
   std::string text() {
-    std::vector<TexturePlace> points{{}}, flat_ones{{}};
-    for (int k = 0; k < 60; ++k) {
-      points.push_back({random_.next(), random_.next(), random_.between(0, 40) * random_.on_sphere()});
-      flat_ones.push_back({points.back().u, points.back().v, {}});
-    }
-    const std::vector<Vector> values = value(points), flat = value(flat_ones);
-    const auto is = [&](const auto& wanted) {
-      return std::equal(values.begin(), values.end(), wanted.begin(),
-                        [](Vector a, Vector b) { return is_near(a, b, 1e-9); });
-    };
-    if (is(std::vector<Vector>(values.size(), values[0]))) return triple(values[0]);
-    if (is(flat) && o_.file.empty()) o_.refuse("no such texture in Tyndall");
-    if (is(flat)) {
+    std::vector<book::surface_point> points = some_points(60, 40);
+    const std::vector<Vec3d> values = value(points);
+    if (are_near(values, std::vector(values.size(), values[0]), 1e-9)) return triple(values[0]);
+    for (book::surface_point& one : points) one.p = {};
+    const bool is_flat = are_near(values, value(points), 1e-9);
+    if (is_flat && o_.file.empty()) o_.refuse("no such texture in Tyndall");
+    if (is_flat) {
       r_.scene.has_images = true;
       return "{\"type\":\"image\",\"file\":" + in_quotes(o_.file) + "}";
     }
-    const std::vector<std::string> colours = colours_of();
-    for (const std::string& even : colours)
-      for (const std::string& odd : colours)
-        if (std::string made = checker(even, odd); &even != &odd && !made.empty()) return made;
+    for (const double texture : o_.all('t'))
+      if (texture != 0 && texture_name(r_, texture)[0] != '[')
+        o_.refuse("Tyndall's checker takes two colours, not textures");
+    std::vector<double> scales{pi / 10};  // of the sines of editions 1 to 3
+    for (const double number : o_.all('n'))
+      if (number > 0) scales.insert(scales.end(), {1 / number, number});
+    for (const double scale : scales)
+      if (std::string made = checker(scale); !made.empty()) return made;
     return noise();
   }
 
  private:
-  std::vector<Vector> value(const std::vector<TexturePlace>& places) { return r_.program.ask<Vector>('v', t_, places); }
-  /// The colours that it holds.
-  std::vector<std::string> colours_of() {
-    std::vector<std::string> colours;
-    for (const Vector& one : o_.vectors()) colours.push_back(triple(one));
-    for (const double texture : o_.all('t'))
-      if (texture != 0) colours.push_back(texture_name(r_, texture));
-    for (const std::string& one : colours)
-      if (one[0] != '[') o_.refuse("Tyndall's checker takes two colours, not textures");
-    return colours;
+  std::vector<Vec3d> value(const std::vector<book::surface_point>& points) {
+    return r_.program.ask<Vec3d>('v', t_, points);
   }
   /// "": its squares are not those of the books.
-  std::string checker(const std::string& even, const std::string& odd) {
-    std::vector<double> scales{pi / 10};  // of the sines of editions 1 to 3
-    for (const double number : o_.all('n'))
-      if (number > 0) scales.insert(scales.end(), {1 / number, number});
-    for (const double scale : scales) {
-      std::vector<TexturePlace> points;
-      std::vector<std::string> wanted;
-      while (points.size() < 400) {
-        const Vector q = random_.between(0, 20) * random_.on_sphere();
-        const auto to_edge = [](double a) { return std::fabs(a - std::round(a)); };
-        if (std::fmin(to_edge(q.x), std::fmin(to_edge(q.y), to_edge(q.z))) < 1e-3) continue;
-        points.push_back({0.5, 0.5, scale * q});
-        wanted.push_back(std::fmod(std::fabs(std::floor(q.x) + std::floor(q.y) + std::floor(q.z)), 2) < 0.5 ? even
-                                                                                                            : odd);
-      }
-      const std::vector<Vector> values = value(points);
-      if (std::equal(values.begin(), values.end(), wanted.begin(),
-                     [](Vector a, const std::string& b) { return triple(a) == b; }))
-        return fmt::format("{{\"type\":\"checker\",\"scale\":{},\"even\":{},\"odd\":{}}}", scale, even, odd);
+  std::string checker(double scale) {
+    std::vector<book::surface_point> points;
+    std::vector<std::size_t> parity;
+    while (points.size() < 400) {
+      const Vec3d q = random_.between(0, 20) * random_.on_sphere();
+      const auto to_edge = [](double a) { return std::fabs(a - std::round(a)); };
+      if (std::fmin(to_edge(q.x), std::fmin(to_edge(q.y), to_edge(q.z))) < 1e-3) continue;
+      points.push_back({scale * q});
+      parity.push_back(std::fmod(std::fabs(std::floor(q.x) + std::floor(q.y) + std::floor(q.z)), 2) < 0.5 ? 0 : 1);
     }
-    return "";
+    const std::vector<Vec3d> values = value(points);
+    std::string colours[2];
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      std::string& known = colours[parity[k]];
+      if (known.empty()) known = triple(values[k]);
+      if (triple(values[k]) != known) return "";
+    }
+    return fmt::format("{{\"type\":\"checker\",\"scale\":{},\"even\":{},\"odd\":{}}}", scale, colours[0], colours[1]);
   }
   /// The lattice of noise is anybody's: it is told by range, mean and spread.
   std::string noise() {
-    const double* member = o_.named("scale");
-    const double scale = member ? *member : 1;
+    const double scale = o_.named("scale", 1);
     double sum = 0, squares = 0;
     constexpr int rounds = 6000;
-    std::vector<TexturePlace> points;
-    for (int k = 0; k < rounds; ++k)
-      points.push_back({0.5, 0.5, (random_.between(0, 60) / scale) * random_.on_sphere()});
+    std::vector<book::surface_point> points;
+    for (int k = 0; k < rounds; ++k) points.push_back({(random_.between(0, 60) / scale) * random_.on_sphere()});
     bool is_grey = true;
-    for (const Vector& one : value(points)) {
+    for (const Vec3d& one : value(points)) {
       is_grey = is_grey && is_near(one, {one.x, one.x, one.x}, 1e-3) && one.x >= -0.01 && one.x <= 1.01;
       sum += one.x, squares += one.x * one.x;
     }

@@ -1,16 +1,25 @@
 #pragma once
-#include "app/book/run_guarded.h"
-#include "app/book/tyndall/book/questions.h"
+#include "core/base/vec.h"
+#include "core/system/child.h"
 #include "core/system/connection.h"
 #include "core/system/locks.h"
 
 #include <atomic>
 #include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <thread>
+#include <string>
 #include <vector>
+
+namespace tyndall_book {
+using vector = tyndall::Vec3d;
+}
+#include "app/book/tyndall/book/questions.h"
 
 namespace tyndall {
 
@@ -18,57 +27,57 @@ namespace tyndall {
 /// until this is destroyed or it ends by itself. Its functions throw IoError where it has ended.
 class OwnProgram {
  public:
-  /// Starts it. name: what messages call it. It is ended if it has not told what it has in these seconds, or if go_on,
-  /// which is asked now and then, says so.
+  /// Starts it. name: what messages call it. For seconds, go_on see let_run().
   OwnProgram(std::string name, ChildPlan plan, double seconds, std::function<bool()> go_on);
   ~OwnProgram();
   OwnProgram(const OwnProgram&) = delete;
   OwnProgram& operator=(const OwnProgram&) = delete;
+
+  /// It is ended in so many seconds from now on, or if go_on, which is asked now and then, says so; may be empty.
+  void let_run(double seconds, std::function<bool()> go_on);
 
   /// What tyndall/book/hooks.h tells: a letter and a text.
   struct Message {
     char kind = 0;
     std::string text;
   };
-  /// The next message; nothing: it has ended, see end().
-  std::optional<Message> next_message();
-  /// It has these seconds from now on.
-  void set_deadline(double seconds);
-  /// From now on it may take as long as it likes, and nobody is asked.
-  void set_lasting();
+  /// The next message; nothing: it has ended, see end(), or has said nothing for so long; 0: as long as it takes.
+  std::optional<Message> next_message(int milliseconds = 0);
 
   /// What its functions answer, see tyndall/book/questions.h. count: the questions are repeated up to that number; 0:
   /// they are not. For any number of threads.
   template <class A, class Q>
   std::vector<A> ask(char letter, double object, const std::vector<Q>& questions, std::size_t count = 0) {
     std::vector<A> answers(count > 0 ? count : questions.size());
-    exchange({double(letter), object, static_cast<double>(answers.size()), static_cast<double>(questions.size())},
-             questions.data(), questions.size() * sizeof(Q), answers.data(), answers.size() * sizeof(A));
+    const std::string bytes = exchange(
+        {double(letter), object, static_cast<double>(count), static_cast<double>(questions.size() * sizeof(Q))},
+        questions.data());
+    if (bytes.size() != answers.size() * sizeof(A)) fail();
+    std::memcpy(answers.data(), bytes.data(), bytes.size());
     return answers;
   }
-  /// Linear colours, three numbers each, of places in pixels, two numbers each.
-  std::vector<double> samples(const std::vector<double>& places);
-  /// The members of shapes (s), materials (m) or textures (t), each text with a form feed behind it.
-  std::string describe(char kind, const std::vector<double>& objects);
+  /// The members of an object, as text.
+  std::string describe(char kind, double object) { return exchange({double(kind), object}, ""); }
+  /// Linear colours of places in the picture.
+  std::vector<Vec3d> samples(const std::vector<tyndall_book::pixel_place>& places) {
+    return ask<Vec3d>('p', 0, places);
+  }
 
   /// How it ended, after something has found that it did.
   const ChildEnd& end();
 
  private:
-  bool is_wanted();
-  void send(const void* bytes, std::size_t size);
-  void exchange(const tyndall_book::question& head, const void* question, std::size_t question_size, void* answer,
-                std::size_t answer_size);
+  [[noreturn]] void fail() const;
+  std::string exchange(const tyndall_book::question& head, const void* questions);
 
   Connection channel_;
   std::string name_;
-  std::chrono::steady_clock::time_point deadline_;
   std::atomic<bool> stops_ = false;
   Mutex wanted_mutex_;
-  std::function<bool()> go_on_;  ///< empty: it lasts
-  ChildEnd end_;
+  std::chrono::steady_clock::time_point deadline_;
+  std::function<bool()> go_on_;
   Mutex mutex_;  ///< one question at a time
-  std::thread thread_;
+  std::shared_future<ChildEnd> end_;
 };
 
 /// What a program shows: a scene, or samples of its own.

@@ -9,12 +9,12 @@ namespace tyndall {
 namespace {
 
 struct CameraValues {
-  Vector look_from, look_at, vup;
+  Vec3d look_from, look_at, vup;
   double vfov = 0, defocus_angle = 0, focus_distance = 1;  ///< angles in degrees
 };
 
 /// Without the last digits, which are noise.
-std::string rounded(Vector a) {
+std::string rounded(Vec3d a) {
   const double unit = std::pow(10, std::ceil(std::log10(largest(a))) - 10);
   const auto whole = [&](double value) { return unit > 0 ? std::round(value / unit) * unit : 0; };
   return fmt::format("[{:.10g},{:.10g},{:.10g}]", whole(a.x), whole(a.y), whole(a.z));
@@ -39,59 +39,56 @@ class CameraReader {
   }
 
  private:
-  std::vector<RayAnswer> rays(const std::vector<PixelPlace>& places, std::size_t count = 0) {
-    return r_.program.ask<RayAnswer>('r', 0, places, count);
+  std::vector<book::ray_answer> rays(const std::vector<book::pixel_place>& places, std::size_t count = 0) {
+    return r_.program.ask<book::ray_answer>('r', 0, places, count);
   }
   /// By the means of many rays at the corners: jitter and lens move single ones.
   void fit() {
     const double inset = picture_.less != 0 ? 0 : 0.5, right = picture_.width - 1 + inset,
                  above = inset + picture_.first_row, below = above + picture_.height - 1;
-    std::vector<RayAnswer> corners[4];
-    Vector forward;
-    bool is_unit = true;  // then directions do not end in the plane of focus
-    for (std::size_t k = 0; k < 4; ++k) {
-      corners[k] = rays({{k % 2 == 0 ? inset : right, k < 2 ? above : below}}, 2000);
-      for (const RayAnswer& ray : corners[k]) {
-        forward = forward + normalized(ray.to);
-        is_unit = is_unit && std::fabs(length(ray.to) - 1) < 1e-3;
-      }
+    constexpr std::size_t rounds = 2000;
+    std::vector<book::ray_answer> all;
+    for (const book::pixel_place& corner :
+         {book::pixel_place{inset, above}, {right, above}, {inset, below}, {right, below}})
+      for (const book::ray_answer& ray : rays({corner}, rounds)) all.push_back(ray);
+    Vec3d forward, from, ends[4];
+    for (const book::ray_answer& ray : all) forward = forward + normalize(ray.to);
+    const bool is_unit = std::all_of(all.begin(), all.end(), [](const book::ray_answer& ray) {
+      return std::fabs(length(ray.to) - 1) < 1e-3;  // then directions do not end in the plane of focus
+    });
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (is_unit) all[k].to = (1 / dot(all[k].to, normalize(forward))) * all[k].to;
+      from = from + (0.25 / rounds) * all[k].from;
+      ends[k / rounds] = ends[k / rounds] + (1.0 / rounds) * (all[k].from + all[k].to);
     }
-    forward = normalized(forward);
-    Vector ends[4], from, middle;
-    for (std::size_t k = 0; k < 4; ++k) {
-      for (RayAnswer& ray : corners[k]) {
-        if (is_unit) ray.to = (1 / dot(ray.to, forward)) * ray.to;
-        from = from + (1.0 / 8000) * ray.from, ends[k] = ends[k] + (1.0 / 2000) * (ray.from + ray.to);
-      }
-      middle = middle + 0.25 * ends[k];
-    }
-    const Vector across = (1 + 2 * inset / (right - inset)) * (ends[1] - ends[0]),
-                 down = (1 + 2 * inset / (below - above)) * (ends[2] - ends[0]), w = normalized(cross(down, across));
+    const Vec3d middle = 0.25 * (ends[0] + ends[1] + ends[2] + ends[3]),
+                across = (1 + 2 * inset / (right - inset)) * (ends[1] - ends[0]),
+                down = (1 + 2 * inset / (below - above)) * (ends[2] - ends[0]), w = normalize(cross(down, across));
     const double distance = std::fabs(dot(middle - from, w));
     double lens = 0, jitter = 0;
-    for (const RayAnswer& ray : corners[0]) {
-      lens = std::fmax(lens, length(ray.from - from));
-      jitter = std::fmax(jitter, length(ray.from + ray.to - ends[0]));
+    for (std::size_t k = 0; k < rounds; ++k) {
+      lens = std::fmax(lens, length(all[k].from - from));
+      jitter = std::fmax(jitter, length(all[k].from + all[k].to - ends[0]));
     }
     noise_ = 1e-3 * r_.precision + 0.1 * jitter / std::fmin(length(across), length(down));
     if (lens < 1e-3 * r_.precision * std::fmax(1, largest(from))) lens = 0;
-    camera_ = {middle + distance * w,   middle,  -1 * normalized(down), degrees(0.5 * length(down), distance),
+    camera_ = {middle + distance * w,   middle,  -1.0 * normalize(down), degrees(0.5 * length(down), distance),
                degrees(lens, distance), distance};
   }
 
   /// Takes what the camera's members say in place of what was measured, where it is nearly that.
   void take_members() {
-    const Vector to = normalized(camera_.look_at - camera_.look_from), up = camera_.vup;
-    const auto take_point = [&](Vector& to_set, const char* name, const auto& is) {
-      const std::vector<Vector> points = o_.vectors(name);
+    const Vec3d to = normalize(camera_.look_at - camera_.look_from), up = camera_.vup;
+    const auto take_point = [&](Vec3d& to_set, const char* name, const auto& is) {
+      const std::vector<Vec3d> points = o_.vectors(name);
       if (const auto one = std::find_if(points.begin(), points.end(), is); one != points.end()) to_set = *one;
     };
-    const auto have_one_direction = [&](Vector a, Vector b) { return length(normalized(a) - normalized(b)) < noise_; };
+    const auto have_one_direction = [&](Vec3d a, Vec3d b) { return length(normalize(a) - normalize(b)) < noise_; };
     take_point(camera_.look_from, "",
-               [&](Vector one) { return is_near(one, camera_.look_from, noise_ * camera_.focus_distance); });
+               [&](Vec3d one) { return is_near(one, camera_.look_from, noise_ * camera_.focus_distance); });
     camera_.look_at = camera_.look_from + camera_.focus_distance * to;
-    take_point(camera_.look_at, "at", [&](Vector one) { return have_one_direction(one - camera_.look_from, to); });
-    take_point(camera_.vup, "up", [&](Vector one) { return have_one_direction(cross(to, one), cross(to, up)); });
+    take_point(camera_.look_at, "at", [&](Vec3d one) { return have_one_direction(one - camera_.look_from, to); });
+    take_point(camera_.vup, "up", [&](Vec3d one) { return have_one_direction(cross(to, one), cross(to, up)); });
     const auto take = [&](double& to_set, double allowed, const auto& value) {
       const double measured = to_set;
       double nearest = allowed * measured;
@@ -109,25 +106,25 @@ class CameraReader {
 
   /// Whether 500 rays leave the lens and meet the plane of focus in their pixels.
   bool agrees() {
-    const Vector w = normalized(camera_.look_from - camera_.look_at), u = normalized(cross(camera_.vup, w)),
-                 v = cross(w, u);
+    const Vec3d w = normalize(camera_.look_from - camera_.look_at), u = normalize(cross(camera_.vup, w)),
+                v = cross(w, u);
     if (!(largest(u) <= 1)) return false;
     const double height = 2 * std::tan(camera_.vfov * pi / 360) * camera_.focus_distance,
                  size = height / picture_.height;
     const double lens = camera_.focus_distance * std::tan(camera_.defocus_angle * pi / 360);
     const double rounding = 0.01 * r_.precision * largest(camera_.look_from) / size;
     const double wide = (picture_.by_pixels != 0 ? 1.01 : picture_.less != 0 ? 1.52 : 0.02) + rounding;
-    std::vector<PixelPlace> places;
+    std::vector<book::pixel_place> places;
     RandomNumbers random;
     for (int k = 0; k < 500; ++k)
       places.push_back({random.between(0, picture_.width), random.between(0, picture_.height)});
-    const std::vector<RayAnswer> all = rays(places);
+    const std::vector<book::ray_answer> all = rays(places);
     double widest = 0;
     for (std::size_t k = 0; k < all.size(); ++k) {
-      const Vector from = all[k].from - camera_.look_from, to = all[k].to;
+      const Vec3d from = all[k].from - camera_.look_from, to = all[k].to;
       const double forward = -dot(to, w);
       if (!(forward > 0)) return false;
-      const Vector point = from + ((camera_.focus_distance + dot(from, w)) / forward) * to;
+      const Vec3d point = from + ((camera_.focus_distance + dot(from, w)) / forward) * to;
       const auto place = [&](double at) { return picture_.by_pixels != 0 ? std::floor(at) + 0.5 : at; };
       const double column = place(places[k].x) - 0.5 * picture_.width, row = 0.5 * picture_.height - place(places[k].y);
       if (!(std::fabs(dot(point, u) / size - column) <= wide && std::fabs(dot(point, v) / size - row) <= wide))
@@ -140,7 +137,7 @@ class CameraReader {
   /// By the times of 2,000 rays, and two numbers of the members between which they lie.
   std::string shutter() {
     double low = endless, high = -endless;
-    for (const RayAnswer& ray : rays({{0.5, 0.5}}, 2000))
+    for (const book::ray_answer& ray : rays({{0.5, 0.5}}, 2000))
       low = std::fmin(low, ray.time), high = std::fmax(high, ray.time);
     if (high - low < 1e-9) return fmt::format("[{},{}]", low, low);
     const std::vector<double> numbers = o_.all('n');
@@ -152,34 +149,32 @@ class CameraReader {
   }
 
   Reading& r_;
-  const tyndall_book::picture_told& picture_;
+  const book::picture_told& picture_;
   const Described& o_;
   CameraValues camera_;
   double noise_ = 0;  ///< of what was measured, as a part of it
 };
 
-std::vector<LightAnswer> light(Reading& reading, const std::vector<LightQuestion>& questions) {
-  return reading.program.ask<LightAnswer>('c', 0, questions);
-}
-void expect(Vector wanted, Vector found, double precision, const char* of) {
+void expect(Vec3d wanted, Vec3d found, double precision, const char* of) {
   if (!is_near(wanted, found, 100 * precision))
     throw NotTaken{
         fmt::format("ray_color(): of {} it makes {}, the books' would make {}", of, triple(found), triple(wanted))};
 }
-Vector product(Vector a, Vector b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
 }  // namespace
 
 std::string read_camera(Reading& reading) { return CameraReader(reading).text(); }
 
 std::string read_sky(Reading& reading) {
-  const auto colours = [&](const std::vector<RayAnswer>& rays) { return reading.program.ask<Vector>('y', 0, rays); };
-  const std::vector<Vector> ends = colours({{{}, {0, -1, 0}}, {{}, {0, 1, 0}}});
-  const Vector bottom = ends[0], top = ends[1];
-  const auto check = [&](const std::vector<RayAnswer>& rays) {
-    const std::vector<Vector> found = colours(rays);
+  const auto colours = [&](const std::vector<book::ray_answer>& rays) {
+    return reading.program.ask<Vec3d>('y', 0, rays);
+  };
+  const std::vector<Vec3d> ends = colours({{{}, {0, -1, 0}}, {{}, {0, 1, 0}}});
+  const Vec3d bottom = ends[0], top = ends[1];
+  const auto check = [&](const std::vector<book::ray_answer>& rays) {
+    const std::vector<Vec3d> found = colours(rays);
     for (std::size_t k = 0; k < rays.size(); ++k) {
-      const double a = 0.5 * (normalized(rays[k].to).y + 1);
+      const double a = 0.5 * (normalize(rays[k].to).y + 1);
       if (!(largest(found[k] - ((1 - a) * bottom + a * top)) <= reading.precision * std::fmax(1, largest(top))))
         throw NotTaken{"the sky of ray_color() is neither one colour nor a gradient from top to bottom"};
       if (!(found[k].x >= 0 && found[k].y >= 0 && found[k].z >= 0))
@@ -187,19 +182,19 @@ std::string read_sky(Reading& reading) {
     }
   };
   RandomNumbers random;
-  std::vector<PixelPlace> places;
+  std::vector<book::pixel_place> places;
   for (int k = 0; k < 20000; ++k)  // what the camera sees
     places.push_back({random.between(0, reading.picture.width), random.between(0, reading.picture.height)});
-  std::vector<RayAnswer> rays = reading.program.ask<RayAnswer>('r', 0, places);
+  std::vector<book::ray_answer> rays = reading.program.ask<book::ray_answer>('r', 0, places);
   check(rays);
-  const Vector eye = rays[0].from;
+  const Vec3d eye = rays[0].from;
   constexpr int rows = 1024, columns = 2048;
   for (int row = 0; row < rows; ++row) {
     rays.clear();
     for (int column = 0; column < columns; ++column) {
       const double y = 1 - 2 * (row + 0.5) / rows, angle = 2 * pi * (column + 0.5) / columns, r = std::sqrt(1 - y * y);
-      rays.push_back({column % 2 ? eye : Vector{30.0 * row, -40, 7.0 * column},
-                      (1.0 + column % 3) * Vector{r * std::cos(angle), y, r * std::sin(angle)}});
+      rays.push_back({column % 2 ? eye : Vec3d{30.0 * row, -40, 7.0 * column},
+                      (1.0 + column % 3) * Vec3d{r * std::cos(angle), y, r * std::sin(angle)}});
     }
     check(rays);
   }
@@ -211,9 +206,8 @@ std::string read_sky(Reading& reading) {
 int read_depth(Reading& reading) {
   const int told = std::max(static_cast<int>(reading.picture.depth) - 1, 0);
   const double matt = reading.matt, shining = reading.shining, matts = matt != 0 ? 1 : 0, lights = shining != 0 ? 1 : 0;
-  const Vector from = LightQuestion().from, to = LightQuestion().to;
-  const std::vector<LightAnswer> its = light(
-      reading, {{}, {from, to, shining, lights}, {from, to, matt, matts}, {from, to, matt, matts, shining, lights}});
+  const auto its = reading.program.ask<book::light_answer>(
+      'c', 0, std::vector<book::light_question>{{}, {shining, lights}, {matt, matts}, {matt, matts, shining, lights}});
   if (its[0].high == 0 || (matt == 0 && shining == 0)) return told;  // its world cannot be replaced, or has neither
   if (its[0].low <= 0)
     throw NotTaken{"ray_color() takes hits at t = 0, so that half of the light meets the surface that it leaves"};
@@ -222,14 +216,14 @@ int read_depth(Reading& reading) {
   if (shining != 0) expect(reading.light, its[1].colour, reading.precision, "a light");
   if (matt == 0) return told;
   if (!reading.scene.draws_by_pdf) {
-    const Vector sky = reading.program.ask<Vector>('y', 0, std::vector{RayAnswer{{}, its[2].second}})[0];
-    expect(product(reading.albedo, sky), its[2].colour, reading.precision, "one hit");
-    if (shining != 0)
-      expect(product(reading.albedo, reading.light), its[3].colour, reading.precision, "a hit and a light");
+    const Vec3d sky = reading.program.ask<Vec3d>('y', 0, std::vector{book::ray_answer{{}, its[2].second}})[0];
+    expect(reading.albedo * sky, its[2].colour, reading.precision, "one hit");
+    if (shining != 0) expect(reading.albedo * reading.light, its[3].colour, reading.precision, "a hit and a light");
   }
   constexpr double limit = 3000;
   double hits = 0;
-  for (const LightAnswer& one : light(reading, std::vector<LightQuestion>(10, {from, to, matt, limit})))
+  for (const book::light_answer& one :
+       reading.program.ask<book::light_answer>('c', 0, std::vector<book::light_question>{{matt, limit}}, 10))
     hits = std::fmax(hits, one.hits);
   return hits >= limit ? 100000 : static_cast<int>(hits) - 1;
 }

@@ -1,8 +1,10 @@
 #include "app/book/program_outline.h"
 
+#include "core/base/text.h"
+
 #include <algorithm>
 #include <cctype>
-#include <set>
+#include <utility>
 
 namespace tyndall {
 
@@ -15,9 +17,6 @@ using TokenList = std::vector<std::string_view>;
 bool is_letter(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 bool is_identifier(std::string_view token) {
   return !token.empty() && is_letter(token[0]) && !std::isdigit(static_cast<unsigned char>(token[0]));
-}
-bool is_one_of(std::string_view token, std::initializer_list<std::string_view> all) {
-  return std::find(all.begin(), all.end(), token) != all.end();
 }
 /// The end of a string or character that begins at `at`.
 std::size_t end_of_literal(const std::string& text, std::size_t at) {
@@ -77,15 +76,30 @@ TokenList tokens_of(const std::string& text, const std::vector<fs::path>& ours, 
   return tokens;
 }
 
+/// Where the brackets that open are closed; all other tokens are closed where they are. Angles are brackets behind
+/// names, where no end of a declaration is within.
+std::vector<std::size_t> ends_of(const TokenList& tokens) {
+  std::vector<std::size_t> ends(tokens.size()), open;
+  for (std::size_t i = 0; i < tokens.size(); ++i) {
+    ends[i] = i;
+    const bool opens_angle = tokens[i] == "<" && i > 0 && is_identifier(tokens[i - 1]) && tokens[i - 1] != "operator";
+    const bool closes = is_one_of(tokens[i], {")", "]", "}"});
+    while ((closes || tokens[i] == ";") && !open.empty() && tokens[open.back()] == "<") open.pop_back();
+    if (!open.empty() && (closes || (tokens[i] == ">" && tokens[open.back()] == "<")))
+      ends[open.back()] = i, open.pop_back();
+    if (opens_angle || is_one_of(tokens[i], {"(", "[", "{"})) open.push_back(i);
+  }
+  return ends;
+}
+
 class Outliner {
  public:
-  Outliner(TokenList tokens, ProgramOutline& outline) : tokens_(std::move(tokens)), outline_(outline) {}
+  Outliner(TokenList tokens, ProgramOutline& outline)
+      : tokens_(std::move(tokens)), ends_(ends_of(tokens_)), outline_(outline) {}
   void run() {
     for (std::size_t i = 0; i < tokens_.size(); ++i) {
       const std::string_view token = tokens_[i];
-      if (token == "(" || token == "[") {
-        i = closing(i);
-      } else if (token == "{") {
+      if (token == "{") {
         i = open_brace(i);
       } else if (token == "}") {
         if (!scopes_.empty()) scopes_.pop_back();
@@ -93,54 +107,34 @@ class Outliner {
       } else if (token == ";") {
         if (const std::size_t open = parameters_at(start_, i); open < i)
           add_function(start_, open, {});
-        else if (!scopes_.empty() && scopes_.back().owner >= 0)
-          add_members(outline_.classes[static_cast<std::size_t>(scopes_.back().owner)], i);
+        else if (!scopes_.empty() && scopes_.back().owner != none)
+          add_members(outline_.classes[scopes_.back().owner], i);
         start_ = i + 1;
       } else if (token == ":" && i == start_ + 1 && is_one_of(tokens_[start_], {"public", "private", "protected"})) {
         start_ = i + 1;
+      } else {
+        i = ends_[i];
       }
     }
-    for (std::size_t i = 1; i < tokens_.size(); ++i)
-      if (tokens_[i - 1] == "<<" && is_one_of(tokens_[i].substr(0, 3), {"\"P3", "\"P6"}))
-        outline_.heads.push_back(tokens_[i]);
   }
 
  private:
   struct Scope {
     std::string name;
-    int owner = -1;  ///< the class; -1: a namespace
+    std::size_t owner = none;  ///< the class; none: a namespace
   };
+  static constexpr std::size_t none = std::string::npos;
 
   bool has(std::string_view word, std::size_t begin, std::size_t end) const {
     return std::find(tokens_.data() + begin, tokens_.data() + end, word) != tokens_.data() + end;
   }
-  std::size_t closing(std::size_t open) const {
-    int depth = 0;
-    for (std::size_t i = open; i < tokens_.size(); ++i) {
-      if (is_one_of(tokens_[i], {"(", "[", "{"})) ++depth;
-      if (is_one_of(tokens_[i], {")", "]", "}"}) && --depth == 0) return i;
-    }
-    return tokens_.size() - 1;
-  }
-  /// Behind the < ... > that begins at `at`, else `at`.
-  std::size_t behind_angles(std::size_t at, std::size_t end) const {
-    if (at >= end || tokens_[at] != "<") return at;
-    int depth = 0;
-    for (std::size_t i = at; i < end; ++i) {
-      if (tokens_[i] == "<") ++depth;
-      if (tokens_[i] == ">" && --depth == 0) return i + 1;
-      if (is_one_of(tokens_[i], {";", "{", "}"})) return at;
-    }
-    return at;
-  }
+  /// Behind a token, or behind the bracket that closes what it opens.
+  std::size_t next(std::size_t at) const { return ends_[at] + 1; }
+  std::size_t behind_template(std::size_t at) const { return tokens_[at] == "template" ? next(at + 1) : at; }
   /// Where the parameters of a function's declaration begin; `end`: it is none.
   std::size_t parameters_at(std::size_t begin, std::size_t end) const {
-    if (begin < end && tokens_[begin] == "template") begin = behind_angles(begin + 1, end);
-    for (std::size_t i = begin; i < end; ++i) {
-      if (i > begin && is_identifier(tokens_[i - 1]) && tokens_[i - 1] != "operator")
-        i = std::max(i, behind_angles(i, end));
-      if (i >= end || tokens_[i] == "=" || tokens_[i] == "using" || tokens_[i] == "typedef" || tokens_[i] == "friend")
-        return end;
+    for (std::size_t i = behind_template(begin); i < end; i = next(i)) {
+      if (is_one_of(tokens_[i], {"=", "using", "typedef", "friend"})) return end;
       if (tokens_[i] == "(") return i > begin && is_identifier(tokens_[i - 1]) ? i : end;
     }
     return end;
@@ -151,13 +145,13 @@ class Outliner {
       std::string name;
       for (std::size_t i = start_; i < at && !of_language; ++i)
         if (!is_one_of(tokens_[i], {"namespace", "inline"})) name += tokens_[i];
-      scopes_.push_back({name, -1});
+      scopes_.push_back({name});
       start_ = at + 1;
       return at;
     }
-    const std::size_t open = parameters_at(start_, at), end = closing(at);
+    const std::size_t open = parameters_at(start_, at), end = ends_[at];
     if (open < at) {
-      if (has(":", closing(open), at) && (is_identifier(tokens_[at - 1]) || tokens_[at - 1] == ">"))
+      if (has(":", ends_[open], at) && (is_identifier(tokens_[at - 1]) || tokens_[at - 1] == ">"))
         return end;  // a member of a constructor's list
       const char* from = tokens_[at].data();
       add_function(start_, open, std::string_view(from, static_cast<std::size_t>(tokens_[end].data() + 1 - from)));
@@ -173,54 +167,43 @@ class Outliner {
     if (has("operator", start_, at)) start_ = end + 1;
     return end;
   }
-  std::string space() const {
-    std::string name;
-    for (const Scope& scope : scopes_)
-      if (!scope.name.empty()) name += (name.empty() ? "" : "::") + scope.name;
-    return name;
-  }
   /// The parts between commas that are in no brackets, by their begin and end.
   std::vector<std::pair<std::size_t, std::size_t>> parts(std::size_t begin, std::size_t end) const {
     std::vector<std::pair<std::size_t, std::size_t>> all;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (i > begin && is_identifier(tokens_[i - 1])) i = std::max(i, behind_angles(i, end));
-      if (i < end && is_one_of(tokens_[i], {"(", "[", "{"})) i = closing(i);
-      if (i < end && tokens_[i] != ",") continue;
-      all.emplace_back(begin, i);
-      begin = i + 1;
-    }
+    for (std::size_t i = begin; i < end; i = next(i))
+      if (tokens_[i] == ",") all.emplace_back(std::exchange(begin, i + 1), i);
     if (begin < end) all.emplace_back(begin, end);
     return all;
   }
   /// The last name up to what it is set to, or an end.
   std::string name_in(std::size_t begin, std::size_t end) const {
     std::string name;
-    for (std::size_t i = begin; i < end && !is_one_of(tokens_[i], {"=", "{", "[", ":", "("});
-         i = std::max(i + 1, behind_angles(i + 1, end)))
+    for (std::size_t i = begin; i < end && !is_one_of(tokens_[i], {"=", "{", "[", ":", "("}); i = next(i))
       if (is_identifier(tokens_[i]) && tokens_[i] != "final") name = tokens_[i];
     return name;
   }
-  std::string text_of(std::size_t begin, std::size_t end, std::initializer_list<std::string_view> without) const {
-    std::string text;
+  std::vector<std::string> words(std::size_t begin, std::size_t end,
+                                 std::initializer_list<std::string_view> without = {}) const {
+    std::vector<std::string> all;
     for (std::size_t i = begin; i < end; ++i)
-      if (!is_one_of(tokens_[i], without)) text += (text.empty() ? "" : " ") + std::string(tokens_[i]);
-    return text;
+      if (!is_one_of(tokens_[i], without)) all.emplace_back(tokens_[i]);
+    return all;
   }
 
   void add_class(std::size_t end) {
     OutlinedClass one;
-    one.space = space();
-    std::size_t i = start_;
-    if (tokens_[i] == "template") i = behind_angles(i + 1, end);
+    std::size_t i = behind_template(start_);
     while (i < end && !is_one_of(tokens_[i], {"class", "struct"})) ++i;
     one.name = name_in(i + 1, end);
     one.can_be_named = tokens_[start_] != "template" && !one.name.empty();
-    for (const Scope& scope : scopes_)
-      if (scope.owner >= 0 && !outline_.classes[static_cast<std::size_t>(scope.owner)].can_be_named)
-        one.can_be_named = false;
+    for (const Scope& scope : scopes_) {
+      if (!scope.name.empty()) one.qualified += "::" + scope.name;
+      one.can_be_named = one.can_be_named && (scope.owner == none || outline_.classes[scope.owner].can_be_named);
+    }
+    one.qualified += "::" + one.name;
     while (i < end && tokens_[i] != ":") ++i;
     for (const auto& [from, to] : parts(i + 1, end)) one.bases.push_back(name_in(from, to));
-    scopes_.push_back({one.name, static_cast<int>(outline_.classes.size())});
+    scopes_.push_back({one.name, outline_.classes.size()});
     outline_.classes.push_back(one);
   }
   /// The names in a declaration like "double radius = 1, weights[3];".
@@ -242,9 +225,9 @@ class Outliner {
     const bool is_type = is_one_of(last, {"int", "double", "float", "bool", "char", "unsigned", "signed", "long",
                                           "short", "void", "auto", "const"});
     if (is_identifier(last) && has_type && !is_type) one.name = last, --end;
-    one.type = text_of(begin, end, {});
-    for (std::size_t i = begin; i < end; ++i)
-      if (is_identifier(tokens_[i]) && tokens_[i] != "const") one.identifiers.emplace_back(tokens_[i]);
+    one.type = words(begin, end);
+    for (const std::string& token : one.type)
+      if (is_identifier(token) && token != "const") one.words.push_back(token);
     return one;
   }
   void add_function(std::size_t begin, std::size_t open, std::string_view body) {
@@ -252,19 +235,20 @@ class Outliner {
     Function one;
     one.body = body;
     one.name = tokens_[open - 1];
-    one.owner = scopes_.empty() ? -1 : scopes_.back().owner;
+    if (!scopes_.empty() && scopes_.back().owner != none) one.owner = scopes_.back().name;
     std::size_t name = open - 1;
     for (; name >= begin + 2 && tokens_[name - 1] == "::"; name -= 2)  // defined outside of its class
-      for (std::size_t k = 0; k < outline_.classes.size(); ++k)
-        if (outline_.classes[k].name == tokens_[name - 2]) one.owner = static_cast<int>(k);
-    if (tokens_[begin] == "template") begin = behind_angles(begin + 1, open);
+      if (outline_.class_named(std::string(tokens_[name - 2]))) one.owner = tokens_[name - 2];
+    begin = behind_template(begin);
     one.is_virtual = has("virtual", begin, name), one.is_static = has("static", begin, name);
-    one.result = text_of(begin, name, {"virtual", "static", "inline", "constexpr", "explicit", "[", "]", "nodiscard"});
-    for (const auto& [from, to] : parts(open + 1, closing(open))) one.parameters.push_back(parameter_of(from, to));
+    one.result = joined(
+        words(begin, name, {"virtual", "static", "inline", "constexpr", "explicit", "[", "]", "nodiscard"}), " ");
+    for (const auto& [from, to] : parts(open + 1, ends_[open])) one.parameters.push_back(parameter_of(from, to));
     outline_.functions.push_back(one);
   }
 
   TokenList tokens_;
+  std::vector<std::size_t> ends_;
   ProgramOutline& outline_;
   std::vector<Scope> scopes_;
   std::size_t start_ = 0;  ///< of the declaration
@@ -272,22 +256,20 @@ class Outliner {
 
 }  // namespace
 
-bool Parameter::names(const std::string& identifier) const {
-  return std::find(identifiers.begin(), identifiers.end(), identifier) != identifiers.end();
+const OutlinedClass* ProgramOutline::class_named(const std::string& name) const {
+  const auto known =
+      std::find_if(classes.begin(), classes.end(), [&](const OutlinedClass& one) { return one.name == name; });
+  return known == classes.end() ? nullptr : &*known;
 }
 
 bool ProgramOutline::is_derived(const std::string& name, const std::string& root) const {
-  std::set<std::string> seen;
-  std::vector<std::string> open{name};
-  while (!open.empty()) {
-    const std::string one = open.back();
-    open.pop_back();
-    if (one == root) return !root.empty();
-    if (!seen.insert(one).second) continue;
+  std::vector<std::string> found{name};
+  for (std::size_t k = 0; k < found.size(); ++k)
     for (const OutlinedClass& known : classes)
-      if (known.name == one) open.insert(open.end(), known.bases.begin(), known.bases.end());
-  }
-  return false;
+      if (known.name == found[k])
+        for (const std::string& base : known.bases)
+          if (std::find(found.begin(), found.end(), base) == found.end()) found.push_back(base);
+  return !root.empty() && std::find(found.begin(), found.end(), root) != found.end();
 }
 
 std::string key_of(const std::string& name) {

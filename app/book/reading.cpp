@@ -9,61 +9,47 @@
 
 namespace tyndall {
 
-double largest(Vector a) { return std::fmax(std::fabs(a.x), std::fmax(std::fabs(a.y), std::fabs(a.z))); }
+double largest(Vec3d a) { return std::fmax(std::fabs(a.x), std::fmax(std::fabs(a.y), std::fabs(a.z))); }
 bool is_near(double a, double b, double precision) {
   return std::fabs(a - b) <= precision * std::fmax(1.0, std::fmax(std::fabs(a), std::fabs(b)));
 }
-bool is_near(Vector a, Vector b, double precision) {
+bool is_near(Vec3d a, Vec3d b, double precision) {
   return largest(a - b) <= precision * std::fmax(1.0, std::fmax(largest(a), largest(b)));
 }
-std::string triple(Vector a) { return fmt::format("[{},{},{}]", a.x, a.y, a.z); }
+std::string triple(Vec3d a) { return fmt::format("[{},{},{}]", a.x, a.y, a.z); }
 
-std::vector<double> Described::all(char kind) const {
+std::vector<double> Described::all(char kind, const std::string& part) const {
   std::vector<double> found;
   for (const Member& one : members)
-    if (one.kind == kind) found.insert(found.end(), one.numbers.begin(), one.numbers.end());
+    if (one.kind == kind && one.key.find(part) != std::string::npos)
+      found.insert(found.end(), one.numbers.begin(), one.numbers.end());
   return found;
 }
-std::vector<Vector> Described::vectors(const std::string& part) const {
-  std::vector<Vector> found;
-  for (const Member& one : members)
-    if (one.kind == 'v' && key_of(one.name).find(part) != std::string::npos)
-      found.push_back({one.numbers[0], one.numbers[1], one.numbers[2]});
+std::vector<Vec3d> Described::vectors(const std::string& part) const {
+  const std::vector<double> numbers = all('v', part);
+  std::vector<Vec3d> found;
+  for (std::size_t k = 0; k + 2 < numbers.size(); k += 3) found.push_back({numbers[k], numbers[k + 1], numbers[k + 2]});
   return found;
 }
-const double* Described::named(const std::string& part) const {
-  for (const Member& one : members)
-    if (one.kind == 'n' && key_of(one.name).find(part) != std::string::npos) return one.numbers.data();
-  return nullptr;
-}
-
-Described described_by(const std::string& text) {
-  Described made;
-  std::istringstream lines(text);
-  std::getline(lines, made.class_name), std::getline(lines, made.file);
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    Described::Member member;
-    words >> member.kind >> member.name;
-    for (std::string word; words >> word;) member.numbers.push_back(std::strtod(word.c_str(), nullptr));
-    made.members.push_back(member);
-  }
-  made.class_name = printable(made.class_name);
-  return made;
+double Described::named(const std::string& part, double otherwise) const {
+  const std::vector<double> found = all('n', part);
+  return found.empty() ? otherwise : found[0];
 }
 
 const Described& Reading::described(char kind, double object) {
-  describe(kind, {object});
-  return described_ones[object];
-}
-
-void Reading::describe(char kind, std::vector<double> wanted) {
-  std::erase_if(wanted, [&](double one) { return described_ones.contains(one); });
-  if (wanted.empty()) return;
-  std::istringstream texts(program.describe(kind, wanted));
-  std::string text;
-  for (const double one : wanted)
-    if (std::getline(texts, text, '\f')) described_ones[one] = described_by(text);
+  const auto [at, is_new] = described_ones.try_emplace(object);
+  Described& made = at->second;
+  if (!is_new) return made;
+  std::istringstream lines(program.describe(kind, object));
+  std::getline(lines, made.class_name), std::getline(lines, made.file);
+  made.class_name = printable(made.class_name);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    Described::Member& member = made.members.emplace_back();
+    words >> member.kind >> member.key, member.key = key_of(member.key);
+    for (std::string word; words >> word;) member.numbers.push_back(std::strtod(word.c_str(), nullptr));
+  }
+  return made;
 }
 
 std::string Reading::name_of(double object, const std::string& kind, std::string& list,

@@ -1,28 +1,36 @@
 #include "app/book/shape_candidates.h"
 #include "core/base/math.h"
+#include "core/base/text.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace tyndall {
 namespace {
 
-/// How an object is placed by what encloses it.
-struct Placing {
-  std::string moves;      ///< JSON, innermost first, with commas between them
-  bool boundary = false;  ///< of a medium: it is written without a material
-  bool flipped = false;   ///< its normals point the other way
+/// An object of the scene: where it lies for the object that encloses it.
+struct Piece {
+  std::string body, material{}, moves{}, end{};  ///< JSON; moves: innermost first; end: behind them
+  std::string turned{};                          ///< its body where the sides of what is hit are turned; "": the same
+  Vec3d centre{};
+  double size = 1;
+  bool is_solid = false, is_medium = false;
+  std::vector<Vec3d> corners{};  ///< of a rectangle: opposite ones
+
+  std::string text() const {
+    return body + material + (moves.empty() ? "" : ",\"transform\":[" + moves + "]") + end + "}";
+  }
 };
 
 /// The books' translate and rotate_y.
 struct Move {
-  Vector by{};
+  Vec3d by{};
   double sine = 0, cosine = 1;
-  Vector rotated(Vector a, double s) const { return {cosine * a.x - s * a.z, a.y, s * a.x + cosine * a.z}; }
-  Vector out(Vector a) const { return rotated(a, -sine) + by; }
-  Shot in(const Shot& a) const { return {rotated(a.from - by, sine), rotated(a.to, sine), a.time}; }
+  Vec3d out(Vec3d a) const { return {cosine * a.x + sine * a.z, a.y, cosine * a.z - sine * a.x}; }
+  book::shot out(const book::shot& a) const { return {out(a.from) + by, out(a.to), a.time}; }
   std::string text() const {
     if (sine != 0 || cosine != 1) return fmt::format("{{\"rotate_y\":{}}}", std::atan2(sine, cosine) * 180 / pi);
     return length(by) > 0 ? "{\"translate\":" + triple(by) + "}" : "";
@@ -31,7 +39,7 @@ struct Move {
 /// By the members of an object that holds another; the last one is none.
 std::vector<Move> moves_of(const Described& o) {
   std::vector<Move> moves;
-  for (const Vector& by : o.vectors()) moves.push_back({by});
+  for (const Vec3d& by : o.vectors()) moves.push_back({by});
   const std::vector<double> numbers = o.all('n');
   for (std::size_t k = 0; k + 1 < numbers.size(); ++k) {
     const double a = numbers[k], b = numbers[k + 1];
@@ -42,54 +50,71 @@ std::vector<Move> moves_of(const Described& o) {
   return moves;
 }
 
+Vec3d lower(Vec3d a, Vec3d b) { return {std::fmin(a.x, b.x), std::fmin(a.y, b.y), std::fmin(a.z, b.z)}; }
+Vec3d upper(Vec3d a, Vec3d b) { return -1.0 * lower(-1.0 * a, -1.0 * b); }
+
 class WorldReader {
  public:
   explicit WorldReader(Reading& reading) : r_(reading) {}
 
-  void add(double shape, const Placing& at) {
+  std::string text() {
+    add(r_.picture.world);
+    std::vector<std::string> all;
+    for (const Piece& one : pieces_) all.push_back(one.text());
+    return joined(all, ",\n");
+  }
+
+ private:
+  void add(double shape) {
     if (shape == 0) throw NotTaken{"a null pointer in place of an object"};
     const Described& o = r_.described('s', shape);
     if (++depth_ > 200) o.refuse("holds itself");
     reason_ = "no such shape in Tyndall";
-    if (!sphere(shape, o, at) && !flat(shape, o, at) && !medium(shape, o, at) && !group(shape, o, at))
-      o.refuse(reason_);
+    if (!sphere(shape, o) && !flat(shape, o) && !medium(shape, o) && !group(shape, o)) o.refuse(reason_);
     --depth_;
   }
 
- private:
-  std::vector<ShotAnswer> shoot(double shape, std::vector<Shot> shots, std::size_t count = 0) {
-    for (Shot& shot : shots) shot.shape = shape;
-    return r_.program.ask<ShotAnswer>('h', 0, shots, count);
+  std::vector<book::shot_answer> shoot(double shape, std::vector<book::shot> shots, std::size_t count = 0) {
+    for (book::shot& shot : shots) shot.shape = shape;
+    return r_.program.ask<book::shot_answer>('h', 0, shots, count);
   }
   /// Whether hit() answers 300 shots from all sides, in different intervals of t, as the candidate would; then it is
   /// taken over, and met_ is one of the hits, in front if its normal is.
-  bool take(double shape, const Described& o, const Candidate& candidate, const Placing& at) {
+  bool take(double shape, const Described& o, const Candidate& candidate) {
     RandomNumbers random;
-    bool outward = true, against = true;
-    std::vector<Shot> shots;
-    std::vector<std::vector<Crossing>> crossings;
+    std::vector<book::shot> shots;
+    std::vector<Crossing> expected;
     for (int k = 0; k < 300; ++k) {
-      Shot shot = candidate.aim(random, k % 4 == 0 ? 1 : k % 4 == 1 ? 0 : random.next());
-      const auto all = candidate.crossings(shot);
-      if (all && set_interval(shot, *all, k)) shots.push_back(shot), crossings.push_back(*all);
+      book::shot shot = candidate.aim(random, k % 4 == 0 ? 1 : k % 4 == 1 ? 0 : random.next());
+      const auto all = candidate.crossings(shot, r_.precision);
+      if (!all) continue;
+      const double far = all->empty() ? 0 : std::fabs(all->back().t);
+      if (k % 3 == 1 && far > 0) shot.low = random.between(0, 2) * far;
+      if (k % 3 == 2 && far > 0) shot.high = random.between(0.1, 2) * far;
+      const auto is_at_end = [&](const Crossing& one) {
+        return std::fmin(std::fabs(one.t - shot.low), std::fabs(one.t - shot.high)) < 0.05 * far;
+      };
+      if (std::any_of(all->begin(), all->end(), is_at_end)) continue;
+      const auto first = std::find_if(all->begin(), all->end(),
+                                      [&](const Crossing& one) { return one.t > shot.low && one.t < shot.high; });
+      shots.push_back(shot), expected.push_back(first == all->end() ? Crossing{endless, {}} : *first);
     }
-    const std::vector<ShotAnswer> answers = shoot(shape, shots);
+    const std::vector<book::shot_answer> answers = shoot(shape, shots);
     met_ = {};
     const char* wrong = nullptr;
+    bool outward = true, against = true;
+    const double place = std::fmax(candidate.size(), largest(candidate.middle()));
     for (std::size_t k = 0; k < shots.size(); ++k) {
-      const Shot& shot = shots[k];
-      const ShotAnswer& its = answers[k];
-      const auto expected = std::find_if(crossings[k].begin(), crossings[k].end(),
-                                         [&](const Crossing& one) { return one.t > shot.low && one.t < shot.high; });
-      const bool hits = expected != crossings[k].end(), limited = shot.low > 0.001 || shot.high < endless;
-      const double scale = std::fmax(candidate.piece.size, largest(candidate.piece.centre)) / length(shot.to);
-      if ((its.found != 0) != hits ||
-          (hits && !(std::fabs(its.t - expected->t) <= 10 * r_.precision * std::fmax(scale, expected->t)))) {
-        if (!limited) return false;
+      const book::shot& shot = shots[k];
+      const auto& [t, normal] = expected[k];
+      const book::shot_answer& its = answers[k];
+      const double allowed = 10 * r_.precision * std::fmax(place / length(shot.to), t);
+      if ((its.found != 0) != (t < endless) || (t < endless && !(std::fabs(its.t - t) <= allowed))) {
+        if (shot.low == book::shot().low && shot.high == endless) return false;
         wrong = "its hit() does not keep the interval of t";
       }
-      if (!hits || wrong) continue;
-      const double cosine = dot(its.normal, expected->normal), facing = dot(shot.to, expected->normal);
+      if (its.found == 0 || wrong) continue;
+      const double cosine = dot(its.normal, normal), facing = dot(shot.to, normal);
       if (!(std::fabs(std::fabs(cosine) - 1) <= 0.02)) wrong = "its normals are not those of the books";
       outward = outward && cosine > 0;
       against = against && cosine * facing < 0 && (its.front != 0) == (facing < 0);
@@ -97,231 +122,205 @@ class WorldReader {
       if (met_.found == 0) met_ = its, met_.front = (its.front != 0) == (facing < 0);
     }
     if (wrong) return reason_ = wrong, false;
-    if (met_.found == 0 || (candidate.piece.is_solid && !outward && !against)) return false;
-    if (!at.boundary && met_.material == 0) o.refuse("it has no material: there is no light to trace in this chapter");
-    Piece piece = candidate.piece;
-    piece.material = at.boundary ? "" : ",\"material\":" + material_name(r_, met_.material), piece.moves = at.moves;
-    push(candidate.text, piece);
+    if (met_.found == 0 || (candidate.is_sphere() && !outward && !against)) return false;
+    if (!is_boundary_ && met_.material == 0) o.refuse("it has no material: there is no light to trace in this chapter");
+    Piece made{candidate.text()};
+    if (!is_boundary_) made.material = ",\"material\":" + material_name(r_, met_.material);
+    made.centre = candidate.middle(), made.size = candidate.size(), made.is_solid = candidate.is_sphere();
+    if (candidate.is_rectangle()) made.corners = {candidate.at, candidate.place(1, 1)};
+    pieces_.push_back(made);
     return true;
   }
-
-  bool sphere(double shape, const Described& o, const Placing& at) {
-    const std::vector<Motion> motions = motions_of(o);
-    const double* radius = o.named("radius");
-    if (radius && *radius == 0 && !motions.empty()) return true;
-    if (radius && !motions.empty()) reason_ = "its hit() is not that of the books' sphere";
-    for (const double size : o.all('n'))
-      for (const Motion& centre : motions) {
-        if (size == 0 || !take(shape, o, sphere_of(centre, size), at)) continue;
-        if (at.boundary && length(centre.end - centre.begin) > 0) o.refuse("fog in a moving sphere");
-        return true;
-      }
-    return false;
-  }
-
-  bool flat(double shape, const Described& o, const Placing& at) {
-    for (const Plane& plane : planes_of(o)) {
-      if (!(length(plane.normal()) > 0)) continue;
-      for (Flat flat : {Flat{plane, "quad"}, Flat{plane, "triangle"}, Flat{plane, "disk"}}) {
-        if (flat.is_disk() && !measure(shape, flat)) continue;
-        if (!take(shape, o, flat_of(flat, r_.precision), at)) continue;
-        if (!at.boundary && r_.one_sided.contains(met_.material)) add_back(flat, (met_.front != 0) != at.flipped, at);
-        return true;
-      }
+  bool sphere(double shape, const Described& o) {
+    const std::vector<Candidate> candidates = spheres_of(o);
+    const double radius = o.named("radius", NAN);
+    if (radius == 0 && o.vectors().size() + o.all('r').size() > 0) return true;
+    if (!std::isnan(radius) && !candidates.empty()) reason_ = "its hit() is not that of the books' sphere";
+    for (const Candidate& one : candidates) {
+      if (!take(shape, o, one)) continue;
+      if (is_boundary_ && length(one.u) > 0) o.refuse("fog in a moving sphere");
+      return true;
     }
     return false;
   }
-  std::vector<bool> meets(double shape, const Plane& plane, const std::vector<double>& along_u, double along_v) {
-    std::vector<Shot> shots;
-    for (const double place : along_u) shots.push_back(plane.shot(place, along_v));
-    const double allowed = 10 * r_.precision * std::fmax(1, largest(plane.corner) / length(plane.shot(0, 0).to));
+
+  bool flat(double shape, const Described& o) {
+    for (Candidate& one : planes_of(o))
+      for (const char* type : {"quad", "triangle", "disk"}) {
+        one.type = type;
+        if ((one.is_disk() && !measure(shape, one)) || !take(shape, o, one)) continue;
+        if (!is_boundary_ && r_.one_sided.contains(met_.material)) add_back(one, met_.front != 0);
+        return true;
+      }
+    return false;
+  }
+  std::vector<bool> meets(double shape, const Candidate& plane, const std::vector<double>& along_u, double along_v) {
+    std::vector<book::shot> shots;
+    for (const double place : along_u) shots.push_back(plane.shot_at(place, along_v));
+    const double allowed = 10 * r_.precision * std::fmax(1, largest(plane.at) / length(shots[0].to));
     std::vector<bool> all;
-    for (const ShotAnswer& its : shoot(shape, shots)) all.push_back(its.found != 0 && std::fabs(its.t - 1) < allowed);
+    for (const book::shot_answer& its : shoot(shape, shots))
+      all.push_back(its.found != 0 && std::fabs(its.t - 1) < allowed);
     return all;
   }
   /// Measures the radii of a disk or ring; false: its plane is not met, or everywhere.
-  bool measure(double shape, Flat& disk) {
+  bool measure(double shape, Candidate& disk) {
     std::vector<double> radii{100};
     for (int k = 0; k < 150; ++k) radii.push_back(0.01 * k + 0.005);
-    const std::vector<bool> met = meets(shape, disk.plane, radii, 1e-3);
+    const std::vector<bool> met = meets(shape, disk, radii, 1e-3);
     const auto first = std::find(met.begin() + 1, met.end(), true);
     if (first == met.end()) return false;
     reason_ = "its hit() is not that of a quad, a triangle, a disk or a ring";
-    const auto holds = [&](double radius) -> bool { return meets(shape, disk.plane, {radius}, 0)[0]; };
     const auto edge = [&](double low, double high) {
-      const bool beyond = holds(high);
+      const bool beyond = meets(shape, disk, {high}, 0)[0];
       for (int k = 0; k < 40; ++k) {
         const double middle = 0.5 * (low + high);
-        (holds(middle) == beyond ? high : low) = middle;
+        (meets(shape, disk, {middle}, 0)[0] == beyond ? high : low) = middle;
       }
       return std::round(1e6 * high) / 1e6;
     };
     const double begin = radii[static_cast<std::size_t>(first - met.begin())];
-    disk.inner = begin > 0.01 ? edge(begin - 0.01, begin) : 0, disk.outer = edge(begin, 100);
+    disk.inner = begin > 0.01 ? edge(begin - 0.01, begin) : 0, disk.radius = edge(begin, 100);
     return !met[0];
   }
   /// Black, close behind a light: Tyndall's lights shine on both sides, those of the third book on one.
-  void add_back(Flat flat, bool is_front, const Placing& at) {
-    const Vector normal = flat.plane.normal();
-    const double distance = (is_front ? -1e-5 : 1e-5) * std::sqrt(length(normal));
-    flat.plane.corner = flat.plane.corner + distance * normalized(normal);
+  void add_back(const Candidate& light, bool is_front) {
+    const Vec3d away = (1e-5 * std::sqrt(length(light.normal()))) * normalize(light.normal());
+    Candidate below = light, above = light;
+    below.at = light.at - away, above.at = light.at + away;
+    if (!is_front) std::swap(below, above);
     const std::string black =
         r_.name_of(-1, "black", r_.materials, [] { return "{\"type\":\"lambertian\",\"albedo\":[0,0,0]}"; });
-    Piece piece;
-    piece.material = ",\"material\":" + black, piece.moves = at.moves;
-    push(flat.text(), piece);
+    pieces_.push_back({below.text(), ",\"material\":" + black, "", "", above.text()});
   }
 
   /// Lists, trees, and what moves or turns another object: the nearest of its parts is hit.
-  bool group(double shape, const Described& o, const Placing& at) {
+  bool group(double shape, const Described& o) {
     if (std::none_of(o.members.begin(), o.members.end(), [](const auto& one) { return one.kind == 's'; })) return false;
     std::vector<double> parts;
     for (const double part : o.all('s'))
       if (part != 0 && std::find(parts.begin(), parts.end(), part) == parts.end()) parts.push_back(part);
-    r_.describe('s', parts);
-    if (parts.size() != 1) return is_group(shape, parts, {}, at);
-    for (const Move& move : moves_of(o))
-      if (is_group(shape, parts, move, at)) return true;
+    const std::size_t begin = pieces_.size();
+    for (const double part : parts) add(part);
+    join_box(begin);
+    for (const Move& move : parts.size() == 1 ? moves_of(o) : std::vector<Move>(1))
+      if (const std::optional<bool> turns = turns_nearest(shape, parts, move, begin)) {
+        for (std::size_t k = begin; k < pieces_.size(); ++k) place(pieces_[k], move, *turns);
+        return true;
+      }
+    pieces_.resize(begin);
+    reason_ = "its hit() is not that of the nearest of its parts";
     return false;
   }
-  /// Takes the parts over; false: hit() does not answer with the nearest of them.
-  bool is_group(double shape, const std::vector<double>& parts, const Move& move, Placing at) {
-    const std::size_t begin = r_.objects.size();
-    if (const std::string text = move.text(); !text.empty()) at.moves = text + (at.moves.empty() ? "" : "," + at.moves);
-    const bool had_media = std::exchange(has_media_, false);
-    bool flips = false, agrees = true;
-    for (int round = 0; round < 2; ++round) {
-      for (const double part : parts) add(part, at);
-      join_box(begin);
-      for (std::size_t k = begin; k < pieces_.size(); ++k) pieces_[k].centre = move.out(pieces_[k].centre);
-      agrees = has_media_ || agrees_with_nearest(shape, parts, move, begin, flips);
-      if (agrees && (!flips || round == 1)) break;
-      drop(begin);
-      if (!agrees) break;
-      at.flipped = !at.flipped;
-    }
-    has_media_ = has_media_ || had_media;
-    if (!agrees) reason_ = "its hit() is not that of the nearest of its parts";
-    return agrees;
+  static void place(Piece& piece, const Move& move, bool turns) {
+    const std::string text = move.text();
+    piece.moves += (piece.moves.empty() || text.empty() ? "" : ",") + text;
+    piece.centre = move.out(piece.centre) + move.by;
+    if (turns && !piece.turned.empty()) std::swap(piece.body, piece.turned);
   }
-  /// flips: whether it turns the sides of all that is hit, as the third edition's flip_face does.
-  bool agrees_with_nearest(double shape, const std::vector<double>& parts, const Move& move, std::size_t begin,
-                           bool& flips) {
-    constexpr std::size_t rounds = 60;
-    std::vector<Shot> shots;
-    for (std::size_t k = 0; k < rounds; ++k) shots.push_back(aimed(begin)), shots.back().shape = shape;
-    for (const double part : parts)
-      for (std::size_t k = 0; k < rounds; ++k) shots.push_back(move.in(shots[k])), shots.back().shape = part;
-    const std::vector<ShotAnswer> its = r_.program.ask<ShotAnswer>('h', 0, shots);
-    std::vector<ShotAnswer> nearest(rounds);
-    for (std::size_t k = rounds; k < its.size(); ++k)
-      if (ShotAnswer& known = nearest[k % rounds]; its[k].found != 0 && (known.found == 0 || its[k].t < known.t))
-        known = its[k];
-    bool is_same = false, is_flipped = false;
-    for (std::size_t k = 0; k < rounds; ++k) {
-      if (its[k].found != nearest[k].found || (its[k].found != 0 && !is_near(its[k].t, nearest[k].t, 0.01)))
-        return false;
-      if (its[k].found != 0) (its[k].front == nearest[k].front ? is_same : is_flipped) = true;
+  /// Whether it turns the sides of all that is hit, as the third edition's flip_face does; nothing: its hit() is not
+  /// that of the nearest part.
+  std::optional<bool> turns_nearest(double shape, const std::vector<double>& parts, const Move& move,
+                                    std::size_t begin) {
+    for (std::size_t k = begin; k < pieces_.size(); ++k)
+      if (pieces_[k].is_medium) return false;  // whose hits are random
+    std::vector<book::shot> shots;
+    for (int k = 0; k < 60; ++k) {
+      const book::shot inside = aimed(begin);
+      shots.push_back(move.out(inside)), shots.back().shape = shape;
+      for (const double part : parts) shots.push_back(inside), shots.back().shape = part;
     }
-    flips = is_flipped && !is_same;
-    return true;
+    const std::vector<book::shot_answer> all = r_.program.ask<book::shot_answer>('h', 0, shots);
+    bool is_same = false, is_turned = false;
+    for (auto its = all.begin(), end = its; its != all.end(); its = end) {
+      end = its + static_cast<std::ptrdiff_t>(parts.size()) + 1;
+      const auto nearest = std::min_element(its + 1, end, [](const book::shot_answer& a, const book::shot_answer& b) {
+        return (a.found != 0 ? a.t : endless) < (b.found != 0 ? b.t : endless);
+      });
+      const book::shot_answer expected = nearest != end ? *nearest : book::shot_answer{};
+      if (its->found != expected.found || (its->found != 0 && !is_near(its->t, expected.t, 0.01))) return {};
+      if (its->found != 0) (its->front == expected.front ? is_same : is_turned) = true;
+    }
+    return is_turned && !is_same;
   }
 
   /// Fog has a boundary, a phase function, and a density.
-  bool medium(double shape, const Described& o, const Placing& at) {
+  bool medium(double shape, const Described& o) {
     const std::vector<double> boundary = o.all('s'), phase = o.all('m');
-    const double* inverse = o.named("dens");
-    if (boundary.size() != 1 || phase.size() != 1 || !inverse) return false;
-    if (at.boundary) o.refuse("fog within fog");
-    Placing inside = at;
-    inside.boundary = true;
-    const std::size_t begin = r_.objects.size();
-    add(boundary[0], inside);
-    if (r_.objects.size() != begin + 1 || !pieces_.back().is_solid)
-      o.refuse("Tyndall's fog fills one sphere or one box");
-    const double extinction = *inverse < 0 ? -1 / *inverse : *inverse;
+    const double inverse = o.named("dens", NAN);
+    if (boundary.size() != 1 || phase.size() != 1 || std::isnan(inverse)) return false;
+    if (std::exchange(is_boundary_, true)) o.refuse("fog within fog");
+    const std::size_t begin = pieces_.size();
+    add(boundary[0]);
+    is_boundary_ = false;
+    if (pieces_.size() != begin + 1 || !pieces_.back().is_solid) o.refuse("Tyndall's fog fills one sphere or one box");
+    const double extinction = inverse < 0 ? -1 / inverse : inverse;
     check_passing(shape, o, boundary[0], extinction, aimed(begin));
-    r_.objects.back() = fmt::format("{{\"type\":\"medium\",\"boundary\":{},\"density\":{},\"albedo\":{}}}",
-                                    r_.objects.back(), extinction, medium_colour(r_, phase[0]));
-    pieces_.back() = {pieces_.back().centre, pieces_.back().size};
-    return has_media_ = true;
+    Piece& fog = pieces_.back();
+    fog.body = "{\"type\":\"medium\",\"boundary\":" + fog.body;
+    fog.end = fmt::format("}},\"density\":{},\"albedo\":{}", extinction, medium_colour(r_, phase[0]));
+    fog.is_solid = false, fog.is_medium = true;
+    return true;
   }
   /// Counts how often rays pass the fog.
-  void check_passing(double shape, const Described& o, double boundary, double extinction, Shot shot) {
-    shot.to = normalized(shot.to);
-    const ShotAnswer in = shoot(boundary, {{shot.from, shot.to, 0, -1e9}})[0],
-                     out = shoot(boundary, {{shot.from, shot.to, 0, in.t + 1e-4}})[0];
+  void check_passing(double shape, const Described& o, double boundary, double extinction, book::shot shot) {
+    shot.to = normalize(shot.to);
+    const book::shot_answer in = shoot(boundary, {{shot.from, shot.to, 0, -1e9}})[0],
+                            out = shoot(boundary, {{shot.from, shot.to, 0, in.t + 1e-4}})[0];
     if (in.found == 0 || out.found == 0) return;
     constexpr int rounds = 4000;
     int passed = 0;
-    for (const ShotAnswer& one : shoot(shape, {{shot.from, shot.to}}, rounds)) passed += one.found != 0 ? 0 : 1;
+    for (const book::shot_answer& one : shoot(shape, {{shot.from, shot.to}}, rounds)) passed += one.found != 0 ? 0 : 1;
     const double expected = rounds * std::exp(-extinction * (out.t - in.t));
     if (std::fabs(passed - expected) > 5 * std::sqrt(expected + 1) + 3)
       o.refuse("it is denser or thinner than the books' fog");
   }
 
-  void push(const std::string& body, const Piece& piece) {
-    const std::string transform = piece.moves.empty() ? "" : ",\"transform\":[" + piece.moves + "]";
-    r_.objects.push_back(body + piece.material + transform + "}");
-    pieces_.push_back(piece);
-  }
-  void drop(std::size_t begin) { r_.objects.resize(begin), pieces_.resize(begin); }
   /// A ray near one of the objects from that one on, if there are any.
-  Shot aimed(std::size_t begin) {
+  book::shot aimed(std::size_t begin) {
     const double count = static_cast<double>(pieces_.size() - begin);
     const Piece one = count > 0 ? pieces_[begin + static_cast<std::size_t>(random_.between(0, count))] : Piece{};
-    const Vector at = one.centre + (random_.between(0, 0.7) * one.size) * random_.on_sphere();
-    const Vector from = one.centre + (random_.between(1.5, 6) * one.size) * random_.on_sphere();
+    const Vec3d at = one.centre + (random_.between(0, 0.7) * one.size) * random_.on_sphere();
+    const Vec3d from = one.centre + (random_.between(1.5, 6) * one.size) * random_.on_sphere();
     return {from, at - from, 0.5};
   }
 
   /// Six rectangles that enclose a box are one, as the books' box() makes them: each is one of its sides.
   void join_box(std::size_t begin) {
-    if (r_.objects.size() != begin + 6) return;
+    if (pieces_.size() != begin + 6 || pieces_[begin].corners.empty()) return;
     const Piece first = pieces_[begin];
-    const auto each = [](Vector a, Vector b, auto f) { return Vector{f(a.x, b.x), f(a.y, b.y), f(a.z, b.z)}; };
-    const auto lower = [&](Vector a, Vector b) {
-      return each(a, b, [](double x, double y) { return std::fmin(x, y); });
-    };
-    const auto upper = [&](Vector a, Vector b) {
-      return each(a, b, [](double x, double y) { return std::fmax(x, y); });
-    };
-    Vector low = first.corners[0], high = low;
+    Vec3d low = first.corners[0], high = low;
     for (std::size_t k = begin; k < begin + 6; ++k)
-      for (const Vector& corner : pieces_[k].corners) low = lower(low, corner), high = upper(high, corner);
+      for (const Vec3d& corner : pieces_[k].corners) low = lower(low, corner), high = upper(high, corner);
     const double allowed = r_.precision * std::fmax(largest(low), largest(high));
-    int sides = 0;
+    unsigned sides = 0;
     for (std::size_t k = begin; k < begin + 6; ++k) {
       const Piece& one = pieces_[k];
-      if (!one.is_rectangle || one.material != first.material || one.moves != first.moves) return;
-      const Vector from = lower(one.corners[0], one.corners[1]) - low,
-                   to = high - upper(one.corners[0], one.corners[1]);
-      const double distances[6] = {from.x, from.y, from.z, to.x, to.y, to.z};
-      int away = -1;
-      for (int side = 0; side < 6; ++side) {
-        if (distances[side] <= allowed) continue;
-        if (away >= 0) return;
-        away = side;
-      }
-      if (away >= 0) sides |= 1 << away;
+      if (one.corners.empty() || one.material != first.material || one.moves != first.moves) return;
+      const Vec3d from = lower(one.corners[0], one.corners[1]) - low, to = high - upper(one.corners[0], one.corners[1]);
+      unsigned away = 0;  // a bit for each side of the box that it does not touch
+      for (const double distance : {from.x, from.y, from.z, to.x, to.y, to.z})
+        away = 2 * away + (distance > allowed ? 1 : 0);
+      if ((away & (away - 1)) != 0) return;
+      sides |= away;
     }
     if (sides != 63) return;
-    drop(begin);
-    push("{\"type\":\"box\",\"min\":" + triple(low) + ",\"max\":" + triple(high),
-         {0.5 * (low + high), 0.5 * length(high - low), true, false, {}, first.material, first.moves});
+    pieces_.resize(begin);
+    pieces_.push_back({"{\"type\":\"box\",\"min\":" + triple(low) + ",\"max\":" + triple(high), first.material,
+                       first.moves, "", "", 0.5 * (low + high), 0.5 * length(high - low), true});
   }
 
   Reading& r_;
-  std::vector<Piece> pieces_;  ///< one for each object of the scene
+  std::vector<Piece> pieces_;
   RandomNumbers random_;
-  ShotAnswer met_;
+  book::shot_answer met_;
   std::string reason_;
   int depth_ = 0;
-  bool has_media_ = false;
+  bool is_boundary_ = false;  ///< of a medium: it is written without a material
 };
 
 }  // namespace
 
-void read_world(Reading& reading) { WorldReader(reading).add(reading.picture.world, {}); }
+std::string read_world(Reading& reading) { return WorldReader(reading).text(); }
 
 }  // namespace tyndall

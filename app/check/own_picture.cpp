@@ -40,26 +40,24 @@ BlockLight light_of(const std::vector<BookSample>& samples, const Regions& regio
 }
 
 /// One sample of each pixel of the lattice.
-std::vector<double> ask_once(OwnProgram& program, const Lattice& lattice, int sample) {
-  std::vector<double> places;
+std::vector<Vec3d> ask_once(OwnProgram& program, const Lattice& lattice, int sample) {
+  std::vector<tyndall_book::pixel_place> places;
   const double across = std::fmod(0.5 + 0.7548776662466927 * sample, 1),
                down = std::fmod(0.5 + 0.5698402909980532 * sample, 1);
   for (int y = 0; y < lattice.rows(); ++y)
-    for (int x = 0; x < lattice.columns(); ++x)
-      places.insert(places.end(), {x * lattice.step + across, y * lattice.step + down});
+    for (int x = 0; x < lattice.columns(); ++x) places.push_back({x * lattice.step + across, y * lattice.step + down});
   return program.samples(places);
 }
 
 /// As many samples of each pixel as the program computes in its time: those of a pixel follow each other.
 std::vector<BookSample> own_samples(const ProgramScene& program, const Lattice& lattice) {
   const auto begin = std::chrono::steady_clock::now();
-  std::vector<std::vector<double>> all;
+  std::vector<std::vector<Vec3d>> all;
   while (all.size() < fewest_samples || (all.size() < most_samples && seconds_since(begin) < seconds_of_program))
     all.push_back(ask_once(*program.own, lattice, static_cast<int>(all.size())));
   std::vector<BookSample> samples;
   for (std::size_t pixel = 0; pixel < lattice.pixels(); ++pixel)
-    for (const std::vector<double>& one : all)
-      samples.push_back({to_float({one[3 * pixel], one[3 * pixel + 1], one[3 * pixel + 2]})});
+    for (const std::vector<Vec3d>& one : all) samples.push_back({to_float(one[pixel])});
   return samples;
 }
 

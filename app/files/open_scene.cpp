@@ -74,8 +74,8 @@ OwnSamples::OwnSamples()
         const std::shared_ptr<OwnProgram> program = its->program;
         lock.unlock();
         if (!program) return;
-        const std::vector<double> colour = program->samples({x, y});
-        std::copy(colour.begin(), colour.end(), rgb);
+        const Vec3d colour = program->samples({{x, y}})[0];
+        rgb[0] = colour.x, rgb[1] = colour.y, rgb[2] = colour.z;
       })) {}
 
 std::uint32_t OwnSamples::take(std::shared_ptr<OwnProgram> program, const std::string& reason) {

@@ -1,6 +1,6 @@
 #include "app/files/outputs.h"
 
-#include "app/book/run_guarded.h"
+#include "app/book/compile_program.h"
 #include "app/text/standard_streams.h"
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -1,5 +1,5 @@
 #pragma once
-#include "questions.h"
+#include "values.h"
 
 #include <dlfcn.h>
 
@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -14,15 +16,11 @@
 /// lands in a temporary folder. What it reads is found as if it ran elsewhere in his project, too.
 namespace tyndall_book {
 
-struct opened_file {
-  std::string name, place;
-  const void* object = nullptr;
-};
 struct opened_files {
-  std::vector<std::string> read;        ///< those that were opened to be read, last ones last
-  std::vector<std::string> missing;     ///< names that were not found
-  std::vector<opened_file> written;     ///< where a file lies that was written
-  std::vector<opened_file> of_objects;  ///< the last file that was read before a texture was made
+  std::vector<std::string> read;                  ///< those that were opened to be read, last ones last
+  std::vector<std::string> missing;               ///< names that were not found
+  std::map<std::string, std::string> written;     ///< where a file of that name lies that was written
+  std::map<const void*, std::string> of_objects;  ///< the last file that was read before a texture was made
   static opened_files& get() {
     static opened_files files;
     return files;
@@ -32,24 +30,22 @@ inline std::string last_part(const std::string& name) { return name.substr(name.
 
 /// Inserted into the constructors of textures.
 inline void texture_made(const void* texture) {
-  const std::vector<std::string>& read = opened_files::get().read;
-  if (!read.empty()) opened_files::get().of_objects.push_back({read.back(), "", texture});
+  opened_files& files = opened_files::get();
+  if (!files.read.empty()) files.of_objects[texture] = files.read.back();
 }
 
 using open_function = FILE* (*)(const char*, const char*);
 
 inline FILE* open_to_read(open_function open, const std::string& name, const char* mode) {
   opened_files& files = opened_files::get();
-  for (const opened_file& own : files.written)
-    if (own.name == name) return open(own.place.c_str(), mode);
+  if (const auto own = files.written.find(name); own != files.written.end()) return open(own->second.c_str(), mode);
   std::string tried = name;
   FILE* file = open(name.c_str(), mode);
   const char* more = std::getenv("TYNDALL_BOOK_FOLDERS");  // each with a line end
-  for (const char* at = more ? more : ""; !file && *at && name[0] != '/';) {
-    const std::string folders = at, folder = folders.substr(0, folders.find('\n'));
+  std::istringstream folders(more ? more : "");
+  for (std::string folder; !file && name[0] != '/' && std::getline(folders, folder);) {
     tried = folder + "/" + name;
     file = open(tried.c_str(), mode);
-    at += folder.size() + 1;
   }
   for (std::string& other : files.missing)
     if (last_part(other) == last_part(name)) other.clear();
@@ -68,11 +64,8 @@ inline FILE* open_to_read(open_function open, const std::string& name, const cha
 inline std::string place_of(const std::string& name) {
   const char* folder = std::getenv("TYNDALL_BOOK_WRITES");
   if (!folder || name.rfind("/dev/", 0) == 0) return "";
-  std::vector<opened_file>& written = opened_files::get().written;
-  for (const opened_file& one : written)
-    if (one.name == name) return one.place;
-  written.push_back({name, folder + ("/" + std::to_string(written.size()))});
-  return written.back().place;
+  std::map<std::string, std::string>& written = opened_files::get().written;
+  return written.try_emplace(name, folder + ("/" + std::to_string(written.size()))).first->second;
 }
 inline FILE* open_file(const char* function, const char* name, const char* mode) {
   const auto open = reinterpret_cast<open_function>(dlsym(RTLD_NEXT, function));
@@ -85,9 +78,9 @@ inline const FILE* const standard_output = std::freopen(place_of("standard outpu
 /// Reads the size at the head of the picture that the program has begun to write; false: it has not yet.
 inline bool read_head(picture_told& picture) {
   std::fflush(nullptr);
-  for (const opened_file& file : opened_files::get().written) {
+  for (const auto& [name, place] : opened_files::get().written) {
     char text[4096] = {};  // other words may come first
-    FILE* in = reinterpret_cast<open_function>(dlsym(RTLD_NEXT, "fopen"))(file.place.c_str(), "r");
+    FILE* in = reinterpret_cast<open_function>(dlsym(RTLD_NEXT, "fopen"))(place.c_str(), "r");
     if (!in) continue;
     std::fread(text, 1, sizeof text - 1, in);
     std::fclose(in);

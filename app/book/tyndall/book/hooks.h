@@ -2,12 +2,12 @@
 #include "files.h"
 #include "values.h"
 
-#include <pthread.h>
-#include <time.h>
 #include <unistd.h>
 
-#include <cstdint>
-#include <new>
+#include <chrono>
+#include <mutex>
+#include <optional>
+#include <thread>
 
 /// The calls that `tyndall main.cc` inserts into the reader's functions, and what it learns by them before anything is
 /// taken over: how get_ray() and the loop around it name a place in the picture.
@@ -24,10 +24,9 @@ inline void send_bytes(const void* bytes, std::size_t size) {
     at += sent, size -= static_cast<std::size_t>(sent);
   }
 }
-/// Tells the caller, by a letter and a text, whose size is the count. F: a file that is missing, P: the picture, D: an
-/// object, E: why there is nothing to be shown.
+/// Tells the caller. F: a file that is missing, P: the picture, A: answers, E: why there is nothing to be shown.
 inline void tell(char kind, const std::string& text) {
-  const question head{double(kind), 0, double(text.size())};
+  const question head{double(kind), 0, 0, double(text.size())};
   send_bytes(&head, sizeof head), send_bytes(text.data(), text.size());
 }
 
@@ -89,9 +88,8 @@ struct session : picture_told {
 
 /// Only one of the reader's threads at a time; the one that takes over keeps it for good, and the others wait.
 struct one_thread {
-  inline static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
-  one_thread() { pthread_mutex_lock(&mutex); }
-  ~one_thread() { pthread_mutex_unlock(&mutex); }
+  inline static std::mutex mutex;
+  const std::lock_guard<std::mutex> lock{mutex};
 };
 
 /// Watches the first pixels of the reader's loop, whose rays get black at once, until it is known what it does.
@@ -102,11 +100,11 @@ class watcher {
   /// Whether all is known; called for each ray of the loop.
   static bool knows(session& s) {
     if (seen_.empty()) {
-      thread_ = pthread_self(), begin_ = seconds(), size_ = rays.size();
+      thread_ = std::this_thread::get_id(), begin_ = std::chrono::steady_clock::now(), size_ = rays.size();
       read_head(size_);
       rows_rise_ = !rays.by_pixels && rays.side(0, 1).y > 0;
     }
-    if (!pthread_equal(thread_, pthread_self())) return false;
+    if (thread_ != std::this_thread::get_id()) return false;
     seen_.push_back({rays.first, rays.second});
     static_cast<picture_told&>(s) = size_;
     s.rays = rays, s.by_pixels = rays.by_pixels;
@@ -121,10 +119,8 @@ class watcher {
   struct place {
     double first, second;
   };
-  static double seconds() {
-    timespec time{};
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+  static bool is_later(int seconds) {
+    return std::chrono::steady_clock::now() - begin_ > std::chrono::seconds(seconds);
   }
   static bool count_samples(session& s) {
     const auto column = [&](const place& at) {
@@ -132,12 +128,12 @@ class watcher {
     };
     const bool same = column(seen_.back()) == column(seen_.front());
     s.samples = double(seen_.size()) - (same ? 0 : 1);
-    return !same || seen_.size() >= 20000 || seconds() - begin_ > 2;
+    return !same || seen_.size() >= 20000 || is_later(2);
   }
   /// The size, by a whole row of the loop.
   static bool take_size(session& s) {
     if (seen_.size() < 2) return false;
-    if (seconds() - begin_ > 10) give_up("the size of the picture is not known");
+    if (is_later(10)) give_up("the size of the picture is not known");
     if (seen_.back().first > seen_[seen_.size() - 2].first - (rays.by_pixels ? 2 : 0.5)) return false;
     const std::size_t row = seen_.size() - 1;
     for (std::size_t samples = 1; samples <= row; ++samples) {
@@ -156,8 +152,8 @@ class watcher {
     give_up("the size of the picture is not known");
   }
 
-  inline static pthread_t thread_{};
-  inline static double begin_ = 0;
+  inline static std::thread::id thread_;
+  inline static std::chrono::steady_clock::time_point begin_;
   inline static bool rows_rise_ = false;  ///< rows go up in the world: the picture is turned when it is written
   inline static picture_told size_;
   inline static std::vector<place> seen_;
@@ -168,23 +164,22 @@ template <class C, class F, class A, class B>
 void ray_wanted(const C& camera, F call, A first, B second) {
   using ray = decltype(call(first, second));
   static const C* seen;
-  alignas(F) static unsigned char kept[sizeof(F)];
+  static std::optional<F> kept;
   const one_thread only;
-  seen = &camera;
-  new (kept) F(call);
+  seen = &camera, kept.emplace(call);
   ray_source& rays = watcher::rays;
   rays.first = double(first), rays.second = double(second);
   rays.by_pixels = std::is_integral<A>::value;
   rays.size = [] { return size_of(*seen); };
   rays.described = [] { return described_camera(*seen); };
   rays.make = [](double a, double b) -> const void* {
-    alignas(ray) static unsigned char memory[sizeof(ray)];
-    return new (memory) ray((*reinterpret_cast<F*>(kept))(static_cast<A>(a), static_cast<B>(b)));
+    static std::optional<ray> made;
+    return &made.emplace((*kept)(static_cast<A>(a), static_cast<B>(b)));
   };
   rays.side = [](int a, int b) {
     vector sum;  // a lens moves single rays
     for (int k = 0; k < 400; ++k) {
-      const ray one = (*reinterpret_cast<F*>(kept))(static_cast<A>(k % 2 * a), static_cast<B>(k % 2 * b));
+      const ray one = (*kept)(static_cast<A>(k % 2 * a), static_cast<B>(k % 2 * b));
       sum = sum + ((k % 2 * 2 - 1) / 200.0) * (ray_traits<ray>::origin(one) + ray_traits<ray>::direction(one));
     }
     return sum;
@@ -215,8 +210,8 @@ bool knows_rows(session& s, const R& ray) {
   corner = rows[0] - (0.5 * s.width) * right - 0.5 * down;
   s.rays.by_places = true;
   s.rays.make = [](double x, double y) -> const void* {
-    alignas(R) static unsigned char memory[sizeof(R)];
-    return new (memory) R(rays::make(origin, corner + x * right + y * down, 0));
+    static std::optional<R> made;
+    return &made.emplace(rays::make(origin, corner + x * right + y * down, 0));
   };
   return true;
 }

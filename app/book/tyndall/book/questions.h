@@ -2,17 +2,8 @@
 #include <cmath>
 
 /// What a reader's program is asked, and what it answers, as both sides write it. All are numbers, which go from one
-/// program to the other as they lie in memory.
+/// program to the other as they lie in memory. Whoever includes this has a vector: x, y and z.
 namespace tyndall_book {
-
-struct vector {
-  double x = 0, y = 0, z = 0;
-};
-inline vector operator+(vector a, vector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline vector operator-(vector a, vector b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline vector operator*(double s, vector a) { return {s * a.x, s * a.y, s * a.z}; }
-inline double dot(vector a, vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline double length(vector a) { return std::sqrt(dot(a, a)); }
 
 /// How the program's loop goes through the picture, and its world, as it tells before it is asked.
 struct picture_told {
@@ -25,11 +16,12 @@ struct picture_told {
   double is_float = 0;   ///< 1: its numbers are
 };
 
-/// Begins each question, and what is told without one: then count is the size of a text. Objects are named by their
-/// addresses, which are exact as numbers.
+/// Begins each question, each answer, and what is told without a question. Objects are named by their addresses, which
+/// are exact as numbers. s, m, t, k: the members of a shape, a material, a texture or the camera; see take.h.
 struct question {
   double letter = 0, object = 0;
-  double count = 1, different = 1;  ///< how many answers are wanted; after so many the questions begin again
+  double count = 0;  ///< how many answers are wanted, to questions that begin again behind the last one; 0: one each
+  double size = 0;   ///< of the bytes that follow
 };
 
 /// h: a ray that a shape is asked for, between two ends of t. One question can be put to many shapes.
@@ -42,19 +34,17 @@ struct shot_answer {
   vector normal;
 };
 /// x, e: where a ray that goes in the direction `to` meets a surface whose normal is y, from above (in front) or below.
+/// v: what a texture is asked for. Emitted light and textures answer by a colour.
 struct surface_point {
-  vector p{0.3, -0.2, 0.7}, to{0.8, -0.6, 0};
-  double front = 1, u = 0.37, v = 0.61;
+  vector p{0.3, -0.2, 0.7};
+  double u = 0.37, v = 0.61;
+  vector to{0.8, -0.6, 0};
+  double front = 1;
 };
-/// What scatter() answers to x; to e, emitted() answers by a colour.
+/// What scatter() answers to x.
 struct scatter_answer {
   double does = 0;
   vector part, to;
-};
-/// v: what a texture is asked for; it answers by a colour.
-struct texture_place {
-  double u = 0.5, v = 0.5;
-  vector p;
 };
 /// p, r: a place in the picture, in pixels from the upper left corner; what is its colour (p) or its ray.
 struct pixel_place {
@@ -67,8 +57,8 @@ struct ray_answer {
 };
 /// c: the colour of a ray that hits one material so often, then another so often, then nothing.
 struct light_question {
-  vector from{0, 1, 0}, to{0.6, -0.8, 0};
   double first = 0, firsts = 0, then = 0, thens = 0;
+  vector from{0, 1, 0}, to{0.6, -0.8, 0};
 };
 struct light_answer {
   vector colour;

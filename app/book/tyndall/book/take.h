@@ -6,25 +6,8 @@
 /// judges them.
 namespace tyndall_book {
 
-/// An object's members as text: a line each, with a letter, a name and numbers.
-struct member_lines {
-  std::string text;
-  void add(char letter, const char* name, std::initializer_list<double> numbers) {
-    text += letter, text += ' ', text += name;
-    for (const double number : numbers) {
-      char digits[40];
-      std::snprintf(digits, sizeof digits, " %.17g", number);
-      for (char& c : digits)
-        if (c == ',') c = '.';  // the program may be set to another language
-      text += digits;
-    }
-    text += '\n';
-  }
-  void add(char letter, const char* name, vector a) { add(letter, name, {a.x, a.y, a.z}); }
-  void add(char letter, const char* name, const void* address) { add(letter, name, {number_of(address)}); }
-};
-/// n: a number; v: a vector; r: a ray's origin and direction; s, m, t: addresses of shapes, a material, a texture. N
-/// names the reader's classes.
+/// An object's members as text: a line each, with a letter, a name and numbers. n: a number; v: a vector; r: a ray's
+/// origin and direction; s, m, t: addresses of shapes, a material, a texture. N names the reader's classes.
 template <class N>
 class description {
  public:
@@ -33,29 +16,45 @@ class description {
     description one;
     members<O>::each(object, [&](const char* name, char, const auto& member) { one.add(name, member); });
     for (int k = 0; one.array_ && k < one.count_; ++k) one.add("array", one.array_[k]);
-    return one.lines_.text;
+    return one.text_;
   }
 
  private:
   using shape = typename N::shape;
   using material = typename N::material;
   using texture = typename N::texture;
+  void add_line(char letter, const char* name, std::initializer_list<double> numbers) {
+    text_ += letter, text_ += ' ', text_ += name;
+    for (const double number : numbers) {
+      char digits[40];
+      std::snprintf(digits, sizeof digits, " %.17g", number);
+      for (char& c : digits)
+        if (c == ',') c = '.';  // the program may be set to another language
+      text_ += digits;
+    }
+    text_ += '\n';
+  }
+  template <class T, class M>
+  void add_address(char letter, const char* name, const M& member) {
+    add_line(letter, name, {number_of(static_cast<const T*>(pointer(member)))});
+  }
   template <class M>
   void add(const char* name, const M& member) {
     if constexpr (std::is_arithmetic<M>::value) {
       if (std::is_integral<M>::value && !std::is_same<M, bool>::value) count_ = static_cast<int>(member);
-      lines_.add('n', name, {double(member)});
+      add_line('n', name, {double(member)});
     } else if constexpr (std::is_same<M, typename N::ray>::value) {
       const vector a = ray_traits<M>::origin(member), b = ray_traits<M>::direction(member);
-      lines_.add('r', name, {a.x, a.y, a.z, b.x, b.y, b.z});
+      add_line('r', name, {a.x, a.y, a.z, b.x, b.y, b.z});
     } else if constexpr (leads_to<shape, const M>()) {
-      lines_.add('s', name, static_cast<const shape*>(pointer(member)));
+      add_address<shape>('s', name, member);
     } else if constexpr (leads_to<material, const M>()) {
-      lines_.add('m', name, static_cast<const material*>(pointer(member)));
+      add_address<material>('m', name, member);
     } else if constexpr (leads_to<texture, const M>()) {
-      lines_.add('t', name, static_cast<const texture*>(pointer(member)));
+      add_address<texture>('t', name, member);
     } else if constexpr (is_vector<const M>) {
-      lines_.add('v', name, to_vector(member));
+      const vector a = to_vector(member);
+      add_line('v', name, {a.x, a.y, a.z});
     } else if constexpr (TYNDALL_HAS(const M, *std::begin(o), std::end(o))) {
       add_all(name, member);
     } else if constexpr (std::is_convertible<M, const shape* const*>::value) {
@@ -66,12 +65,12 @@ class description {
   void add_all(const char* name, const M& list) {
     using part = decltype(*std::begin(list));
     int left = is_vector<part> ? 4 : leads_to<shape, part>() ? -1 : 0;
-    if (left < 0) lines_.add('s', name, std::initializer_list<double>());  // also an empty list is one
+    if (left < 0) add_line('s', name, {});  // also an empty list is one
     if constexpr (is_vector<part> || leads_to<shape, part>())
       for (auto at = std::begin(list); at != std::end(list) && left-- != 0; ++at) add(name, *at);
   }
 
-  member_lines lines_;
+  std::string text_;
   const shape* const* array_ = nullptr;
   int count_ = 0;
 };
@@ -95,18 +94,6 @@ void read_record(R& all, scatter_answer& one) {
     });
 }
 
-/// A line each: the class of an object, and the file that was read before it was made.
-inline std::string text_of_object(const std::type_info& type, const void* object) {
-  int failed = 0;
-  char* name = abi::__cxa_demangle(type.name(), nullptr, nullptr, &failed);
-  const std::string text = name ? name : type.name();
-  std::free(name);
-  std::string file;
-  for (const opened_file& one : opened_files::get().of_objects)
-    if (one.object == object) file = one.name;
-  return text + '\n' + file + '\n';
-}
-
 /// Answers of the reader's functions.
 template <class N>
 class replies {
@@ -118,12 +105,11 @@ class replies {
   using ray = typename N::ray;
   using rays = ray_traits<ray>;
 
-  /// k: the camera.
   static std::string described(const session& s, char kind, const void* object) {
     if (kind == 'k') return "\n\n" + (s.rays.described ? s.rays.described() : "");
-    if (kind == 's') return described_object(*static_cast<const shape*>(object));
-    if (kind == 'm') return described_object(*static_cast<const material*>(object));
-    return described_object(*static_cast<const texture*>(object));
+    if (kind == 's') return text_of(*static_cast<const shape*>(object));
+    if (kind == 'm') return text_of(*static_cast<const material*>(object));
+    return kind == 't' ? text_of(*static_cast<const texture*>(object)) : "";
   }
   static shot_answer hit(const session&, const void*, const shot& one) {
     record r{};
@@ -157,7 +143,7 @@ class replies {
     record r = record_at(at, its);
     return N::emitted(*its, rays::make(at.p - at.to, at.to, 0), r, at.u, at.v, make_vector<typename rays::part>(at.p));
   }
-  static vector value(const session&, const void* of, const texture_place& at) {
+  static vector value(const session&, const void* of, const surface_point& at) {
     return N::value(*static_cast<const texture*>(of), at.u, at.v, make_vector<typename rays::part>(at.p));
   }
   static ray_answer ray_at(const session& s, const void*, const pixel_place& at) {
@@ -178,21 +164,26 @@ class replies {
     return made;
   }
   static vector sky(const session& s, const void* of, const ray_answer& seen) {
-    return light(s, of, {seen.from, seen.to}).colour;
+    return light(s, of, {0, 0, 0, 0, seen.from, seen.to}).colour;
   }
 
  private:
+  /// A line each: the class of an object, and the file that was read before it was made; then its members.
   template <class O>
-  static std::string described_object(const O& object) {
-    return text_of_object(typeid(object), dynamic_cast<const void*>(&object)) + N::members_of(object);
+  static std::string text_of(const O& object) {
+    int failed = 0;
+    char* name = abi::__cxa_demangle(typeid(object).name(), nullptr, nullptr, &failed);
+    const std::string text = name ? name : typeid(object).name();
+    std::free(name);
+    const std::string& file = opened_files::get().of_objects[dynamic_cast<const void*>(&object)];
+    return text + '\n' + file + '\n' + N::members_of(object);
   }
   static bool answer(const void* met, double low, double high, void* into) {
     if (told_->hits == 0) told_->low = low, told_->high = high;
     if (told_->hits == 1) told_->second = rays::direction(*static_cast<const ray*>(met));
     if (told_->hits >= wanted_->firsts + wanted_->thens) return false;
     const double material_met = told_->hits++ < wanted_->firsts ? wanted_->first : wanted_->then;
-    *static_cast<record*>(into) =
-        record_at({{}, {}, 1, 0.37, 0.63}, static_cast<const material*>(address_of(material_met)));
+    *static_cast<record*>(into) = record_at({vector()}, static_cast<const material*>(address_of(material_met)));
     return true;
   }
   static record record_at(const surface_point& at, const material* of) {
@@ -235,78 +226,55 @@ inline void receive_bytes(void* to, std::size_t size) {
     at += got, size -= static_cast<std::size_t>(got);
   }
 }
-/// How a question is answered, and the bytes of both.
-struct reply {
-  char letter = 0;  ///< 0: there are no more
-  std::size_t in = 0, out = 0;
-  void (*make)(const session& s, const void* object, const void* in, void* out) = nullptr;
-};
-template <class Q, class A, A (*of)(const session&, const void*, const Q&)>
-constexpr reply reply_to(char letter) {
-  return {letter, sizeof(Q), sizeof(A), [](const session& s, const void* object, const void* in, void* out) {
-            new (out) A(of(s, object, *static_cast<const Q*>(in)));
-          }};
+template <class A>
+void add(std::string& answers, const A& one) {
+  answers.append(reinterpret_cast<const char*>(&one), sizeof one);
 }
-inline vector sample(const session& s, const void*, const pixel_place& at) { return s.colour(s.ray_at(at.x, at.y)); }
+/// A question that has come, and its answers.
+struct asked {
+  question head;
+  std::string given, answers;
+  char letter() const { return static_cast<char>(head.letter); }
 
-/// Answers for as long as questions come, by numbers that are none (NaN) where the reader's function throws. described:
-/// answers all other letters by texts, whose questions are addresses.
-[[noreturn]] inline void serve(const session& s, const reply* replies,
-                               std::string (*described)(const session&, char, const void*)) {
-  for (question query;;) {
-    receive_bytes(&query, sizeof query);
-    const void* object = address_of(query.object);
-    const reply* its = replies;
-    while (its->letter != 0 && its->letter != static_cast<char>(query.letter)) ++its;
-    if (its->letter == 0) {
-      std::string text;
-      for (double left = query.count; left > 0; --left) {
-        double address = 0;
-        receive_bytes(&address, sizeof address);
-        text += described(s, static_cast<char>(query.letter), address_of(address)) + '\f';
-      }
-      tell('D', text);
-      continue;
-    }
-    const auto count = static_cast<std::size_t>(query.count), different = static_cast<std::size_t>(query.different);
-    std::string given(different * its->in, 0), made(count * its->out, 0);
-    receive_bytes(&given[0], given.size());
+  /// Answers if it is the question of this letter; by numbers that are none (NaN) where the reader's function throws.
+  template <class A, class Q>
+  void answer(char of_letter, const session& s, A (*of)(const session&, const void*, const Q&)) {
+    if (letter() != of_letter) return;
+    const std::size_t different = given.size() / sizeof(Q);
+    const std::size_t count = head.count > 0 ? static_cast<std::size_t>(head.count) : different;
     for (std::size_t k = 0; k < count; ++k) try {
-        its->make(s, object, &given[k % different * its->in], &made[k * its->out]);
+        add(answers, of(s, address_of(head.object), reinterpret_cast<const Q*>(given.data())[k % different]));
       } catch (...) {
-        for (std::size_t n = 0; n < its->out; n += sizeof(double)) new (&made[k * its->out + n]) double(NAN);
+        for (std::size_t n = 0; n < sizeof(A); n += sizeof(double)) add(answers, double(NAN));
         replaced_world = nullptr;
       }
-    send_bytes(made.data(), made.size());
   }
+};
+inline vector sample(const session& s, const void*, const pixel_place& at) { return s.colour(s.ray_at(at.x, at.y)); }
+inline void answer_samples(const session& s, asked& one) { one.answer('p', s, sample); }
+template <class N>
+void answer(const session& s, asked& one) {
+  using its = replies<N>;
+  one.answer('h', s, its::hit), one.answer('x', s, its::scatter), one.answer('e', s, its::emitted);
+  one.answer('v', s, its::value), one.answer('r', s, its::ray_at), one.answer('c', s, its::light);
+  one.answer('y', s, its::sky), answer_samples(s, one);
+  one.answers += its::described(s, one.letter(), address_of(one.head.object));
 }
 
-inline void tell_picture(const picture_told& told) {
+/// Tells the picture, then answers for as long as questions come.
+[[noreturn]] inline void serve(const session& s, void (*answer)(const session&, asked&)) {
   for (const std::string& name : opened_files::get().missing)
     if (!name.empty()) tell('F', name);
+  const picture_told& told = s;
   tell('P', std::string(reinterpret_cast<const char*>(&told), sizeof told));
-}
-template <class N>
-[[noreturn]] void take_over_world(session& s) {
-  using its = replies<N>;
-  static constexpr reply all[] = {reply_to<shot, shot_answer, its::hit>('h'),
-                                  reply_to<surface_point, scatter_answer, its::scatter>('x'),
-                                  reply_to<surface_point, vector, its::emitted>('e'),
-                                  reply_to<texture_place, vector, its::value>('v'),
-                                  reply_to<pixel_place, ray_answer, its::ray_at>('r'),
-                                  reply_to<light_question, light_answer, its::light>('c'),
-                                  reply_to<ray_answer, vector, its::sky>('y'),
-                                  reply_to<pixel_place, vector, sample>('p'),
-                                  {}};
-  s.is_float = its::rays::is_float();
-  tell_picture(s);
-  serve(s, all, its::described);
-}
-[[noreturn]] inline void take_samples(session& s) {
-  static constexpr reply all[] = {reply_to<pixel_place, vector, sample>('p'), {}};
-  s.world = 0;
-  tell_picture(s);
-  serve(s, all, nullptr);
+  for (;;) {
+    asked one;
+    receive_bytes(&one.head, sizeof one.head);
+    one.given.resize(static_cast<std::size_t>(one.head.size));
+    receive_bytes(&one.given[0], one.given.size());
+    answer(s, one);
+    tell('A', one.answers);
+  }
 }
 
 }  // namespace tyndall_book

@@ -1,8 +1,7 @@
 #pragma once
-#include "questions.h"
-
 #include <cxxabi.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
@@ -11,6 +10,18 @@
 #include <typeinfo>
 #include <utility>
 #include <vector>
+
+namespace tyndall_book {
+struct vector {
+  double x = 0, y = 0, z = 0;
+};
+inline vector operator+(vector a, vector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline vector operator-(vector a, vector b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline vector operator*(double s, vector a) { return {s * a.x, s * a.y, s * a.z}; }
+inline double dot(vector a, vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline double length(vector a) { return std::sqrt(dot(a, a)); }
+}  // namespace tyndall_book
+#include "questions.h"
 
 /// Reading of objects whose classes are the reader's: this file is compiled before his code, as C++17.
 namespace tyndall_book {
