@@ -8,10 +8,11 @@ namespace tyndall {
 
 OwnProgram::OwnProgram(std::string name, ChildPlan plan, double seconds, std::function<bool()> go_on)
     : name_(std::move(name)), go_on_(std::move(go_on)) {
-  auto [mine, its] = Connection::pair();
+  auto [mine, its] = connected_pair();
   if (!mine) throw IoError(name_ + ": cannot be run: too many files are open");
   channel_ = std::move(mine);
-  plan.channel = its.descriptor(), plan.channel_variable = "TYNDALL_BOOK_CHANNEL";
+  plan.channel = its.descriptor();
+  plan.environment.push_back("TYNDALL_BOOK_CHANNEL=" + std::to_string(plan.channel));
   plan.seconds = 1e9;
   set_deadline(seconds);
   plan.go_on = [this] { return !stops_ && is_wanted(); };
@@ -44,15 +45,15 @@ bool OwnProgram::is_wanted() {
 std::optional<OwnProgram::Message> OwnProgram::next_message() {
   tyndall_book::question head;
   constexpr double largest = 300.0 * (1 << 20);  // more than any object's or picture's
-  if (!channel_.receive(&head, sizeof head) || !(head.count >= 0 && head.count <= largest)) return {};
+  if (!receive(channel_, &head, sizeof head) || !(head.count >= 0 && head.count <= largest)) return {};
   Message message{static_cast<char>(head.letter), std::string(static_cast<std::size_t>(head.count), 0)};
-  if (!channel_.receive(message.text.data(), message.text.size())) return {};
+  if (!receive(channel_, message.text.data(), message.text.size())) return {};
   return message;
 }
 
 void OwnProgram::send(const void* bytes, std::size_t size) {
   for (std::size_t done = 0; done < size;)
-    if (channel_.send(static_cast<const char*>(bytes), size, done) == Connection::Sent::closed)
+    if (send_some(channel_, static_cast<const char*>(bytes), size, done) == Sent::closed)
       throw IoError(name_ + ": the program has ended");
 }
 
@@ -61,7 +62,7 @@ void OwnProgram::exchange(const tyndall_book::question& head, const void* questi
   const std::lock_guard lock(mutex_);
   send(&head, sizeof head), send(question, question_size);
   constexpr int longest = 20000;
-  if (channel_.receive(answer, answer_size, longest)) return;
+  if (receive(channel_, answer, answer_size, longest)) return;
   stops_ = true;  // it has ended, or hangs
   throw IoError(name_ + ": the program has ended, or needs more than 20 s for a sample");
 }

@@ -60,7 +60,7 @@ class OwnProgram {
   void exchange(const tyndall_book::question& head, const void* question, std::size_t question_size, void* answer,
                 std::size_t answer_size);
 
-  Connection channel_;
+  OpenFile channel_;
   std::string name_;
   std::chrono::steady_clock::time_point deadline_;
   std::atomic<bool> stops_ = false;
