@@ -144,21 +144,11 @@ class CallFilter {
   }
   /// Allows the call only with one of these values of the argument.
   void allow_only(long call, int argument, std::initializer_list<std::uint32_t> values) {
-    const auto count = static_cast<std::uint8_t>(values.size());
-    begin_argument(call, argument, ~0U, static_cast<std::uint8_t>(count + 4));
-    std::uint8_t left = count;
-    for (const std::uint32_t value : values) add(BPF_JMP | BPF_JEQ | BPF_K, value, left--, 0);
-    fail(EPERM);
-    load(offsetof(seccomp_data, nr));
+    test_argument(call, argument, ~0U, values, true);
   }
   /// Refuses the call where the masked argument has one of these values.
   void refuse_values(long call, int argument, std::uint32_t mask, std::initializer_list<std::uint32_t> values) {
-    begin_argument(call, argument, mask, static_cast<std::uint8_t>(2 * values.size() + 3));
-    for (const std::uint32_t value : values) {
-      add(BPF_JMP | BPF_JEQ | BPF_K, value, 0, 1);
-      fail(EPERM);
-    }
-    load(offsetof(seccomp_data, nr));
+    test_argument(call, argument, mask, values, false);
   }
   /// From here on in force; all else is allowed.
   bool install() {
@@ -173,11 +163,17 @@ class CallFilter {
   }
   void load(std::size_t offset) { add(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset), 0, 0); }
   void fail(std::uint32_t error) { add(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | error, 0, 0); }
-  /// Skips so many instructions for other calls; else loads the lower half of the argument.
-  void begin_argument(long call, int argument, std::uint32_t mask, std::uint8_t length) {
-    add(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(call), 0, length);
+  /// Takes the lower half of the argument; the values lead beyond the refusal, or to it.
+  void test_argument(long call, int argument, std::uint32_t mask, std::initializer_list<std::uint32_t> values,
+                     bool allows) {
+    auto left = static_cast<std::uint8_t>(values.size());
+    add(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(call), 0, static_cast<std::uint8_t>(left + 5 - allows));
     load(offsetof(seccomp_data, args) + 8 * static_cast<std::size_t>(argument));
     add(BPF_ALU | BPF_AND | BPF_K, mask, 0, 0);
+    for (const std::uint32_t value : values) add(BPF_JMP | BPF_JEQ | BPF_K, value, left--, 0);
+    if (!allows) add(BPF_JMP | BPF_JA, 1, 0, 0);
+    fail(EPERM);
+    load(offsetof(seccomp_data, nr));
   }
 
   sock_filter code_[320];
@@ -290,10 +286,6 @@ const GuardLayers& available_guard() {
   static const GuardLayers none;
   return none;
 }
-
-Guard::Guard(const GuardLayers& layers, std::string) : layers_(layers) {}
-int Guard::enter_namespaces(int&) const { return 0; }
-int Guard::restrict_self() const { return 0; }
 
 #endif
 
