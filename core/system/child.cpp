@@ -58,12 +58,10 @@ std::vector<std::string> with(const std::vector<std::string>& additions) {
 
 /// What the new process needs, made before it begins: there only functions that are safe in handlers may be called.
 struct ProcessStart {
-  explicit ProcessStart(const ChildPlan& p)
-      : plan(p), guard(p.guard, p.own_folder.string()), command(p.command), environment(with(p.environment)) {
+  explicit ProcessStart(const ChildPlan& p) : plan(p), command(p.command), environment(with(p.environment)) {
     arguments = pointers(command), variables = pointers(environment);
   }
   const ChildPlan& plan;
-  Guard guard;
   std::vector<std::string> command, environment;
   std::vector<char*> arguments, variables;
   Pipe input, errors, report;
@@ -110,7 +108,7 @@ void report(const ProcessStart& start, int number) { start.report.to.write(&numb
   int error = EPERM;
   if (chdir(plan.folder.c_str()) != 0) {
     error = errno;
-  } else if (start.guard.restrict_self() == 0) {
+  } else if (restrict_self(plan.guard, plan.own_folder.c_str()) == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     environ = const_cast<char**>(start.variables.data());
     execvp(start.arguments[0], start.arguments.data());
@@ -147,7 +145,8 @@ int wait_for(pid_t program, const sigset_t& watched) {
   const sigset_t watched = hold_back({SIGTERM, SIGCHLD});
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   int life = -1;
-  if (getppid() != parent || start.guard.enter_namespaces(life) != 0) report(start, -EPERM), _exit(127);
+  if (getppid() != parent || enter_namespaces(start.plan.guard, start.plan.own_folder.c_str(), life) != 0)
+    report(start, -EPERM), _exit(127);
   const pid_t program = fork();
   if (program == 0) become(start);
   report(start, program > 0 ? program : -errno);
