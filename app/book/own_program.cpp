@@ -8,11 +8,12 @@ namespace tyndall {
 
 OwnProgram::OwnProgram(std::string name, ChildPlan plan, double seconds, std::function<bool()> go_on)
     : name_(std::move(name)) {
-  auto [mine, its] = Connection::pair();
+  auto [mine, its] = connected_pair();
   if (!mine) throw IoError(name_ + ": cannot be run: too many files are open");
   channel_ = std::move(mine);
   let_run(seconds, std::move(go_on));
-  plan.channel = its.descriptor(), plan.channel_variable = "TYNDALL_BOOK_CHANNEL";
+  plan.channel = its.descriptor();
+  plan.environment.push_back("TYNDALL_BOOK_CHANNEL=" + std::to_string(plan.channel));
   plan.seconds = 1e9;
   plan.go_on = [this] {
     const std::lock_guard lock(wanted_mutex_);
@@ -36,9 +37,9 @@ void OwnProgram::let_run(double seconds, std::function<bool()> go_on) {
 std::optional<OwnProgram::Message> OwnProgram::next_message(int milliseconds) {
   tyndall_book::question head;
   constexpr double largest = 300.0 * (1 << 20);  // more than any object's or picture's
-  if (!channel_.receive(&head, sizeof head, milliseconds) || !(head.size >= 0 && head.size <= largest)) return {};
+  if (!receive(channel_, &head, sizeof head, milliseconds) || !(head.size >= 0 && head.size <= largest)) return {};
   Message message{static_cast<char>(head.letter), std::string(static_cast<std::size_t>(head.size), 0)};
-  if (!channel_.receive(message.text.data(), message.text.size(), milliseconds)) return {};
+  if (!receive(channel_, message.text.data(), message.text.size(), milliseconds)) return {};
   return message;
 }
 
@@ -51,7 +52,7 @@ std::string OwnProgram::exchange(const tyndall_book::question& head, const void*
   std::string bytes(reinterpret_cast<const char*>(&head), sizeof head);
   bytes.append(static_cast<const char*>(questions), static_cast<std::size_t>(head.size));
   for (std::size_t done = 0; done < bytes.size();)
-    if (channel_.send(bytes.data(), bytes.size(), done) == Connection::Sent::closed)
+    if (send_some(channel_, bytes.data(), bytes.size(), done) == Sent::closed)
       throw IoError(name_ + ": the program has ended");
   constexpr int longest = 20000;
   std::optional<Message> message = next_message(longest);

@@ -70,7 +70,7 @@ class OwnProgram {
   [[noreturn]] void fail() const;
   std::string exchange(const tyndall_book::question& head, const void* questions);
 
-  Connection channel_;
+  OpenFile channel_;
   std::string name_;
   std::atomic<bool> stops_ = false;
   Mutex wanted_mutex_;

@@ -74,7 +74,7 @@ struct ViewerStream::Shared {
 
   mutable Mutex mutex;
   Condition changed;
-  std::optional<Connection> viewer{};
+  OpenFile viewer{};
   // Guarded by the mutex:
   enum class State { connecting, idle, sending, ended } state = State::connecting;
   bool stop = false;
@@ -84,7 +84,7 @@ struct ViewerStream::Shared {
   bool connect();
   bool send(Packet packet);
   bool send_frame(const ViewerFrame& frame);
-  bool goes_on(Connection::Sent sent);
+  bool goes_on(Sent sent);
   /// The end, of which the caller is told unless it has asked for it.
   bool fail(const std::string& why) {
     const std::lock_guard lock(mutex);
@@ -101,20 +101,20 @@ struct ViewerStream::Shared {
 };
 
 /// Whether to send further.
-bool ViewerStream::Shared::goes_on(Connection::Sent sent) {
+bool ViewerStream::Shared::goes_on(Sent sent) {
   std::unique_lock lock(mutex);
   if (stop) return false;
-  if (sent == Connection::Sent::some) taken = Clock::now();
+  if (sent == Sent::some) taken = Clock::now();
   const bool silent = Clock::now() - taken > silence;
   lock.unlock();
-  if (sent == Connection::Sent::closed) return fail(closed);
+  if (sent == Sent::closed) return fail(closed);
   return !silent || fail("the viewer has taken nothing for 10 s");
 }
 
 bool ViewerStream::Shared::send(Packet packet) {
   const std::string& bytes = packet.finished();
   for (std::size_t done = 0; done < bytes.size();)
-    if (!goes_on(viewer->send(bytes.data(), bytes.size(), done))) return false;
+    if (!goes_on(send_some(viewer, bytes.data(), bytes.size(), done))) return false;
   return true;
 }
 
@@ -124,7 +124,7 @@ bool ViewerStream::Shared::connect() {
     const std::lock_guard lock(mutex);
     return !stop;
   };
-  viewer = Connection::to(address.host, address.port, waits, why);
+  viewer = connect_to(address.host, address.port, waits, why);
   if (!viewer) return !why.empty() && fail(why);
   set(State::sending);
   Packet create(PacketType::create_image, name);
@@ -175,7 +175,7 @@ bool ViewerStream::ready() const {
     const std::lock_guard lock(shared_->mutex);
     if (shared_->state != Shared::State::idle) return false;
   }
-  return !shared_->viewer->is_closed_by_other() || shared_->fail(closed);
+  return !is_closed_by_other(shared_->viewer) || shared_->fail(closed);
 }
 
 void ViewerStream::send(ViewerFrame frame) {
@@ -209,18 +209,14 @@ std::optional<std::string> ViewerStream::problem() {
 }
 
 ViewerAddress read_viewer_address(const std::string& text) {
-  const bool bracket = text.starts_with('[');
-  const std::size_t colon = text.find(':');
-  std::size_t end = text.size();
-  if (bracket)
-    end = std::min(end, text.find(']'));
-  else if (colon == text.rfind(':'))  // with more of them it is an IPv6 address
-    end = std::min(end, colon);
-  ViewerAddress address{text.substr(bracket ? 1 : 0, bracket ? end - 1 : end), usual_viewer_port};
-  const std::string rest = bracket ? text.substr(std::min(end + 1, text.size())) : text.substr(end);
+  const std::size_t bracket = text.starts_with('[') ? 1 : 0;
+  const bool is_whole = bracket == 0 && text.find(':') != text.rfind(':');  // an IPv6 address without a port
+  const std::size_t end = is_whole ? text.size() : std::min(text.size(), text.find(bracket > 0 ? ']' : ':'));
+  ViewerAddress address{text.substr(bracket, end - bracket), usual_viewer_port};
+  const std::string rest = text.substr(std::min(end + bracket, text.size()));
   if (!rest.empty()) address.port = rest.substr(1);
   double port = 0;
-  const bool right = (rest.empty() || rest[0] == ':') && (!bracket || end < text.size()) &&
+  const bool right = (rest.empty() || rest[0] == ':') && (bracket == 0 || end < text.size()) &&
                      address.port.find_first_not_of("0123456789") == rest.npos &&
                      number_from_text(address.port, port) && port >= 1 && port <= 65535;
   if (!right || address.host.empty() || address.host.find('\0') != rest.npos)

@@ -25,6 +25,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 
 #ifdef __SSE2__
 #include <xmmintrin.h>
@@ -52,11 +53,7 @@ bool flushes_to_zero() {
 /// which the window system sets.
 class Host {
  public:
-  using Function = void (*)(void* user, double x, double y, std::uint64_t sample, double rgb[3]);
-
-  /// The program's function, and its first argument.
-  Host(Function called, void* argument)
-      : called_(called), argument_(argument), differs_(std::fegetround() != FE_TONEAREST || flushes_to_zero()) {
+  Host() : differs_(std::fegetround() != FE_TONEAREST || flushes_to_zero()) {
     const char* name = std::setlocale(LC_CTYPE, nullptr);
     character_type_ = name ? name : "C";
     std::fegetenv(&arithmetic_);
@@ -69,22 +66,19 @@ class Host {
   Host(const Host&) = delete;
   Host& operator=(const Host&) = delete;
 
-  /// What calls the program's function with the program's own arithmetic, and its first argument. From any thread.
-  Function function() const { return differs_ ? call_in_its_arithmetic : called_; }
-  void* user() { return differs_ ? this : argument_; }
-
- private:
-  static void call_in_its_arithmetic(void* user, double x, double y, std::uint64_t sample, double rgb[3]) {
-    struct Back {
-      ~Back() { std::fesetenv(FE_DFL_ENV); }
-    } back;
-    const Host& host = *static_cast<const Host*>(user);
-    std::fesetenv(&host.arithmetic_);
-    host.called_(host.argument_, x, y, sample, rgb);
+  /// Calls the program's function with the program's own arithmetic. From any thread.
+  WatchedFunction::Function in_its_arithmetic(WatchedFunction::Function called) const {
+    if (!differs_) return called;
+    return [this, called = std::move(called)](double x, double y, std::uint64_t sample, double rgb[3]) {
+      struct Back {
+        ~Back() { std::fesetenv(FE_DFL_ENV); }
+      } back;
+      std::fesetenv(&arithmetic_);
+      called(x, y, sample, rgb);
+    };
   }
 
-  Function called_;
-  void* argument_;
+ private:
   bool differs_;  ///< in arithmetic
   std::fenv_t arithmetic_{};
   std::string character_type_;
@@ -115,12 +109,10 @@ void check(int width, int height, bool has_function, const tyndall_watch_options
 }
 
 /// What the caller wants. The scene has the picture's size and the settings of its samples, and no objects.
-WindowOptions order_of(int width, int height, const tyndall_watch_options& options, Host& host) {
+WindowOptions order_of(int width, int height, const tyndall_watch_options& options,
+                       WatchedFunction::Function function) {
   WindowOptions order;
-  order.function = std::make_shared<WatchedFunction>(
-      [called = host.function(), user = host.user()](double x, double y, std::uint64_t sample, double rgb[3]) {
-        called(user, x, y, sample, rgb);
-      });
+  order.function = std::make_shared<WatchedFunction>(std::move(function));
   order.threads = std::max(options.threads, 1);
   order.hosted = true;
   order.scene.name = options.title && *options.title ? options.title : "watch";
@@ -204,8 +196,11 @@ void show_window([[maybe_unused]] WindowOptions& order, [[maybe_unused]] const s
 int run(int width, int height, tyndall_watch_function function, void* user, const tyndall_watch_options* given) {
   const tyndall_watch_options options = whole(given);
   check(width, height, function != nullptr, options);
-  Host host(function, user);
-  WindowOptions order = order_of(width, height, options, host);
+  const Host host;
+  WindowOptions order = order_of(width, height, options,
+                                 host.in_its_arithmetic([=](double x, double y, std::uint64_t sample, double rgb[3]) {
+                                   function(user, x, y, sample, rgb);
+                                 }));
   const std::string output = text(options.output), reference = text(options.reference);
   if (output.empty())
     show_window(order, reference);

@@ -2,24 +2,22 @@
 
 #include "core/system/open_file.h"
 
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <fcntl.h>
 #include <unistd.h>
-#ifdef __linux__
-#include <sys/prctl.h>
-#endif
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <initializer_list>
-#include <iterator>
+#include <string_view>
 #include <utility>
 
 extern char** environ;
@@ -33,10 +31,8 @@ using Clock = std::chrono::steady_clock;
 struct Pipe {
   Pipe() {
     int ends[2];
-    error = pipe(ends) == 0 ? 0 : errno;
-    if (error != 0) return;
-    for (const int end : ends) fcntl(end, F_SETFD, FD_CLOEXEC);
-    from = OpenFile(ends[0]), to = OpenFile(ends[1]);
+    error = pipe2(ends, O_CLOEXEC) == 0 ? 0 : errno;
+    if (error == 0) from = OpenFile(ends[0]), to = OpenFile(ends[1]);
   }
   OpenFile from, to;
   int error;
@@ -53,25 +49,19 @@ std::vector<char*> pointers(std::vector<std::string>& arguments) {
 std::vector<std::string> with(const std::vector<std::string>& additions) {
   std::vector<std::string> all = additions;
   for (char** one = environ; *one; ++one) {
-    const std::string variable = *one;
-    const std::string name = variable.substr(0, variable.find('=') + 1);
-    bool replaced = false;
-    for (const std::string& addition : additions) replaced = replaced || addition.rfind(name, 0) == 0;
-    if (!replaced) all.push_back(variable);
+    const std::string_view variable = *one, name = variable.substr(0, variable.find('=') + 1);
+    const auto replaces = [name](const std::string& addition) { return addition.starts_with(name); };
+    if (std::none_of(additions.begin(), additions.end(), replaces)) all.emplace_back(variable);
   }
   return all;
 }
 
 /// What the new process needs, made before it begins: there only functions that are safe in handlers may be called.
 struct ProcessStart {
-  explicit ProcessStart(const ChildPlan& p) : plan(p), guard(p.guard, p.own_folder.string()), command(p.command) {
-    std::vector<std::string> additions = p.environment;
-    if (p.channel >= 0) additions.push_back(p.channel_variable + "=" + std::to_string(p.channel));
-    environment = with(additions);
+  explicit ProcessStart(const ChildPlan& p) : plan(p), command(p.command), environment(with(p.environment)) {
     arguments = pointers(command), variables = pointers(environment);
   }
   const ChildPlan& plan;
-  Guard guard;
   std::vector<std::string> command, environment;
   std::vector<char*> arguments, variables;
   Pipe input, errors, report;
@@ -86,25 +76,15 @@ sigset_t hold_back(std::initializer_list<int> signals) {
   return set;
 }
 
-void die_with_parent(int signal) {
-#ifdef __linux__
-  prctl(PR_SET_PDEATHSIG, signal);
-#endif
-}
-
-/// Closes all but the standard streams and the ends of pipes that are needed; those of other children would not end.
-void close_others(const ProcessStart& start) {
-#ifdef __linux__
-  int kept[] = {start.input.from.descriptor(), start.errors.to.descriptor(), start.plan.channel,
-                start.report.to.descriptor()};
-  std::sort(std::begin(kept), std::end(kept));
+/// Closes all but the standard streams and these; the ends of other children's pipes would not end. -1: none.
+void close_all_but(std::array<int, 4> kept) {
+  std::sort(kept.begin(), kept.end());
   int from = 3;
   for (const int end : kept) {
     if (end > from) syscall(SYS_close_range, from, end - 1, 0);
     from = std::max(from, end + 1);
   }
   syscall(SYS_close_range, from, ~0U, 0);
-#endif
 }
 
 /// Tells run_child() the number of the program's process, or that of an error, negative.
@@ -128,8 +108,8 @@ void report(const ProcessStart& start, int number) { start.report.to.write(&numb
   int error = EPERM;
   if (chdir(plan.folder.c_str()) != 0) {
     error = errno;
-  } else if (start.guard.restrict_self() == 0) {
-    die_with_parent(SIGKILL);
+  } else if (restrict_self(plan.guard, plan.own_folder.c_str()) == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
     environ = const_cast<char**>(start.variables.data());
     execvp(start.arguments[0], start.arguments.data());
     error = errno;
@@ -156,21 +136,21 @@ int wait_for(pid_t program, const sigset_t& watched) {
 /// The new process starts the program, and ends as the program does, after all that the program has started. It ends
 /// it on SIGTERM, which it also gets when its parent dies.
 [[noreturn]] void supervise(const ProcessStart& start, pid_t parent) {
-  close_others(start);
+  close_all_but(
+      {start.input.from.descriptor(), start.errors.to.descriptor(), start.plan.channel, start.report.to.descriptor()});
   setsid();
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
   for (const int number : {SIGTERM, SIGCHLD}) std::signal(number, SIG_DFL);
   const sigset_t watched = hold_back({SIGTERM, SIGCHLD});
-  die_with_parent(SIGTERM);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
   int life = -1;
-  if (getppid() != parent || start.guard.enter_namespaces(life) != 0) report(start, -EPERM), _exit(127);
+  if (getppid() != parent || enter_namespaces(start.plan.guard, start.plan.own_folder.c_str(), life) != 0)
+    report(start, -EPERM), _exit(127);
   const pid_t program = fork();
   if (program == 0) become(start);
   report(start, program > 0 ? program : -errno);
-  for (const int end :
-       {start.input.from.descriptor(), start.errors.to.descriptor(), start.plan.channel, start.report.to.descriptor()})
-    close(end);
+  close_all_but({life, -1, -1, -1});
   const int status = program > 0 ? wait_for(program, watched) : 0;
   close(life);
   while (life >= 0 && waitpid(-1, nullptr, 0) > 0) {  // the namespaces' first process ends last

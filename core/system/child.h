@@ -14,7 +14,6 @@ struct ChildPlan {
   std::filesystem::path folder;          ///< where it runs
   std::vector<std::string> environment;  ///< "NAME=VALUE", in addition to this program's own
   int channel = -1;                      ///< a descriptor of this process's that it gets, too; -1: none
-  std::string channel_variable;          ///< the variable that tells it the channel's number
   double seconds = 60;                   ///< after which it is ended
   std::size_t max_errors = 65536;        ///< bytes of its standard error that are kept
   bool keep_last_errors = false;         ///< the last bytes, else the first

@@ -1,19 +1,12 @@
 #include "core/system/connection.h"
 
 #include <sys/socket.h>
-#include <fcntl.h>
 #include <netdb.h>
 #include <poll.h>
 
 #include <cerrno>
 #include <chrono>
 #include <memory>
-
-#ifndef SOCK_CLOEXEC  // macOS says these things by further calls
-#define SOCK_CLOEXEC 0
-#define SOCK_NONBLOCK 0
-#define MSG_NOSIGNAL 0
-#endif
 
 namespace tyndall {
 namespace {
@@ -31,16 +24,10 @@ bool takes_bytes(int socket) {
   return poll(&watched, 1, moment) > 0;
 }
 
-OpenFile connect_to(const addrinfo& to, const std::function<bool()>& go_on, std::string& why) {
+OpenFile connect_at(const addrinfo& to, const std::function<bool()>& go_on, std::string& why) {
   OpenFile made(socket(to.ai_family, to.ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, to.ai_protocol));
   int error = 0, buffer = send_buffer;
   setsockopt(made.descriptor(), SOL_SOCKET, SO_SNDBUF, &buffer, sizeof buffer);
-#ifdef SO_NOSIGPIPE
-  const int yes = 1;
-  setsockopt(made.descriptor(), SOL_SOCKET, SO_NOSIGPIPE, &yes, sizeof yes);
-  fcntl(made.descriptor(), F_SETFL, O_NONBLOCK);
-  fcntl(made.descriptor(), F_SETFD, FD_CLOEXEC);
-#endif
   if (!made || (connect(made.descriptor(), to.ai_addr, to.ai_addrlen) != 0 && errno != EINPROGRESS)) {
     why = error_text(errno);
     return {};
@@ -59,45 +46,46 @@ OpenFile connect_to(const addrinfo& to, const std::function<bool()>& go_on, std:
 
 }  // namespace
 
-std::optional<Connection> Connection::to(const std::string& host, const std::string& port,
-                                         const std::function<bool()>& go_on, std::string& why) {
+OpenFile connect_to(const std::string& host, const std::string& port, const std::function<bool()>& go_on,
+                    std::string& why) {
   addrinfo hints{}, *first = nullptr;
   hints.ai_family = AF_UNSPEC, hints.ai_socktype = SOCK_STREAM;
-  const int error = getaddrinfo(host.c_str(), port.c_str(), &hints, &first);
-  if (error != 0) why = gai_strerror(error);
-  const std::unique_ptr<addrinfo, void (*)(addrinfo*)> list(error == 0 ? first : nullptr, [](addrinfo* addresses) {
-    if (addresses) freeaddrinfo(addresses);
-  });
-  for (const addrinfo* address = list.get(); address && go_on(); address = address->ai_next)
-    if (OpenFile socket = connect_to(*address, go_on, why)) return Connection(std::move(socket));
-  return {};
+  if (const int error = getaddrinfo(host.c_str(), port.c_str(), &hints, &first); error != 0) {
+    why = gai_strerror(error);
+    return {};
+  }
+  const std::unique_ptr<addrinfo, void (*)(addrinfo*)> list(first, freeaddrinfo);
+  OpenFile made;
+  for (const addrinfo* address = first; address && !made && go_on(); address = address->ai_next)
+    made = connect_at(*address, go_on, why);
+  return made;
 }
 
-std::pair<Connection, Connection> Connection::pair() {
+std::pair<OpenFile, OpenFile> connected_pair() {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return {};
-  return {Connection(OpenFile(ends[0])), Connection(OpenFile(ends[1]))};
+  return {OpenFile(ends[0]), OpenFile(ends[1])};
 }
 
-Connection::Sent Connection::send(const char* bytes, std::size_t size, std::size_t& done) const {
-  const ssize_t sent = ::send(descriptor(), bytes + done, size - done, MSG_NOSIGNAL);
+Sent send_some(const OpenFile& to, const char* bytes, std::size_t size, std::size_t& done) {
+  const ssize_t sent = send(to.descriptor(), bytes + done, size - done, MSG_NOSIGNAL);
   if (sent > 0) done += static_cast<std::size_t>(sent);
   if (sent > 0) return Sent::some;
   if (sent < 0 && !is_for_now(errno)) return Sent::closed;
-  takes_bytes(descriptor());
+  takes_bytes(to.descriptor());
   return Sent::none;
 }
 
-bool Connection::is_closed_by_other() const {
+bool is_closed_by_other(const OpenFile& connection) {
   char ignored[256];
-  const ssize_t got = recv(descriptor(), ignored, sizeof ignored, MSG_DONTWAIT);
+  const ssize_t got = recv(connection.descriptor(), ignored, sizeof ignored, MSG_DONTWAIT);
   return got == 0 || (got < 0 && !is_for_now(errno));
 }
 
-bool Connection::receive(void* to, std::size_t size, int milliseconds) const {
+bool receive(const OpenFile& from, void* to, std::size_t size, int milliseconds) {
   for (char* at = static_cast<char*>(to); size > 0;) {
-    if (milliseconds > 0 && !has_bytes(descriptor(), milliseconds)) return false;
-    const ssize_t got = recv(descriptor(), at, size, 0);
+    if (milliseconds > 0 && !has_bytes(from.descriptor(), milliseconds)) return false;
+    const ssize_t got = recv(from.descriptor(), at, size, 0);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return false;
     at += got, size -= static_cast<std::size_t>(got);

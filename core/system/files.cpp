@@ -4,10 +4,8 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <unistd.h>
-#if defined(__GLIBC__) || defined(__APPLE__)
-#include <dlfcn.h>
-#endif
 #ifdef __GLIBC__
+#include <dlfcn.h>
 #include <link.h>
 #endif
 
@@ -21,10 +19,6 @@ namespace tyndall {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct FolderCloser {
-  void operator()(DIR* folder) const { closedir(folder); }
-};
 
 /// Whether files may be renamed and removed that only their owner or that of a sticky folder may. user: of the file. A
 /// process that is privileged among some users only sees the others as one that nobody is.
@@ -42,7 +36,8 @@ bool overrides_owner(unsigned user) {
 
 std::vector<std::string> names_in_folder(const fs::path& folder) {
   std::vector<std::string> names;
-  const std::unique_ptr<DIR, FolderCloser> entries(opendir(folder.c_str()));
+  const auto close = [](DIR* open) { closedir(open); };
+  const std::unique_ptr<DIR, decltype(close)> entries(opendir(folder.c_str()), close);
   for (const dirent* entry = nullptr; entries && (entry = readdir(entries.get())) != nullptr;)
     names.emplace_back(entry->d_name);
   return names;
@@ -78,18 +73,13 @@ std::string problem_of_name(const fs::path&) { return ""; }
 FileTrace trace_of(const fs::path& file) {
   struct stat s {};
   if (stat(file.c_str(), &s) != 0) return {};
-#ifdef __APPLE__
-  const timespec changed = s.st_mtimespec, altered = s.st_ctimespec;
-#else
-  const timespec changed = s.st_mtim, altered = s.st_ctim;
-#endif
   return {static_cast<std::int64_t>(s.st_dev),
           static_cast<std::int64_t>(s.st_ino),
           s.st_size,
-          changed.tv_sec,
-          changed.tv_nsec,
-          altered.tv_sec,
-          altered.tv_nsec};
+          s.st_mtim.tv_sec,
+          s.st_mtim.tv_nsec,
+          s.st_ctim.tv_sec,
+          s.st_ctim.tv_nsec};
 }
 
 fs::path own_file() {
@@ -101,9 +91,6 @@ fs::path own_file() {
     const char* library = static_cast<const link_map*>(map)->l_name;  // "" of the program itself
     if (library && *library) return fs::canonical(library, error);
   }
-#elif defined(__APPLE__)
-  Dl_info found{};
-  if (dladdr(reinterpret_cast<void*>(&own_file), &found) != 0) return fs::canonical(found.dli_fname, error);
 #endif
   return fs::read_symlink("/proc/self/exe", error);
 }
@@ -120,12 +107,8 @@ fs::path folder_of_user(const std::string& below_home) {
 }
 
 bool is_open_file(const fs::path& link) {
-#ifdef __linux__
   std::error_code error;
   return fs::canonical(link.has_parent_path() ? link.parent_path() : ".", error).string().starts_with("/proc/");
-#else
-  return link.string().starts_with("/dev/");
-#endif
 }
 
 std::string protection_of([[maybe_unused]] const fs::path& file) {

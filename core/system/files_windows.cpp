@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <thread>
 
 namespace tyndall {
@@ -72,16 +73,11 @@ std::FILE* open_stream(const fs::path& file, const char* mode) {
 std::vector<std::string> names_in_folder(const fs::path& folder) {
   std::vector<std::string> names;
   WIN32_FIND_DATAW found{};
-  const HANDLE search = FindFirstFileW((folder / L"*").c_str(), &found);
-  if (search == INVALID_HANDLE_VALUE) return names;
-  try {
-    do names.push_back(utf8_of(found.cFileName));
-    while (FindNextFileW(search, &found));
-  } catch (...) {
-    FindClose(search);
-    throw;
-  }
-  FindClose(search);
+  const auto close = [](void* search) { FindClose(search); };
+  const std::unique_ptr<void, decltype(close)> search(FindFirstFileW((folder / L"*").c_str(), &found), close);
+  if (search.get() == INVALID_HANDLE_VALUE) return names;
+  do names.push_back(utf8_of(found.cFileName));
+  while (FindNextFileW(search.get(), &found));
   return names;
 }
 

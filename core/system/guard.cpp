@@ -1,7 +1,5 @@
 #include "core/system/guard.h"
 
-#include <utility>
-
 #ifdef __linux__
 #include <linux/audit.h>
 #include <linux/capability.h>
@@ -18,6 +16,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
@@ -46,6 +45,16 @@ bool write_line(const char* file, const char* text) {
   const bool written = write(out, text, size) == static_cast<ssize_t>(size);
   close(out);
   return written;
+}
+
+/// Maps a user or a group to itself, by a file of /proc.
+bool map_to_itself(const char* file, unsigned id) {
+  char text[32];
+  char* end = std::to_chars(text, text + 10, id).ptr;
+  *end++ = ' ';
+  end = std::to_chars(end, end + 10, id).ptr;
+  std::strcpy(end, " 1\n");
+  return write_line(file, text);
 }
 
 struct MountAttributes {  // as mount_setattr(2) has them; the headers of the system and of the kernel collide
@@ -144,21 +153,11 @@ class CallFilter {
   }
   /// Allows the call only with one of these values of the argument.
   void allow_only(long call, int argument, std::initializer_list<std::uint32_t> values) {
-    const auto count = static_cast<std::uint8_t>(values.size());
-    begin_argument(call, argument, ~0U, static_cast<std::uint8_t>(count + 4));
-    std::uint8_t left = count;
-    for (const std::uint32_t value : values) add(BPF_JMP | BPF_JEQ | BPF_K, value, left--, 0);
-    fail(EPERM);
-    load(offsetof(seccomp_data, nr));
+    test_argument(call, argument, ~0U, values, true);
   }
   /// Refuses the call where the masked argument has one of these values.
   void refuse_values(long call, int argument, std::uint32_t mask, std::initializer_list<std::uint32_t> values) {
-    begin_argument(call, argument, mask, static_cast<std::uint8_t>(2 * values.size() + 3));
-    for (const std::uint32_t value : values) {
-      add(BPF_JMP | BPF_JEQ | BPF_K, value, 0, 1);
-      fail(EPERM);
-    }
-    load(offsetof(seccomp_data, nr));
+    test_argument(call, argument, mask, values, false);
   }
   /// From here on in force; all else is allowed.
   bool install() {
@@ -173,11 +172,17 @@ class CallFilter {
   }
   void load(std::size_t offset) { add(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset), 0, 0); }
   void fail(std::uint32_t error) { add(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | error, 0, 0); }
-  /// Skips so many instructions for other calls; else loads the lower half of the argument.
-  void begin_argument(long call, int argument, std::uint32_t mask, std::uint8_t length) {
-    add(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(call), 0, length);
+  /// Takes the lower half of the argument; the values lead beyond the refusal, or to it.
+  void test_argument(long call, int argument, std::uint32_t mask, std::initializer_list<std::uint32_t> values,
+                     bool allows) {
+    auto left = static_cast<std::uint8_t>(values.size());
+    add(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(call), 0, static_cast<std::uint8_t>(left + 5 - allows));
     load(offsetof(seccomp_data, args) + 8 * static_cast<std::size_t>(argument));
     add(BPF_ALU | BPF_AND | BPF_K, mask, 0, 0);
+    for (const std::uint32_t value : values) add(BPF_JMP | BPF_JEQ | BPF_K, value, left--, 0);
+    if (!allows) add(BPF_JMP | BPF_JA, 1, 0, 0);
+    fail(EPERM);
+    load(offsetof(seccomp_data, nr));
   }
 
   sock_filter code_[320];
@@ -229,11 +234,10 @@ bool drop_capabilities() {
 /// Whether a process can be put under this guard.
 bool works(const GuardLayers& layers, const char* folder) {
   if (architecture == 0) return false;
-  const Guard guard(layers, folder);
   const pid_t process = fork();
   if (process == 0) {
     int life = -1;
-    _exit(guard.enter_namespaces(life) == 0 && guard.restrict_self() == 0 ? 0 : 1);
+    _exit(enter_namespaces(layers, folder, life) == 0 && restrict_self(layers, folder) == 0 ? 0 : 1);
   }
   int status = 1;
   while (process > 0 && waitpid(process, &status, 0) < 0 && errno == EINTR) {
@@ -253,18 +257,14 @@ const GuardLayers& available_guard() {
   return layers;
 }
 
-Guard::Guard(const GuardLayers& layers, std::string folder) : layers_(layers), folder_(std::move(folder)) {
-  const std::string user = std::to_string(geteuid()), group = std::to_string(getegid());
-  user_map_ = user + " " + user + " 1\n", group_map_ = group + " " + group + " 1\n";
-}
-
-int Guard::enter_namespaces(int& life) const {
-  if (!layers_.namespaces) return 0;
+int enter_namespaces(const GuardLayers& layers, const char* folder, int& life) {
+  if (!layers.namespaces) return 0;
+  const unsigned user = geteuid(), group = getegid();
   int ends[2];
   if (unshare(CLONE_NEWUSER | CLONE_NEWNS | CLONE_NEWPID | CLONE_NEWIPC | CLONE_NEWNET) != 0 ||
-      !write_line("/proc/self/setgroups", "deny") || !write_line("/proc/self/uid_map", user_map_.c_str()) ||
-      !write_line("/proc/self/gid_map", group_map_.c_str()) || !lock_files(folder_.c_str()) ||
-      prctl(PR_SET_DUMPABLE, 0) != 0 || pipe2(ends, O_CLOEXEC) != 0)
+      !write_line("/proc/self/setgroups", "deny") || !map_to_itself("/proc/self/uid_map", user) ||
+      !map_to_itself("/proc/self/gid_map", group) || !lock_files(folder) || prctl(PR_SET_DUMPABLE, 0) != 0 ||
+      pipe2(ends, O_CLOEXEC) != 0)
     return errno;
   const pid_t first = fork();
   if (first < 0) return errno;
@@ -274,13 +274,13 @@ int Guard::enter_namespaces(int& life) const {
   return 0;
 }
 
-int Guard::restrict_self() const {
-  if (!layers_.any()) return 0;
+int restrict_self(const GuardLayers& layers, const char* folder) {
+  if (!layers.any()) return 0;
   if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 || !drop_capabilities()) return errno;
-  if (layers_.landlock > 0 && !enter_landlock(layers_.landlock, folder_.c_str())) return errno;
+  if (layers.landlock > 0 && !enter_landlock(layers.landlock, folder)) return errno;
   CallFilter filter;
   refuse_in_any_case(filter);
-  if (!layers_.namespaces) refuse_without_namespaces(filter, layers_.landlock);
+  if (!layers.namespaces) refuse_without_namespaces(filter, layers.landlock);
   return filter.install() ? 0 : errno;
 }
 
@@ -290,10 +290,6 @@ const GuardLayers& available_guard() {
   static const GuardLayers none;
   return none;
 }
-
-Guard::Guard(const GuardLayers& layers, std::string) : layers_(layers) {}
-int Guard::enter_namespaces(int&) const { return 0; }
-int Guard::restrict_self() const { return 0; }
 
 #endif
 

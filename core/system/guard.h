@@ -21,21 +21,13 @@ const GuardLayers& available_guard();
 /// "namespaces and Landlock", "namespaces", "Landlock" or "none".
 std::string guard_text(const GuardLayers& layers);
 
-/// A process puts itself under guard between fork() and exec(), by functions that are safe there. Both return the
-/// number of an error, 0: done.
-class Guard {
- public:
-  /// folder: a whole path without links. What needs memory is done here, before fork().
-  Guard(const GuardLayers& layers, std::string folder);
-  /// Enters the namespaces, if that layer acts. All processes that this process starts from then on end when it ends,
-  /// or closes `life`. It keeps the rights over the namespaces itself, so it must not run foreign code.
-  int enter_namespaces(int& life) const;
-  /// Takes all further rights from this process, which is to run the program.
-  int restrict_self() const;
+// A process puts itself under guard between fork() and exec(), by functions that are safe there. folder: a whole path
+// without links. Both return the number of an error, 0: done.
 
- private:
-  GuardLayers layers_;
-  std::string folder_, user_map_, group_map_;
-};
+/// Enters the namespaces, if that layer acts. All processes that this process starts from then on end when it ends, or
+/// closes `life`. It keeps the rights over the namespaces itself, so it must not run foreign code.
+int enter_namespaces(const GuardLayers& layers, const char* folder, int& life);
+/// Takes all further rights from this process, which is to run the program.
+int restrict_self(const GuardLayers& layers, const char* folder);
 
 }  // namespace tyndall

@@ -29,14 +29,6 @@ int flags_of(OpenFor purpose) {
 
 int result(long value) { return value < 0 ? errno : 0; }
 
-/// macOS only asks the disk to write when it is told so; some of its disks cannot be.
-int flush(int file) {
-#ifdef F_FULLFSYNC
-  if (fcntl(file, F_FULLFSYNC) == 0) return 0;
-#endif
-  return fsync(file);
-}
-
 }  // namespace
 
 std::string error_text(int number) { return std::generic_category().message(number); }
@@ -88,7 +80,7 @@ int OpenFile::truncate(std::uint64_t size) const { return result(ftruncate(descr
 /// Some file systems cannot synchronise folders, and say so in one of these ways.
 int OpenFile::synchronise() const {
   struct stat status {};
-  while (flush(descriptor_) != 0) {
+  while (fsync(descriptor_) != 0) {
     const int error = errno;
     if (error == EINTR) continue;
     const bool is_folder = fstat(descriptor_, &status) == 0 && S_ISDIR(status.st_mode);

@@ -32,13 +32,7 @@ bool has_smart_terminal() {
   return is_terminal(STDERR_FILENO) && term && std::string(term) != "dumb";
 }
 
-bool has_display() {
-#ifdef __APPLE__
-  return true;
-#else
-  return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
-#endif
-}
+bool has_display() { return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY"); }
 
 int terminal_columns() {
   winsize size{};
@@ -74,11 +68,7 @@ std::size_t peak_memory() {
   if (peak != no_limit) return peak;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-#ifdef __APPLE__
-  return static_cast<std::size_t>(usage.ru_maxrss);  // bytes, there
-#else
   return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
-#endif
 }
 
 void lower_priority([[maybe_unused]] int niceness) {

@@ -5,7 +5,6 @@
 #endif
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
@@ -24,15 +23,8 @@ int processors_of_machine() { return std::max(1, static_cast<int>(std::thread::h
 /// The processors that the calling thread is bound to.
 int processors_of_affinity() {
 #ifdef __linux__
-  for (std::size_t room = 1024; room <= std::size_t{1} << 20; room *= 2) {
-    const std::size_t bytes = CPU_ALLOC_SIZE(room);
-    cpu_set_t* set = CPU_ALLOC(room);
-    const bool known = set && sched_getaffinity(0, bytes, set) == 0;
-    const int error = errno, count = known ? CPU_COUNT_S(bytes, set) : 0;
-    CPU_FREE(set);
-    if (known) return std::max(1, count);
-    if (error != EINVAL) break;  // EINVAL: the machine has more processors than there is room for
-  }
+  cpu_set_t set[64];  // room for 65,536, eight times as many as Linux can have
+  if (sched_getaffinity(0, sizeof set, set) == 0) return std::max(1, CPU_COUNT_S(sizeof set, set));
 #endif
   return processors_of_machine();
 }

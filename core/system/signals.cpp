@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <iterator>
@@ -29,9 +30,7 @@ Clock::rep now() { return Clock::now().time_since_epoch().count(); }
 
 /// Asks for an end. SIGXCPU comes again every second, SIGHUP from the shell and from the terminal: no reason to hurry.
 void ask_for_end(int number) {
-  int none = 0;
-  if (!received_signal.compare_exchange_strong(none, number)) return;
-  received_at = now();
+  if (int none = 0; received_signal.compare_exchange_strong(none, number)) received_at = now();
 }
 
 void ask_for_end_or_end(int number) {
@@ -57,34 +56,26 @@ const Watched watched[] = {{SIGINT, {ask_for_end, ask_for_end_or_end, ask_for_en
 
 }  // namespace
 
-struct SignalWatch::Before {
-  struct sigaction actions[std::size(watched)];
-};
-
-SignalWatch::SignalWatch(WatchedSignals signals, std::function<void()> on_end)
-    : signals_(signals), before_(std::make_unique<Before>()) {
-  if (signals_ == WatchedSignals::none) return;
+SignalWatch::SignalWatch(WatchedSignals signals, std::function<void()> on_end) {
+  if (signals == WatchedSignals::none) return;
   if (watches++ == 0) received_signal = 0, received_at = 0, save_request = false;
-  if (on_end) thread_ = std::thread([this, call = std::move(on_end)] { tell_end(call); });
+  std::array<struct sigaction, std::size(watched)> before{};
   for (std::size_t k = 0; k < std::size(watched); ++k) {
     struct sigaction action {};
-    action.sa_handler = watched[k].handlers[static_cast<int>(signals_) - static_cast<int>(WatchedSignals::end)];
+    action.sa_handler = watched[k].handlers[static_cast<int>(signals) - static_cast<int>(WatchedSignals::end)];
     action.sa_flags = SA_RESTART;
-    sigaction(watched[k].number, nullptr, &before_->actions[k]);
-    const bool stays = before_->actions[k].sa_handler == SIG_IGN && watched[k].number != SIGINT;
+    sigaction(watched[k].number, nullptr, &before[k]);
+    const bool stays = before[k].sa_handler == SIG_IGN && watched[k].number != SIGINT;
     if (action.sa_handler && !stays) sigaction(watched[k].number, &action, nullptr);
   }
+  restore_ = [before] {
+    for (std::size_t k = 0; k < std::size(watched); ++k) sigaction(watched[k].number, &before[k], nullptr);
+    --watches;
+  };
+  if (on_end) thread_ = std::thread([this, call = std::move(on_end)] { tell_end(call); });
 }
 
-SignalWatch::~SignalWatch() {
-  if (signals_ == WatchedSignals::none) return;
-  for (std::size_t k = 0; k < std::size(watched); ++k) sigaction(watched[k].number, &before_->actions[k], nullptr);
-  --watches;
-  ends_ = true;
-  if (thread_.joinable()) thread_.join();
-}
-
-int SignalWatch::received() const { return signals_ == WatchedSignals::none ? 0 : received_signal.load(); }
+int SignalWatch::received() const { return restore_ ? received_signal.load() : 0; }
 bool SignalWatch::take_save_request() const { return save_request.exchange(false); }
 
 void ignore_lost_pipes() { signal(SIGPIPE, SIG_IGN); }

@@ -2,7 +2,6 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
-#include <memory>
 #include <string>
 #include <thread>
 
@@ -32,7 +31,11 @@ class SignalWatch {
  public:
   /// on_end: called from a thread of its own after the first signal; may be empty.
   explicit SignalWatch(WatchedSignals signals = WatchedSignals::render, std::function<void()> on_end = {});
-  ~SignalWatch();
+  ~SignalWatch() {
+    if (restore_) restore_();
+    ends_ = true;
+    if (thread_.joinable()) thread_.join();
+  }
   SignalWatch(const SignalWatch&) = delete;
   SignalWatch& operator=(const SignalWatch&) = delete;
 
@@ -42,15 +45,13 @@ class SignalWatch {
   bool take_save_request() const;
 
  private:
-  struct Before;
   /// The work of the thread. A handler of signals can wake none, so it looks some times a second.
   void tell_end(const std::function<void()>& on_end) const {
     while (!ends_ && received() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     if (received() != 0) on_end();
   }
 
-  WatchedSignals signals_;
-  std::unique_ptr<Before> before_;
+  std::function<void()> restore_;  ///< gives the signals back to those who had them before; empty: none is watched
   std::atomic<bool> ends_ = false;
   std::thread thread_;
 };

@@ -35,25 +35,20 @@ BOOL WINAPI take_event(DWORD event) {
 
 }  // namespace
 
-struct SignalWatch::Before {};
-
-SignalWatch::SignalWatch(WatchedSignals signals, std::function<void()> on_end) : signals_(signals) {
-  if (signals_ == WatchedSignals::none) return;
+SignalWatch::SignalWatch(WatchedSignals signals, std::function<void()> on_end) {
+  if (signals == WatchedSignals::none) return;
+  const int patient = signals == WatchedSignals::end ? 1 : 0;
   if (watches == 0) received_signal = 0;
-  if (on_end) thread_ = std::thread([this, call = std::move(on_end)] { tell_end(call); });
-  if (signals_ == WatchedSignals::end) ++patient_watches;
+  patient_watches += patient;
   if (watches++ == 0) SetConsoleCtrlHandler(take_event, TRUE);
+  restore_ = [patient] {
+    patient_watches -= patient;
+    if (--watches == 0) SetConsoleCtrlHandler(take_event, FALSE);
+  };
+  if (on_end) thread_ = std::thread([this, call = std::move(on_end)] { tell_end(call); });
 }
 
-SignalWatch::~SignalWatch() {
-  if (signals_ == WatchedSignals::none) return;
-  if (signals_ == WatchedSignals::end) --patient_watches;
-  ends_ = true;
-  if (thread_.joinable()) thread_.join();
-  if (--watches == 0) SetConsoleCtrlHandler(take_event, FALSE);
-}
-
-int SignalWatch::received() const { return signals_ == WatchedSignals::none ? 0 : received_signal.load(); }
+int SignalWatch::received() const { return restore_ ? received_signal.load() : 0; }
 bool SignalWatch::take_save_request() const { return false; }
 
 void ignore_lost_pipes() {}  // they end no program here

@@ -187,7 +187,7 @@ CORE = [
      "array->begin() + «static_cast<std::ptrdiff_t>(std::stoull(steps.back())) → 0»);", "library/library python"),
     ("normals in place of colours", "core/api/picture.cpp", "data_->layers()[«0 → 1»].values; });\n}\nconst std::vector<float>& Picture::normal()", "library/library python"),
 
-    ("a variable of a child stands there twice", "core/system/child.cpp", "if («!replaced → true») all.push_back(variable);", "system/child"),
+    ("a variable of a child stands there twice", "core/system/child.cpp", "if («std::none_of(additions.begin(), additions.end(), replaces) → true») all", "system/child"),
     ("a child's last words are cut, not its first ones", "core/system/child.cpp", "if («plan.keep_last_errors → !plan.keep_last_errors»)\n", "system/child"),
     ("a quota of one and a half processors is one", "core/system/processors.cpp", "time / period + «(time % period > 0) → 0»;", "system/processors"),
     ("the widest quota counts", "core/system/processors.cpp", "minimum = «std::min(*quota, minimum.value_or(*quota)) → "

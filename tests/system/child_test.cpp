@@ -68,8 +68,8 @@ TEST_CASE("a child's exit code, its errors, its channel, and its variables") {
   REQUIRE(pipe(ends) == 0);
   ChildPlan plan = shell("echo $ONE >&2; echo out; echo told >&$PIPE; exit 3");
   setenv("ONE", "of this process", 1);  // shells take the last of several
-  plan.environment = {"ONE=1 and more"};
-  plan.channel = ends[1], plan.channel_variable = "PIPE";
+  plan.environment = {"ONE=1 and more", "PIPE=" + std::to_string(ends[1])};
+  plan.channel = ends[1];
   const ChildEnd end = run_child(plan);
   char told[5] = {};
   CHECK(read(ends[0], told, 5) == 5);
