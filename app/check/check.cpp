@@ -138,8 +138,8 @@ void check_names_picture(const std::string& name) {
                    ", expected a picture, or a scene: its file, its name (\"tyndall scenes\" lists them) or a MAIN.cc");
 }
 
-Reference render_reference(Scene scene, const LinearImage& picture, double seconds, std::uint32_t spp,
-                           const std::function<bool()>& go_on) {
+NoisyImage render_reference(Scene scene, const LinearImage& picture, double seconds, std::uint32_t spp,
+                            const std::function<bool()>& go_on) {
   scene.render.sharing = false, scene.render.adaptive = false, scene.render.sampler = SamplerKind::sobol;
   scene.render.integrator = Integrator::mis;
   scene.render.seed += 0x5eed;  // the picture may be Tyndall's own, whose noise must not be taken for the truth
@@ -154,14 +154,9 @@ Reference render_reference(Scene scene, const LinearImage& picture, double secon
   options.time_limit = std::max(0.0, seconds - rendered.seconds);
   options.target_error = std::isfinite(difference) ? std::max(min_error, part_of_difference * difference) : min_error;
   if (!rendered.interrupted) rendered = render(*prepared, options, progress, std::move(rendered.film));
-  const Film& film = rendered.film;
-  Reference reference{{film.region.width(), film.region.height(), resolve(film)}, {}};
-  reference.variance.reserve(3 * film.pixels.size());
-  for (const FilmPixel& pixel : film.pixels) {
-    const Vec3f half = half_mean(film, pixel, 0) - half_mean(film, pixel, 1);
-    for (const float off : {half.x, half.y, half.z}) reference.variance.push_back(off * off / 4);
-  }
-  return reference;
+  // Without samples in a half of a pixel its noise is not known.
+  const std::size_t numbers = 3 * rendered.film.pixels.size();
+  return noisy_image(rendered.film).value_or(NoisyImage{{}, resolve(rendered.film), std::vector<float>(numbers)});
 }
 
 Check check_picture(const CheckRequest& request) {
@@ -180,7 +175,7 @@ Check check_picture(const CheckRequest& request) {
   Arrangement arrangement = find_arrangement(numbers, request.scene, std::move(loaded), go_on);
   Scene& scene = arrangement.loaded.scene;
   scene.width = picture.image.width, scene.height = picture.image.height;
-  Reference reference = render_reference(scene, picture.image, part_for_reference * limit, reference_samples, go_on);
+  NoisyImage reference = render_reference(scene, picture.image, part_for_reference * limit, reference_samples, go_on);
   stage = "looking for what explains the difference";
   Check check;
   check.verdict = explain(numbers, scene, reference, request.options, go_on);
@@ -191,7 +186,7 @@ Check check_picture(const CheckRequest& request) {
   const bool gamma2 = ppm && request.ppm == PpmCurve::srgb && check.verdict.curve == TransferCurve::gamma2;
   if (ppm && (gamma2 || request.ppm == PpmCurve::gamma2)) read_as_gamma2(picture.image);
   const std::size_t pixels = picture.image.rgb.size() / 3;
-  PicturePair pair{{pixels, pixels}, {}, std::move(reference.image)};
+  PicturePair pair{{pixels, pixels}, {}, {scene.width, scene.height, std::move(reference.mean)}};
   pair.image = take_pixels(pair, request.image, std::move(picture));
   pair.image.frame.reset();
   if (!remark.empty()) pair.remarks.push_back(remark);

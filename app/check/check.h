@@ -67,7 +67,7 @@ struct Findings {
 
 /// Finds out how a picture differs from a scene of its size. reference: the scene, rendered; go_on: asked now and then;
 /// after it has said false no more is tried.
-Findings explain(const PictureNumbers& picture, const Scene& scene, const Reference& reference,
+Findings explain(const PictureNumbers& picture, const Scene& scene, const NoisyImage& reference,
                  const CheckOptions& options, const std::function<bool()>& go_on);
 
 /// What is found about a picture, in lines for a table.

@@ -71,28 +71,24 @@ struct Differences {
 /// Carlo Methods, 5.5: control variates).
 class Expectation {
  public:
-  Expectation(const PictureNumbers& picture, const Scene& scene, const Reference& reference,
+  Expectation(const PictureNumbers& picture, const Scene& scene, const NoisyImage& reference,
               const CheckOptions& options, const std::function<bool()>& go_on)
       : picture_(picture),
         start_(plain_program(scene)),
         lattice_(lattice_of(picture.width, picture.height)),
         edge_(edge_of_blocks(lattice_)),
-        reference_{on_lattice(reference.image.rgb), on_lattice(reference.variance)},
+        reference_{on_lattice(reference.mean), on_lattice(squares_of(reference.deviation))},
         go_on_(go_on),
         seen_(seen_objects(scene, lattice_)),
         small_(blocks_of(lattice_, edge_)),
-        large_(blocks_of(lattice_, large_edge * edge_)),
-        objects_(seen_.regions) {
+        large_(blocks_of(lattice_, large_edge * edge_)) {
     for (std::size_t pixel = 0; pixel < seen_.of_pixel.size(); ++pixel)
       if (seen_.at(pixel).noisy_texture) small_.of_pixel[pixel] = large_.of_pixel[pixel] = -1;
     take_samples(options);
-    const auto kept = [](const Regions& regions) {
-      return static_cast<double>(regions.of_pixel.size()) -
-             static_cast<double>(std::count(regions.of_pixel.begin(), regions.of_pixel.end(), -1));
-    };
-    const double pixels = kept(small_);
-    for (Regions* regions : {&small_, &large_, &objects_}) leave_out_rare_light(*regions);
-    comparable_ = pixels > 0 ? kept(small_) / pixels : 1;
+    const auto kept = [this] { return std::ranges::count_if(small_.of_pixel, [](int region) { return region >= 0; }); };
+    const auto pixels = static_cast<double>(kept());
+    for (Regions* regions : {&small_, &large_, &seen_.regions}) leave_out_rare_light(*regions);
+    comparable_ = pixels > 0 ? static_cast<double>(kept()) / pixels : 1;
     whole_ = {small_.of_pixel, 1};
     for (int& region : whole_.of_pixel) region = std::min(region, 0);
   }
@@ -156,7 +152,7 @@ class Expectation {
     if (pixels.light.empty()) pixels = read_pixels(picture_, lattice_, reading);
     Differences result{differences_of(pixels, expected, small_),
                        differences_of(pixels, expected, large_),
-                       differences_of(pixels, expected, objects_),
+                       differences_of(pixels, expected, seen_.regions),
                        {},
                        differences_of(pixels, expected, whole_)};
     for (const auto* part : {&result.small, &result.large, &result.objects})
@@ -168,15 +164,14 @@ class Expectation {
  private:
   static constexpr int large_edge = 4;  // of a large block, in small ones
 
+  static std::vector<float> squares_of(std::vector<float> numbers) {
+    for (float& number : numbers) number *= number;
+    return numbers;
+  }
+
   /// Three numbers of each pixel of the lattice.
   Numbers on_lattice(const std::vector<float>& whole) const {
-    Numbers part;
-    for (int y = 0; y < lattice_.height; y += lattice_.step)
-      for (int x = 0; x < lattice_.width; x += lattice_.step) {
-        const std::ptrdiff_t at = 3 * (std::ptrdiff_t{y} * lattice_.width + x);
-        part.insert(part.end(), whole.begin() + at, whole.begin() + at + 3);
-      }
-    return part;
+    return read_pixels({lattice_.width, lattice_.height, whole}, lattice_, {TransferCurve::light}).light;
   }
 
   /// Leaves out the regions in which the samples show quite another amount of light than there is: it comes on few
@@ -219,7 +214,7 @@ class Expectation {
   ExpectedPixels reference_;
   const std::function<bool()>& go_on_;
   SeenObjects seen_;
-  Regions small_, large_, objects_, whole_;
+  Regions small_, large_, whole_;
   ThreadPool threads_{0};
   int count_ = 0;  ///< samples that were taken of each pixel
   double comparable_ = 1;

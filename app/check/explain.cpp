@@ -42,7 +42,7 @@ bool clearly_closer(const Differences& a, const Differences& b) {
 /// The search for what explains a picture.
 class Search {
  public:
-  Search(const PictureNumbers& picture, const Scene& scene, const Reference& reference, const CheckOptions& options,
+  Search(const PictureNumbers& picture, const Scene& scene, const NoisyImage& reference, const CheckOptions& options,
          const std::function<bool()>& go_on)
       : expectation_(picture, scene, reference, options, go_on),
         right_readings_(readings_of(picture.coded, true)),
@@ -67,12 +67,11 @@ class Search {
   /// Samples of what a suspect renders; empty: there is nothing that its choices or its mistake would change, or there
   /// is no time left.
   std::vector<BookSample> samples_of(const Suspect& suspect, bool in_time) {
+    if (suspect.choices.empty() && !suspect.mistake) return expectation_.start_samples();
     BookProgram program = expectation_.start();
-    std::vector<Difference> changes = suspect.choices;
-    if (suspect.mistake) changes.push_back(*suspect.mistake);
-    if (changes.empty()) return expectation_.start_samples();
-    for (const Difference& change : changes)
-      if (!change.apply(program)) return {};
+    for (const Difference& choice : suspect.choices)
+      if (!choice.apply(program)) return {};
+    if (suspect.mistake && !suspect.mistake->apply(program)) return {};
     return expectation_.samples_of(program, in_time);
   }
 
@@ -233,8 +232,7 @@ class Search {
       if (findings_.untried > 0 || mistake.explained < promising) return;
       const Suspect suspect{{}, mistake};
       const std::vector<BookSample> taken = samples_of(suspect, true);
-      if (taken.empty()) ++findings_.untried;
-      if (taken.empty()) return;
+      if (taken.empty()) return void(++findings_.untried);
       known_.clear();
       const Fit found = with_choices(closest(suspect, {mistake.reading}, taken));
       mistake.explained = right.differences.gone(found.differences);
@@ -255,7 +253,7 @@ class Search {
 
 }  // namespace
 
-Findings explain(const PictureNumbers& picture, const Scene& scene, const Reference& reference,
+Findings explain(const PictureNumbers& picture, const Scene& scene, const NoisyImage& reference,
                  const CheckOptions& options, const std::function<bool()>& go_on) {
   return Search(picture, scene, reference, options, go_on).run();
 }

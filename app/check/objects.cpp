@@ -55,17 +55,18 @@ SeenObjects::Object describe(const Scene& scene, const std::vector<int>& path) {
 
 /// Of each object the pixels around which it is seen.
 Regions regions_of(const SeenObjects& seen, const Lattice& lattice) {
-  Regions regions{seen.of_pixel, static_cast<int>(seen.objects.size())};
-  const int right = lattice.columns() - 1, low = lattice.rows() - 1;
-  for (int y = 0; y <= low; ++y)
-    for (int x = 0; x <= right; ++x) {
-      const auto pixel = [&](int dx, int dy) {
-        return static_cast<std::size_t>(std::clamp(y + dy, 0, low) * (right + 1) + std::clamp(x + dx, 0, right));
-      };
-      const int object = seen.of_pixel[pixel(0, 0)];
-      bool same = !seen.at(pixel(0, 0)).noisy_texture;
-      for (int k = 0; k < 9; ++k) same = same && seen.of_pixel[pixel(k % 3 - 1, k / 3 - 1)] == object;
-      if (!same) regions.of_pixel[pixel(0, 0)] = -1;
+  Regions regions{{}, static_cast<int>(seen.objects.size())};
+  const int columns = lattice.columns(), rows = lattice.rows();
+  const auto object_at = [&](int x, int y) {
+    return seen
+        .of_pixel[static_cast<std::size_t>(std::clamp(y, 0, rows - 1) * columns + std::clamp(x, 0, columns - 1))];
+  };
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) {
+      const int object = object_at(x, y);
+      bool same = !seen.objects[static_cast<std::size_t>(object)].noisy_texture;
+      for (int k = 0; k < 9; ++k) same = same && object_at(x + k % 3 - 1, y + k / 3 - 1) == object;
+      regions.of_pixel.push_back(same ? object : -1);
     }
   return regions;
 }

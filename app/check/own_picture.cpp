@@ -14,29 +14,19 @@ constexpr int fewest_samples = 4, most_samples = 200;  // a pixel
 constexpr float brightest_sample = 2;                  // of what a sample counts for: few of them would decide else
 constexpr double noise_allowed = 5, part_allowed = 0.03, darkest_level = 0.01, blocks_allowed = 0.02;
 
-/// The mean of a block's samples in each channel, and the variance of that mean.
-struct BlockLight {
-  Numbers mean, variance;
-};
-
-/// Of each cell. brightest: what a sample counts for at most.
-BlockLight light_of(const std::vector<BookSample>& samples, const Regions& regions, float brightest) {
-  BlockLight light{Numbers(regions.cells()), Numbers(regions.cells())};
+/// The samples of each cell, by themselves. brightest: what a sample counts for at most.
+std::vector<Pairs> sums_of(const std::vector<BookSample>& samples, const Regions& regions, float brightest) {
+  std::vector<Pairs> sums(regions.cells());
   const std::size_t count = samples.size() / regions.of_pixel.size();
-  Numbers squares(regions.cells()), counts(regions.cells());
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    const Vec3f& own = samples[k].light;
     std::size_t cell = regions.cell_of(3 * (k / count));
-    for (const float channel : {own.x, own.y, own.z}) {
-      const auto value = static_cast<double>(std::isfinite(channel) ? std::clamp(channel, 0.0f, brightest) : 0);
-      light.mean[cell] += value, squares[cell] += value * value, ++counts[cell++];
+    for (const float Vec3f::*channel : each_channel) {
+      const float own = samples[k].light.*channel;
+      const auto value = static_cast<double>(std::isfinite(own) ? std::clamp(own, 0.0f, brightest) : 0);
+      sums[cell++].add(value, value);
     }
   }
-  for (std::size_t cell = 0; cell < squares.size(); ++cell) {
-    const double mean = light.mean[cell] /= counts[cell];
-    light.variance[cell] = std::max(squares[cell] / counts[cell] - mean * mean, 0.0) / std::max(counts[cell] - 1, 1.0);
-  }
-  return light;
+  return sums;
 }
 
 /// One sample of each pixel of the lattice.
@@ -87,11 +77,11 @@ std::string differs_from_own(const Scene& scene, const ProgramScene& program) {
   const double allowed = program.draws_by_pdf ? 5 * blocks_allowed : blocks_allowed;
   const std::vector<BookSample> samples = own_samples(program, lattice);
   const int count = static_cast<int>(samples.size() / lattice.pixels());
-  const BlockLight own = light_of(samples, regions, brightest),
-                   ours = light_of(our_samples(scene, program, lattice, count), regions, brightest);
+  const std::vector<Pairs> own = sums_of(samples, regions, brightest),
+                           ours = sums_of(our_samples(scene, program, lattice, count), regions, brightest);
   const auto apart = [&](std::size_t cell) {
-    const double a = own.mean[cell], b = ours.mean[cell], difference = std::abs(a - b);
-    return difference > noise_allowed * std::sqrt(own.variance[cell] + ours.variance[cell]) &&
+    const double a = own[cell].mean(), b = ours[cell].mean(), difference = std::abs(a - b);
+    return difference > noise_allowed * std::sqrt(own[cell].variance_of_mean() + ours[cell].variance_of_mean()) &&
            difference > part_allowed * std::max({a, b, darkest_level});
   };
   int different = 0, first = regions.count;

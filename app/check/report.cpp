@@ -12,6 +12,8 @@
 namespace tyndall {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 constexpr std::size_t max_objects = 6;
 constexpr double min_light = 0.005;  // below that a relative difference says nothing
 
@@ -70,11 +72,9 @@ std::string mistake_text(const Findings& v) {
   return text + "\n";
 }
 
-nlohmann::ordered_json json_of(const Difference& d) {
-  return {{"name", d.name}, {"text", d.words}, {"explained", d.explained}};
-}
-nlohmann::ordered_json json_of(const std::vector<Difference>& list) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+Json json_of(const Difference& d) { return {{"name", d.name}, {"text", d.words}, {"explained", d.explained}}; }
+Json json_of(const std::vector<Difference>& list) {
+  Json json = Json::array();
   for (const Difference& d : list) json.push_back(json_of(d));
   return json;
 }
@@ -106,28 +106,25 @@ std::string verdict_text(const Findings& v) {
   return text + mistake_text(v);
 }
 
-nlohmann::ordered_json verdict_json(const Findings& v) {
-  const auto channels = [](Vec3d c) { return nlohmann::ordered_json{c.x, c.y, c.z}; };
-  nlohmann::ordered_json json;
-  json["agrees"] = nullptr;
-  if (!v.unknown && !v.too_few) json["agrees"] = v.agrees;
-  json["too_few_samples"] = v.too_few;
-  json["explanation"] = nullptr;
-  if (v.mistake) json["explanation"] = json_of(*v.mistake);
-  json["choices"] = json_of(v.choices);
-  json["curve"] = curve_text(v.curve);
-  json["samples"] = v.samples;
-  json["blocks"] = {{"count", v.blocks}, {"different", v.different}, {"edge", v.block_edge}};
-  json["objects"] = nlohmann::ordered_json::array();
+Json verdict_json(const Findings& v) {
+  const auto channels = [](Vec3d c) { return Json{c.x, c.y, c.z}; };
+  Json objects = Json::array();
   for (const ObjectDifference& d : v.objects)
-    json["objects"].push_back({{"name", d.object.name},
-                               {"kind", d.object.kind},
-                               {"pixels", d.pixels},
-                               {"mean_image", channels(d.image)},
-                               {"mean_reference", channels(d.expected)}});
-  json["tried"] = json_of(v.tried);
-  json["out_of_time"] = v.untried > 0;
-  return json;
+    objects.push_back({{"name", d.object.name},
+                       {"kind", d.object.kind},
+                       {"pixels", d.pixels},
+                       {"mean_image", channels(d.image)},
+                       {"mean_reference", channels(d.expected)}});
+  return {{"agrees", v.unknown || v.too_few ? Json() : Json(v.agrees)},
+          {"too_few_samples", v.too_few},
+          {"explanation", v.mistake ? json_of(*v.mistake) : Json()},
+          {"choices", json_of(v.choices)},
+          {"curve", curve_text(v.curve)},
+          {"samples", v.samples},
+          {"blocks", {{"count", v.blocks}, {"different", v.different}, {"edge", v.block_edge}}},
+          {"objects", objects},
+          {"tried", json_of(v.tried)},
+          {"out_of_time", v.untried > 0}};
 }
 
 }  // namespace tyndall

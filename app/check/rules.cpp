@@ -3,6 +3,8 @@
 #include "core/base/math.h"
 #include "core/base/text.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -184,17 +186,15 @@ Difference mistake_of(const Reading& r) {
 }
 
 Difference shorter_paths(int depth) {
-  Difference mistake{
-      "depth-" + std::to_string(depth),
-      "paths end too early, after " + std::to_string(depth) + (depth == 1 ? " scattering" : " scatterings"),
-      [depth](BookProgram& program) {
-        program.scene.render.max_depth = depth;
-        return true;
-      }};
+  const auto end = [depth](BookProgram& program) {
+    program.scene.render.max_depth = depth;
+    return true;
+  };
   if (depth == 0)
-    mistake.name = "attenuation-lost",
-    mistake.words = "what is hit sends on no light: attenuation is passed by value, or paths end at the first hit";
-  return mistake;
+    return {"attenuation-lost",
+            "what is hit sends on no light: attenuation is passed by value, or paths end at the first hit", end};
+  return {fmt::format("depth-{}", depth),
+          fmt::format("paths end too early, after {} scattering{}", depth, depth == 1 ? "" : "s"), end};
 }
 
 std::vector<Difference> usual_mistakes() {

@@ -1,5 +1,6 @@
 #pragma once
 #include "app/check/book_paths.h"
+#include "core/accuracy/noise_test.h"
 #include "core/image/image.h"
 #include "core/scene/scene.h"
 
@@ -60,6 +61,16 @@ struct ExpectedPixels {
   Numbers light;
   Numbers variance;  ///< of a pixel's noise, as far as it is known
 };
+
+/// Pairs of numbers: their covariance; of pairs of equal numbers their mean, and the variance of that.
+struct Pairs {
+  double a = 0, b = 0, products = 0, count = 0;
+  void add(double x, double y) { a += x, b += y, products += x * y, ++count; }
+  double covariance() const { return count > 1 ? (products - a * b / count) / (count - 1) : 0; }
+  double mean() const { return a / count; }
+  double variance_of_mean() const { return std::max(covariance(), 0.0) / count; }
+};
+inline constexpr float Vec3f::*each_channel[] = {&Vec3f::x, &Vec3f::y, &Vec3f::z};
 
 /// What the samples of a pixel tell of one channel.
 struct SampleStatistics {
@@ -180,16 +191,10 @@ struct CheckOptions {
   int samples = 0;      ///< that are taken of each pixel for a program; 0: as many as the time allows
 };
 
-/// A picture rendered to measure another one against.
-struct Reference {
-  LinearImage image;
-  std::vector<float> variance;  ///< of each number of the image, from two halves of the samples
-};
-
 /// Renders the scene until the noise is small against the difference from `picture`, which has the scene's size, or
 /// a limit is reached, which the first samples may exceed. go_on: asked now and then; false ends it. Pixels share no
 /// paths, so that their errors are independent.
-Reference render_reference(Scene scene, const LinearImage& picture, double seconds, std::uint32_t spp,
-                           const std::function<bool()>& go_on);
+NoisyImage render_reference(Scene scene, const LinearImage& picture, double seconds, std::uint32_t spp,
+                            const std::function<bool()>& go_on);
 
 }  // namespace tyndall
