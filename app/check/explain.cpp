@@ -232,7 +232,10 @@ class Search {
       if (findings_.untried > 0 || mistake.explained < promising) return;
       const Suspect suspect{{}, mistake};
       const std::vector<BookSample> taken = samples_of(suspect, true);
-      if (taken.empty()) return void(++findings_.untried);
+      if (taken.empty()) {
+        ++findings_.untried;
+        return;
+      }
       known_.clear();
       const Fit found = with_choices(closest(suspect, {mistake.reading}, taken));
       mistake.explained = right.differences.gone(found.differences);

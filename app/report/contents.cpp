@@ -27,17 +27,6 @@ void count(const Scene& scene, const Solid3d& solid, Contents& contents) {
     contents.lights += std::holds_alternative<Box<>>(solid.shape) ? 6 : 1;
 }
 
-void add_leaves(const std::vector<Object>& objects, ObjectPath& path, std::vector<ObjectPath>& out) {
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    path.push_back(static_cast<int>(i));
-    if (const Group* group = std::get_if<Group>(&objects[i].kind))
-      add_leaves(group->objects, path, out);
-    else
-      out.push_back(path);
-    path.pop_back();
-  }
-}
-
 }  // namespace
 
 const Object* find_object(const Scene& scene, const ObjectPath& path) {
@@ -54,8 +43,16 @@ const Object* find_object(const Scene& scene, const ObjectPath& path) {
 
 std::vector<ObjectPath> leaves(const Scene& scene) {
   std::vector<ObjectPath> out;
-  ObjectPath path;
-  add_leaves(scene.objects, path, out);
+  const auto add = [&out](const auto& self, const std::vector<Object>& objects, ObjectPath path) -> void {
+    for (path.push_back(0); const Object& object : objects) {
+      if (const Group* group = std::get_if<Group>(&object.kind))
+        self(self, group->objects, path);
+      else
+        out.push_back(path);
+      ++path.back();
+    }
+  };
+  add(add, scene.objects, {});
   return out;
 }
 
