@@ -40,16 +40,6 @@ std::vector<double> time_ratios(const TimedPair& pair, int rounds,
   return ratios;
 }
 
-MethodGain measure(const PreparedScene& with, const PreparedScene& without, const std::string& isa) {
-  double own_error = 0, other_error = 0;
-  const std::vector<double> times =
-      time_ratios({with, without, isa, 4, 0.2}, 5, [&](const auto& own, const auto& other) {
-        own_error = estimate_error(own.film).relative_error, other_error = estimate_error(other.film).relative_error;
-      });
-  const double ratio = own_error / other_error;
-  return {true, times[2], other_error > 0 ? times[2] * ratio * ratio : 1};
-}
-
 }  // namespace
 
 KernelGain measure_kernel_gain(const PreparedScene& scene, const Kernels& kernels) {
@@ -74,18 +64,19 @@ MethodGain measure_method_gain(MisMethod method, Scene scene, const std::string&
     scene.width = widest;
   }
   const auto with = prepare(scene);
-  const bool specular = !with->columns().specular.sphere.empty() || with->guide().lobes() > 0;
-  switch (method) {
-    case MisMethod::specular:
-      scene.render.caustics = Caustics::scatter;
-      return specular ? measure(*with, *prepare(scene), isa) : MethodGain{};
-    case MisMethod::splitting:
-      return with->columns().splits_paths ? measure(*with, *prepare_without_splitting(scene), isa) : MethodGain{};
-    case MisMethod::sharing:
-      scene.render.sharing = false;
-      return with->reuses_paths() ? measure(*with, *prepare(scene), isa) : MethodGain{};
-  }
-  return {};
+  const bool has_chains = !with->columns().specular.sphere.empty() || with->guide().lobes() > 0;
+  const bool used[] = {has_chains, with->columns().splits_paths, with->reuses_paths()};  // in the order of MisMethod
+  if (!used[static_cast<std::size_t>(method)]) return {};
+  if (method == MisMethod::specular) scene.render.caustics = Caustics::scatter;
+  if (method == MisMethod::sharing) scene.render.sharing = false;
+  const auto without = method == MisMethod::splitting ? prepare_without_splitting(scene) : prepare(scene);
+  double own_error = 0, other_error = 0;
+  const std::vector<double> times =
+      time_ratios({*with, *without, isa, 4, 0.2}, 5, [&](const auto& own, const auto& other) {
+        own_error = estimate_error(own.film).relative_error, other_error = estimate_error(other.film).relative_error;
+      });
+  const double ratio = own_error / other_error;
+  return {true, times[2], other_error > 0 ? times[2] * ratio * ratio : 1};
 }
 
 }  // namespace tyndall
