@@ -24,10 +24,6 @@ struct Placed {
 std::string text_of(const Region& r) { return fmt::format("{},{},{},{}", r.x0, r.y0, r.x1, r.y1); }
 std::string size_of(const LinearImage& image) { return fmt::format("{}x{}", image.width, image.height); }
 
-bool has_size(const LinearImage& image, const Region& region) {
-  return image.width == region.width() && image.height == region.height();
-}
-
 [[noreturn]] void refuse(const Placed& image, const Placed& reference, const std::string& found,
                          const std::string& expected) {
   throw UsageError(
@@ -46,29 +42,18 @@ void check_frames(const Placed& image, const Placed& reference) {
            fmt::format("{}", *b.white_luminance));
 }
 
-/// Where the pixels of a picture that does not say it lie, compared with an EXR.
-Region place_beside(const Placed& plain, const Placed& exr) {
-  const ImageFrame& frame = *exr.image.frame;
+/// Where the pixels of a picture lie, compared with another one.
+Region place_of(const Placed& picture, const Placed& other) {
+  if (picture.image.frame) return picture.image.frame->data;
+  const Region whole{0, 0, other.image.width, other.image.height};
+  const ImageFrame frame = other.image.frame.value_or(ImageFrame{whole, whole});
   if (frame.pixel_aspect != 1)
-    refuse(plain, exr, "square pixels", fmt::format("pixelAspectRatio {}", frame.pixel_aspect));
-  if (has_size(plain.image, frame.display)) return frame.display;
-  if (has_size(plain.image, frame.data)) return frame.data;
-  const std::string data = frame.data == frame.display ? "" : " or " + size_of(exr.image);
-  refuse(plain, exr, size_of(plain.image) + " pixels",
+    refuse(picture, other, "square pixels", fmt::format("pixelAspectRatio {}", frame.pixel_aspect));
+  for (const Region& place : {frame.display, frame.data})
+    if (place.width() == picture.image.width && place.height() == picture.image.height) return place;
+  const std::string data = frame.data == frame.display ? "" : " or " + size_of(other.image);
+  refuse(picture, other, size_of(picture.image) + " pixels",
          fmt::format("{}x{}{}", frame.display.width(), frame.display.height(), data));
-}
-
-std::pair<Region, Region> places_of(const Placed& image, const Placed& reference) {
-  if (image.image.frame && reference.image.frame) {
-    check_frames(image, reference);
-    return {image.image.frame->data, reference.image.frame->data};
-  }
-  if (image.image.frame) return {image.image.frame->data, place_beside(reference, image)};
-  if (reference.image.frame) return {place_beside(image, reference), reference.image.frame->data};
-  if (size_of(image.image) != size_of(reference.image))
-    refuse(image, reference, size_of(image.image) + " pixels", size_of(reference.image));
-  const Region whole{0, 0, image.image.width, image.image.height};
-  return {whole, whole};
 }
 
 /// The pixels of `part`, which lies within `place`: where the pixels of the image lie.
@@ -126,22 +111,6 @@ NoisyImage read_exr(const Path& file) {
   }
 }
 
-NoisyImage read_noisy(const Path& name) {
-  const auto [file, layer] = picture_name(name);
-  const std::string ending = lower_case(file.extension().string());
-  if (ending == ".exr" && !layer) return read_exr(file);
-  Path errors = file;
-  errors.replace_extension(".error.pfm");
-  std::error_code error;
-  if (ending == ".pfm" && std::filesystem::exists(errors, error))
-    return with_errors(file, read_image(file), errors, read_image(errors), false);
-  refuse_noise(
-      name,
-      ending == ".pfm" ? "no " + errors.filename().string() + " beside it" : "a picture that does not say its noise",
-      "an EXR as tyndall render writes it (-o NAME.exr), or a PFM with its standard errors beside it in "
-      "NAME.error.pfm");
-}
-
 }  // namespace
 
 LinearImage take_pixels(PairFiles& files, const Path& name, PictureFile picture) {
@@ -160,8 +129,8 @@ PicturePair read_pair(const Path& image_name, const Path& reference_name, PpmCur
   if (image_name == reference_name) pair.remarks = told;
   pair.image_pixels = pair.image.rgb.size() / 3, pair.reference_pixels = pair.reference.rgb.size() / 3;
   const Placed image{image_name, pair.image}, reference{reference_name, pair.reference};
-  const auto [a, b] = places_of(image, reference);
-  const Region both = common_part(a, b);
+  if (pair.image.frame && pair.reference.frame) check_frames(image, reference);
+  const Region a = place_of(image, reference), b = place_of(reference, image), both = common_part(a, b);
   if (both.x0 >= both.x1 || both.y0 >= both.y1)
     refuse(image, reference, "pixels in the data window " + text_of(a) + " alone", "some in " + text_of(b));
   pair.image_place = a, pair.reference_place = b;
@@ -187,7 +156,19 @@ PictureFile read_whole_picture(const Path& name) {
 }
 
 NoisyImage read_noisy_image(const Path& name, const Region& place) {
-  NoisyImage image = read_noisy(name);
+  const auto [file, layer] = picture_name(name);
+  const std::string ending = lower_case(file.extension().string());
+  const bool exr = ending == ".exr" && !layer;
+  Path errors = file;
+  errors.replace_extension(".error.pfm");
+  std::error_code error;
+  if (!exr && !(ending == ".pfm" && std::filesystem::exists(errors, error)))
+    refuse_noise(
+        name,
+        ending == ".pfm" ? "no " + errors.filename().string() + " beside it" : "a picture that does not say its noise",
+        "an EXR as tyndall render writes it (-o NAME.exr), or a PFM with its standard errors beside it in "
+        "NAME.error.pfm");
+  NoisyImage image = exr ? read_exr(file) : with_errors(file, read_image(file), errors, read_image(errors), false);
   image.region = place;
   return image;
 }
