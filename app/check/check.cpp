@@ -72,47 +72,38 @@ std::vector<CellDifference> rough_differences(const PictureNumbers& picture, con
   return best;
 }
 
-/// A program's scene with its balls where they lie in a picture.
-struct Arrangement {
-  LoadedScene loaded;
-  std::string words;  ///< which compiler puts them there; "": the one that the program is compiled with
-};
-
 /// Programs place balls at random, and where depends on the order in which a compiler computes arguments. If the
-/// picture clearly differs from the scene as it was loaded, the program is compiled by other compilers, and the scene
-/// that fits is taken. Other scenes are returned as they are. Throws what open_scene() throws where the user interrupts
-/// a compiler; go_on: false ends the search.
-Arrangement find_arrangement(const PictureNumbers& picture, const SceneRequest& request, LoadedScene loaded,
+/// picture clearly differs from a program's scene as it was loaded, the program is compiled by other compilers, and the
+/// scene that fits is taken in its place. Returns which compiler puts the balls there; "": the one that the program is
+/// compiled with. Throws what open_scene() throws where the user interrupts a compiler; go_on: false ends the search.
+std::string find_arrangement(const PictureNumbers& picture, const SceneRequest& request, LoadedScene& loaded,
                              const std::function<bool()>& go_on) {
-  Arrangement best{std::move(loaded), ""};
-  if (!is_program(request.what)) return best;
-  const auto differences = [&](LoadedScene& other) {
-    other.scene.width = picture.width, other.scene.height = picture.height;
-    return rough_differences(picture, other.scene);
-  };
-  const auto plain = differences(best.loaded);
+  if (!is_program(request.what)) return "";
+  const auto plain = rough_differences(picture, loaded.scene);
   const Misfit misfit = misfit_of(plain);
-  if (misfit.different <= part_of_other_scene * misfit.blocks) return best;
+  if (misfit.different <= part_of_other_scene * misfit.blocks) return "";
   double allowed = part_of_right_scene * amount_of(plain, plain);
-  const Scene first = best.loaded.scene;
+  const Scene first = loaded.scene;
+  std::string words;
   SceneRequest again = request;
   again.program.told = true;
   for (const char* compiler : {"g++", "clang++"}) {
-    if (!go_on()) return best;
+    if (!go_on()) break;
     again.program.compiler = compiler;
     try {
       LoadedScene other = open_scene(again);
+      other.scene.width = picture.width, other.scene.height = picture.height;
       if (other.scene == first) continue;
-      const auto found = differences(other);
+      const auto found = rough_differences(picture, other.scene);
       if (amount_of(found, found) >= allowed) continue;
       allowed = amount_of(found, found);
-      best = {std::move(other), std::string("balls as ") + compiler + " places them"};
+      loaded = std::move(other), words = std::string("balls as ") + compiler + " places them";
     } catch (const ProgramInterrupted&) {
       throw;
     } catch (const std::runtime_error&) {  // a compiler that is not there, or that refuses the program
     }
   }
-  return best;
+  return words;
 }
 
 }  // namespace
@@ -172,15 +163,15 @@ Check check_picture(const CheckRequest& request) {
   LoadedScene loaded = open_scene(request.scene);
   begin = std::chrono::steady_clock::now();  // how long compilers take is not for the user to say
   const std::string remark = remark_on_size(loaded, picture.image);
-  Arrangement arrangement = find_arrangement(numbers, request.scene, std::move(loaded), go_on);
-  Scene& scene = arrangement.loaded.scene;
-  scene.width = picture.image.width, scene.height = picture.image.height;
+  loaded.scene.width = picture.image.width, loaded.scene.height = picture.image.height;
+  const std::string arrangement = find_arrangement(numbers, request.scene, loaded, go_on);
+  const Scene& scene = loaded.scene;
   NoisyImage reference = render_reference(scene, picture.image, part_for_reference * limit, reference_samples, go_on);
   stage = "looking for what explains the difference";
   Check check;
   check.verdict = explain(numbers, scene, reference, request.options, go_on);
-  if (!arrangement.words.empty())
-    check.verdict.choices.insert(check.verdict.choices.begin(), {"arrangement", arrangement.words, {}, 1});
+  if (!arrangement.empty())
+    check.verdict.choices.insert(check.verdict.choices.begin(), {"arrangement", arrangement, {}, 1});
   const bool ppm = picture.kind == ImageKind::ppm;
   // Read by the square of its numbers, as that fits better.
   const bool gamma2 = ppm && request.ppm == PpmCurve::srgb && check.verdict.curve == TransferCurve::gamma2;
@@ -193,7 +184,7 @@ Check check_picture(const CheckRequest& request) {
   if (gamma2)
     pair.remarks.push_back(request.image.string() +
                            ": read as the books' programs write it (gamma 2), which fits the scene better");
-  check.comparison = compare_pair(std::move(pair), request.image, arrangement.loaded.name);
+  check.comparison = compare_pair(std::move(pair), request.image, loaded.name);
   return check;
 }
 

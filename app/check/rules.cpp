@@ -126,10 +126,9 @@ Vec3f mistyped_cross(Vec3f a, Vec3f b, int component) {
 /// The camera's axes as the books compute them: u from vup and w, which points backwards, v from w and u.
 std::function<bool(BookProgram&)> mistyped_camera(int component) {
   return [=](BookProgram& program) {
-    const Vec3d up = program.scene.camera.vup;
-    program.columns = [=](RenderScene& scene) {
+    program.columns = [component, vup = to_float(program.scene.camera.vup)](RenderScene& scene) {
       CameraColumns& c = scene.camera;
-      const Vec3f w = -c.axis, vup{static_cast<float>(up.x), static_cast<float>(up.y), static_cast<float>(up.z)};
+      const Vec3f w = -c.axis;
       const Vec3f u = normalize(mistyped_cross(vup, w, component)), v = mistyped_cross(w, u, component);
       const float focus = dot(c.corner, c.axis), lens = length(c.lens_u);
       c.du = length(c.du) * u, c.dv = -length(c.dv) * v;

@@ -2,20 +2,16 @@
 
 #include "core/base/text.h"
 
-#include <type_traits>
-
 namespace tyndall {
 namespace {
 
-template <class Kinds>
-const char* type_of(const Kinds& kind) {
-  const auto type = []<class Kind>(const Kind&) {
-    if constexpr (std::is_same_v<Kind, Vec3d>)
-      return "constant";
-    else
-      return Kind::type;
-  };
-  return std::visit(type, kind);
+template <class Kind>
+constexpr const char* type_name = Kind::type;
+template <>
+constexpr const char* type_name<Vec3d> = "constant";
+
+const char* type_of(const auto& kinds) {
+  return std::visit([]<class Kind>(const Kind&) { return type_name<Kind>; }, kinds);
 }
 
 void count(const Scene& scene, const Solid3d& solid, Contents& contents) {
