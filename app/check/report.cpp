@@ -72,13 +72,6 @@ std::string mistake_text(const Findings& v) {
   return text + "\n";
 }
 
-Json json_of(const Difference& d) { return {{"name", d.name}, {"text", d.words}, {"explained", d.explained}}; }
-Json json_of(const std::vector<Difference>& list) {
-  Json json = Json::array();
-  for (const Difference& d : list) json.push_back(json_of(d));
-  return json;
-}
-
 }  // namespace
 
 std::string verdict_text(const Findings& v) {
@@ -106,24 +99,27 @@ std::string verdict_text(const Findings& v) {
   return text + mistake_text(v);
 }
 
+static void to_json(Json& json, const Difference& d) {
+  json = {{"name", d.name}, {"text", d.words}, {"explained", d.explained}};
+}
+static void to_json(Json& json, const ObjectDifference& d) {
+  json = {{"name", d.object.name},
+          {"kind", d.object.kind},
+          {"pixels", d.pixels},
+          {"mean_image", {d.image.x, d.image.y, d.image.z}},
+          {"mean_reference", {d.expected.x, d.expected.y, d.expected.z}}};
+}
+
 Json verdict_json(const Findings& v) {
-  const auto channels = [](Vec3d c) { return Json{c.x, c.y, c.z}; };
-  Json objects = Json::array();
-  for (const ObjectDifference& d : v.objects)
-    objects.push_back({{"name", d.object.name},
-                       {"kind", d.object.kind},
-                       {"pixels", d.pixels},
-                       {"mean_image", channels(d.image)},
-                       {"mean_reference", channels(d.expected)}});
   return {{"agrees", v.unknown || v.too_few ? Json() : Json(v.agrees)},
           {"too_few_samples", v.too_few},
-          {"explanation", v.mistake ? json_of(*v.mistake) : Json()},
-          {"choices", json_of(v.choices)},
+          {"explanation", v.mistake ? Json(*v.mistake) : Json()},
+          {"choices", v.choices},
           {"curve", curve_text(v.curve)},
           {"samples", v.samples},
           {"blocks", {{"count", v.blocks}, {"different", v.different}, {"edge", v.block_edge}}},
-          {"objects", objects},
-          {"tried", json_of(v.tried)},
+          {"objects", v.objects},
+          {"tried", v.tried},
           {"out_of_time", v.untried > 0}};
 }
 
