@@ -57,8 +57,7 @@ class Search {
     try_readings(right);
     for (const int depth : likely_depths(right)) try_mistake(right, shorter_paths(depth), false);
     for (const Difference& mistake : usual_mistakes()) try_mistake(right, mistake, true);
-    std::stable_sort(findings_.tried.begin(), findings_.tried.end(),
-                     [](const Difference& a, const Difference& b) { return a.explained > b.explained; });
+    std::ranges::stable_sort(findings_.tried, std::greater{}, &Difference::explained);
     if (!right.differences.agree_in_blocks()) name_mistake(right);
     return std::move(findings_);
   }
@@ -108,18 +107,17 @@ class Search {
   /// Takes over the choices of editions that bring the picture clearly closer to the program's, where they show at all,
   /// or with which nothing but noise is left.
   Fit with_choices(Fit best) {
-    std::vector<Difference> choices = usual_choices();
-    for (const Difference& again : usual_choices()) choices.push_back(again);  // a small one may show after a large one
-    for (const Difference& choice : choices) {
-      if (best.differences.agree()) break;
-      Suspect suspect = best.model->suspect;
-      suspect.choices.push_back(choice);
-      const std::shared_ptr<const Model> model = known_model_of(suspect, best.model->samples);
-      if (!model) continue;
-      Fit other = fit(model, best.reading);
-      if (other.differences.agree() || best.differences.left_by(other.differences) <= clear_improvement)
-        best = std::move(other);
-    }
+    for (int round = 0; round < 2; ++round)  // a small one may show after a large one
+      for (const Difference& choice : usual_choices()) {
+        if (best.differences.agree()) return best;
+        Suspect suspect = best.model->suspect;
+        suspect.choices.push_back(choice);
+        const std::shared_ptr<const Model> model = known_model_of(suspect, best.model->samples);
+        if (!model) continue;
+        Fit other = fit(model, best.reading);
+        if (other.differences.agree() || best.differences.left_by(other.differences) <= clear_improvement)
+          best = std::move(other);
+      }
     return best;
   }
 
@@ -177,8 +175,7 @@ class Search {
       const Vec3d off = d.image - d.expected;
       return d.pixels * (std::abs(off.x) + std::abs(off.y) + std::abs(off.z));
     };
-    std::sort(findings_.objects.begin(), findings_.objects.end(),
-              [&](const ObjectDifference& a, const ObjectDifference& b) { return amount(a) > amount(b); });
+    std::ranges::sort(findings_.objects, std::greater{}, amount);
   }
 
   /// A wrong reading must be clearly better than the best right one.
