@@ -59,7 +59,7 @@ std::vector<CellDifference> rough_differences(const PictureNumbers& picture, con
   const Lattice lattice = lattice_of(picture.width, picture.height);
   ThreadPool pool(0);
   const auto samples = book_samples(plain_program(scene), lattice, count, pool, [] { return true; });
-  ExpectedPixels expected;
+  LatticeLight expected;
   for (const SampleStatistics& number : statistics_of(samples, count, {count}))
     expected.light.push_back(number.mean - (picture.coded ? number.excess : 0));
   expected.variance.resize(expected.light.size());

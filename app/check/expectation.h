@@ -77,7 +77,7 @@ class Expectation {
         start_(plain_program(scene)),
         lattice_(lattice_of(picture.width, picture.height)),
         edge_(edge_of_blocks(lattice_)),
-        reference_{on_lattice(reference.mean), on_lattice(squares_of(reference.deviation))},
+        reference_{on_lattice(reference.mean), {}, on_lattice(squares_of(reference.deviation))},
         go_on_(go_on),
         seen_(seen_objects(scene, lattice_)),
         small_(blocks_of(lattice_, edge_)),
@@ -122,14 +122,14 @@ class Expectation {
   }
 
   /// What is expected of a program with these samples if the picture has `count` samples a pixel; 0: not known.
-  ExpectedPixels expected_of(const std::vector<BookSample>& samples, double count) const {
+  LatticeLight expected_of(const std::vector<BookSample>& samples, double count) const {
     const int group = count > 0 ? std::clamp(static_cast<int>(std::lround(count)), 1, count_) : count_;
     const auto now = statistics_of(samples, count_, {group, white()}, &samples_);
     const Numbers common = means_of(large_, now, &SampleStatistics::common),
                   variance = means_of(large_, single_, &SampleStatistics::variance);
     Numbers ratios;
     if (picture_.coded && count > count_ * 1.2) ratios = excess_ratios(samples, count_, count, large_);
-    ExpectedPixels expected;
+    LatticeLight expected;
     for (std::size_t at = 0; at < now.size(); ++at) {
       const std::size_t cell = large_.cell_of(at);
       const bool known = cell != Regions::no_cell;
@@ -147,8 +147,8 @@ class Expectation {
     return expected;
   }
 
-  Differences differences(const ExpectedPixels& expected, const Reading& reading) {
-    ReadPixels& pixels = read_[reading];
+  Differences differences(const LatticeLight& expected, const Reading& reading) {
+    LatticeLight& pixels = read_[reading];
     if (pixels.light.empty()) pixels = read_pixels(picture_, lattice_, reading);
     Differences result{differences_of(pixels, expected, small_),
                        differences_of(pixels, expected, large_),
@@ -211,7 +211,7 @@ class Expectation {
   BookProgram start_;
   Lattice lattice_;
   int edge_;  ///< of a small block, in pixels of the lattice
-  ExpectedPixels reference_;
+  LatticeLight reference_;
   const std::function<bool()>& go_on_;
   SeenObjects seen_;
   Regions small_, large_, whole_;
@@ -220,7 +220,7 @@ class Expectation {
   double comparable_ = 1;
   std::vector<BookSample> samples_;
   std::vector<SampleStatistics> single_;  ///< of these, as if the picture had one
-  std::map<Reading, ReadPixels> read_;    ///< the picture, as the right readings take it
+  std::map<Reading, LatticeLight> read_;  ///< the picture, as the right readings take it
 };
 
 }  // namespace tyndall

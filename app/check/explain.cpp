@@ -24,7 +24,7 @@ struct Suspect {
 struct Model {
   Suspect suspect;
   double samples = 0;  ///< a pixel, that the user's picture has if it is one of them; 0: not known
-  ExpectedPixels expected;
+  LatticeLight expected;
 };
 
 /// A way in which the picture may have been made, and how far the picture is from that.

@@ -88,8 +88,7 @@ std::string verdict_text(const Findings& v) {
   else if (v.agrees)
     text = fmt::format("check    the pictures agree within the noise, in {} {}\n", v.blocks - v.different, blocks);
   text += how_made(v);
-  if (std::any_of(v.seen.objects.begin(), v.seen.objects.end(),
-                  [](const auto& object) { return object.noisy_texture; }))
+  if (std::ranges::any_of(v.seen.objects, &SeenObjects::Object::noisy_texture))
     text += "left out objects with noise textures: their veins lie elsewhere in Tyndall\n";
   if (v.too_few || v.agrees) return text;
   for (std::size_t k = 0; k < std::min(max_objects, v.objects.size()); ++k) text += object_line(v.objects[k]);

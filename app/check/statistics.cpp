@@ -64,7 +64,7 @@ double quantile_of(Numbers values, double fraction) {
 
 /// The variance of a pixel of the picture, of each cell; negative where there are too few pixels. From neighbours in a
 /// row, so that what changes slowly from pixel to pixel counts little; what is brighter than white counts nothing.
-Numbers noise_of(const ReadPixels& picture, const ExpectedPixels& reference, const Regions& regions, double white) {
+Numbers noise_of(const LatticeLight& picture, const LatticeLight& reference, const Regions& regions, double white) {
   Numbers noise(regions.cells()), counts(regions.cells());
   for (std::size_t at = 3; at < picture.light.size(); ++at) {
     const std::size_t cell = regions.cell_of(at);
@@ -136,8 +136,8 @@ PictureNumbers numbers_of(const PictureFile& picture) {
   return result;
 }
 
-ReadPixels read_pixels(const PictureNumbers& picture, const Lattice& lattice, const Reading& reading) {
-  ReadPixels pixels;
+LatticeLight read_pixels(const PictureNumbers& picture, const Lattice& lattice, const Reading& reading) {
+  LatticeLight pixels;
   for (int y = 0; y < picture.height; y += lattice.step)
     for (int x = 0; x < picture.width; x += lattice.step) {
       const int column = reading.mirrored ? picture.width - 1 - x : x;
@@ -208,7 +208,7 @@ Regions blocks_of(const Lattice& lattice, int edge) {
   return regions;
 }
 
-std::vector<CellDifference> differences_of(const ReadPixels& picture, const ExpectedPixels& expected,
+std::vector<CellDifference> differences_of(const LatticeLight& picture, const LatticeLight& expected,
                                            const Regions& regions) {
   std::vector<CellDifference> cells(regions.cells());  // sums at first
   Numbers squares(cells.size()), variances(cells.size());
@@ -255,7 +255,7 @@ double amount_of(std::span<const CellDifference> differences, std::span<const Ce
   return amount;
 }
 
-std::vector<double> likely_counts(const ReadPixels& picture, const ExpectedPixels& reference,
+std::vector<double> likely_counts(const LatticeLight& picture, const LatticeLight& reference,
                                   const std::vector<BookSample>& samples, int count, const Regions& regions,
                                   double white) {
   const Numbers noise = noise_of(picture, reference, regions, white);

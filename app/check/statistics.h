@@ -50,17 +50,12 @@ struct PictureNumbers {
 PictureNumbers numbers_of(const PictureFile& picture);
 
 /// Light at the pixels of a lattice.
-struct ReadPixels {
+struct LatticeLight {
   Numbers light;
-  Numbers tolerance;  ///< by how much the light may be off because of PictureNumbers::step
+  Numbers tolerance{};  ///< of a picture: by how much the light may be off because of PictureNumbers::step
+  Numbers variance{};   ///< of what is expected: of a pixel's noise, as far as it is known
 };
-ReadPixels read_pixels(const PictureNumbers& picture, const Lattice& lattice, const Reading& reading);
-
-/// What light is expected at the pixels of a lattice.
-struct ExpectedPixels {
-  Numbers light;
-  Numbers variance;  ///< of a pixel's noise, as far as it is known
-};
+LatticeLight read_pixels(const PictureNumbers& picture, const Lattice& lattice, const Reading& reading);
 
 /// Pairs of numbers: their covariance; of pairs of equal numbers their mean, and the variance of that.
 struct Pairs {
@@ -161,7 +156,7 @@ struct CellDifference {
 /// Of each cell. The error is the greater of two: what the scatter of the pixels' differences shows, and what their
 /// known variance predicts. The first also holds the noise of the expected light. The second is right where rare bright
 /// paths have not happened to be met.
-std::vector<CellDifference> differences_of(const ReadPixels& picture, const ExpectedPixels& expected,
+std::vector<CellDifference> differences_of(const LatticeLight& picture, const LatticeLight& expected,
                                            const Regions& regions);
 
 /// Standard errors beyond which a difference is no noise. Errors are estimated, and the noise of few samples is no
@@ -182,7 +177,7 @@ double amount_of(std::span<const CellDifference> differences, std::span<const Ce
 /// The numbers of samples a pixel that a picture's noise may stand for if a program with these samples, `count` of each
 /// pixel, has made it, the likeliest first; 0: not known. White makes few samples show as little noise as many, so that
 /// there may be several. reference: the picture without noise, and the variance of that.
-std::vector<double> likely_counts(const ReadPixels& picture, const ExpectedPixels& reference,
+std::vector<double> likely_counts(const LatticeLight& picture, const LatticeLight& reference,
                                   const std::vector<BookSample>& samples, int count, const Regions& regions,
                                   double white);
 
