@@ -110,8 +110,7 @@ std::string find_arrangement(const PictureNumbers& picture, const SceneRequest& 
 
 bool names_scene(const std::string& name) {
   if (is_program(name)) return true;
-  const auto scenes = built_in_scenes();
-  if (std::any_of(scenes.begin(), scenes.end(), [&](const BuiltIn& scene) { return scene.name == name; })) return true;
+  if (std::ranges::any_of(built_in_scenes(), [&](const BuiltIn& scene) { return scene.name == name; })) return true;
   const fs::path file = picture_name(name).file;
   std::error_code error;
   if (!fs::exists(file, error)) return lower_case(file.extension().string()) == ".json";

@@ -55,14 +55,12 @@ std::vector<BookSample> own_samples(const ProgramScene& program, const Lattice& 
 
 std::vector<BookSample> our_samples(const Scene& scene, const ProgramScene& program, const Lattice& lattice,
                                     int count) {
-  BookProgram ours{scene, {}};
-  BookRules& rules = ours.rules;
-  rules.schlick = true;
-  rules.short_frame = program.short_frame;
-  if (program.matt_in_sphere) rules.diffuse = DiffuseRule::filled_sphere;
-  if (program.fuzz_on_sphere) rules.fuzz = FuzzRule::sphere;
+  const BookRules rules{.diffuse = program.matt_in_sphere ? DiffuseRule::filled_sphere : DiffuseRule::cosine,
+                        .fuzz = program.fuzz_on_sphere ? FuzzRule::sphere : FuzzRule::filled_sphere,
+                        .schlick = true,
+                        .short_frame = program.short_frame};
   ThreadPool pool(0);
-  return book_samples(ours, lattice, count, pool, [] { return true; });
+  return book_samples({scene, rules}, lattice, count, pool, [] { return true; });
 }
 
 }  // namespace
