@@ -2,6 +2,7 @@
 
 #include "core/base/math.h"
 #include "core/base/sampling.h"
+#include "core/base/thread_pool.h"
 #include "core/compile/compile.h"
 #include "core/materials/materials.h"
 #include "core/targets/kernels.h"
@@ -226,14 +227,15 @@ Lattice lattice_of(int width, int height) {
   return lattice;
 }
 
-std::vector<BookSample> book_samples(const BookProgram& program, const Lattice& lattice, int count, ThreadPool& threads,
+std::vector<BookSample> book_samples(const BookProgram& program, const Lattice& lattice, int count,
                                      const std::function<bool()>& go_on) {
   SceneView scene{compile(program.scene)};
   if (program.columns) program.columns(scene);
   const Kernels kernels = *choose_kernels("");
   const auto each = static_cast<std::size_t>(count), columns = static_cast<std::size_t>(lattice.columns());
   std::vector<BookSample> samples(lattice.pixels() * each);
-  std::atomic<bool> give_up = !go_on();
+  const auto stops = [&go_on] { return go_on && !go_on(); };
+  std::atomic<bool> give_up = stops();
   const auto follow_some = [&](int job) {
     const std::size_t first = paths_per_job * static_cast<std::size_t>(job);
     std::vector<BookPath> paths;
@@ -244,7 +246,7 @@ std::vector<BookSample> book_samples(const BookProgram& program, const Lattice& 
     follow({scene, program.rules}, kernels, paths);
   };
   const auto jobs = static_cast<int>((samples.size() + paths_per_job - 1) / paths_per_job);
-  threads.for_each(jobs, follow_some, [&] { give_up = give_up || !go_on(); });
+  ThreadPool(0).for_each(jobs, follow_some, [&] { give_up = give_up || stops(); });
   if (give_up) samples.clear();
   return samples;
 }

@@ -57,8 +57,7 @@ std::string remark_on_size(const LoadedScene& loaded, const LinearImage& image) 
 std::vector<CellDifference> rough_differences(const PictureNumbers& picture, const Scene& scene) {
   constexpr int count = 4;
   const Lattice lattice = lattice_of(picture.width, picture.height);
-  ThreadPool pool(0);
-  const auto samples = book_samples(plain_program(scene), lattice, count, pool, [] { return true; });
+  const auto samples = book_samples(plain_program(scene), lattice, count);
   LatticeLight expected;
   for (const SampleStatistics& number : statistics_of(samples, count, {count}))
     expected.light.push_back(number.mean - (picture.coded ? number.excess : 0));

@@ -1,7 +1,6 @@
 #pragma once
 #include "app/check/statistics.h"
 #include "core/base/seconds.h"
-#include "core/base/thread_pool.h"
 
 #include <chrono>
 #include <limits>
@@ -116,9 +115,8 @@ class Expectation {
   }
 
   /// Renders a program; empty: there is no time left; in_time: whether that matters.
-  std::vector<BookSample> samples_of(const BookProgram& program, bool in_time) {
-    return book_samples(
-        program, lattice_, count_, threads_, in_time ? go_on_ : [] { return true; });
+  std::vector<BookSample> samples_of(const BookProgram& program, bool in_time) const {
+    return book_samples(program, lattice_, count_, in_time ? go_on_ : std::function<bool()>());
   }
 
   /// What is expected of a program with these samples if the picture has `count` samples a pixel; 0: not known.
@@ -215,7 +213,6 @@ class Expectation {
   const std::function<bool()>& go_on_;
   SeenObjects seen_;
   Regions small_, large_, whole_;
-  ThreadPool threads_{0};
   int count_ = 0;  ///< samples that were taken of each pixel
   double comparable_ = 1;
   std::vector<BookSample> samples_;

@@ -53,16 +53,6 @@ std::vector<BookSample> own_samples(const ProgramScene& program, const Lattice& 
   return samples;
 }
 
-std::vector<BookSample> our_samples(const Scene& scene, const ProgramScene& program, const Lattice& lattice,
-                                    int count) {
-  const BookRules rules{.diffuse = program.matt_in_sphere ? DiffuseRule::filled_sphere : DiffuseRule::cosine,
-                        .fuzz = program.fuzz_on_sphere ? FuzzRule::sphere : FuzzRule::filled_sphere,
-                        .schlick = true,
-                        .short_frame = program.short_frame};
-  ThreadPool pool(0);
-  return book_samples({scene, rules}, lattice, count, pool, [] { return true; });
-}
-
 }  // namespace
 
 std::string differs_from_own(const Scene& scene, const ProgramScene& program) {
@@ -75,8 +65,12 @@ std::string differs_from_own(const Scene& scene, const ProgramScene& program) {
   const double allowed = program.draws_by_pdf ? 5 * blocks_allowed : blocks_allowed;
   const std::vector<BookSample> samples = own_samples(program, lattice);
   const int count = static_cast<int>(samples.size() / lattice.pixels());
+  const BookRules rules{.diffuse = program.matt_in_sphere ? DiffuseRule::filled_sphere : DiffuseRule::cosine,
+                        .fuzz = program.fuzz_on_sphere ? FuzzRule::sphere : FuzzRule::filled_sphere,
+                        .schlick = true,
+                        .short_frame = program.short_frame};
   const std::vector<Pairs> own = sums_of(samples, regions, brightest),
-                           ours = sums_of(our_samples(scene, program, lattice, count), regions, brightest);
+                           ours = sums_of(book_samples({scene, rules}, lattice, count), regions, brightest);
   const auto apart = [&](std::size_t cell) {
     const double a = own[cell].mean(), b = ours[cell].mean(), difference = std::abs(a - b);
     return difference > noise_allowed * std::sqrt(own[cell].variance_of_mean() + ours[cell].variance_of_mean()) &&
