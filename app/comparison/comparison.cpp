@@ -75,8 +75,9 @@ void cut(LinearImage& image, const Region& place, const Region& part) {
   throw UsageError("--max-z: " + file.string() + ": found " + found + ", expected " + expected);
 }
 
-/// errors: of each value of the picture; squared: their squares.
-NoisyImage with_errors(const Path& name, LinearImage image, const Path& error_name, LinearImage errors, bool squared) {
+/// error_name: the picture of the standard errors of each value; squared: of their squares.
+NoisyImage read_with_errors(const Path& name, const Path& error_name, bool squared) {
+  LinearImage image = read_image(name), errors = read_image(error_name);
   if (errors.width != image.width || errors.height != image.height)
     refuse_noise(error_name, fmt::format("{}x{} pixels", errors.width, errors.height),
                  fmt::format("{}x{} as in {}", image.width, image.height, name.string()));
@@ -89,9 +90,7 @@ NoisyImage with_errors(const Path& name, LinearImage image, const Path& error_na
 
 /// Takes over what the figures in an EXR of Tyndall say of its samples.
 void read_figures(const Path& file, NoisyImage& image) {
-  const auto text = read_embedded_stats(file);
-  if (!text) return;
-  const auto json = nlohmann::json::parse(*text, nullptr, false);
+  const auto json = nlohmann::json::parse(read_embedded_stats(file).value_or(""), nullptr, false);
   if (!json.is_object()) return;
   if (json.contains("spp") && json["spp"].is_number()) image.spp = json["spp"].get<double>();
   image.correlated = json.contains("sharing") && json["sharing"].is_boolean() && json["sharing"].get<bool>();
@@ -104,7 +103,7 @@ NoisyImage read_exr(const Path& file) {
   }
   const Path variance = file.string() + ":Variance";
   try {
-    NoisyImage image = with_errors(file, read_image(file), variance, read_image(variance), true);
+    NoisyImage image = read_with_errors(file, variance, true);
     read_figures(file, image);
     return image;
   } catch (const NoSuchLayer&) {
@@ -193,7 +192,7 @@ NoisyImage read_noisy_image(const Path& name, const Region& place) {
         ending == ".pfm" ? "no " + errors.filename().string() + " beside it" : "a picture that does not say its noise",
         "an EXR as tyndall render writes it (-o NAME.exr), or a PFM with its standard errors beside it in "
         "NAME.error.pfm");
-  NoisyImage image = exr ? read_exr(file) : with_errors(file, read_image(file), errors, read_image(errors), false);
+  NoisyImage image = exr ? read_exr(file) : read_with_errors(file, errors, false);
   image.region = place;
   return image;
 }
