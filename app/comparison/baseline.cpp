@@ -7,7 +7,6 @@
 #include "core/base/text.h"
 #include "core/image/image_io.h"
 #include "core/image/image_io_file.h"
-#include "core/image/whole_file.h"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -15,7 +14,6 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
-#include <span>
 
 namespace tyndall {
 namespace {
@@ -198,9 +196,7 @@ void copy_all(const std::map<fs::path, fs::path>& copies) {
   try {
     for (const auto& [target, file] : copies) {
       const std::vector<std::uint8_t> bytes = read_bytes(file);
-      WholeFile copy(target);
-      copy.write(std::as_bytes(std::span(bytes)));
-      copy.commit();
+      write_text_file(target, {bytes.begin(), bytes.end()});
       ++done;
     }
   } catch (const std::runtime_error& problem) {
