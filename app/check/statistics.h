@@ -19,7 +19,8 @@ namespace tyndall {
 /// Three a pixel of a lattice, or of cells of its regions.
 using Numbers = std::vector<double>;
 
-/// How numbers of a file stand for light. light: they are light, without limits (floating-point files).
+/// How numbers of a file stand for light. light: they are light, without limits (floating-point files). From none on
+/// they are mistakes.
 enum class TransferCurve { light, srgb, power22, gamma2, none, gamma2_twice };
 
 /// One way to read a picture. The first members are what programs choose, the others mistakes.
@@ -28,10 +29,7 @@ struct Reading {
   bool upside_down = false, mirrored = false;  ///< the first row is at the bottom; the first column at the right
   bool swapped = false;                        ///< red and blue have changed places
   /// Whether it holds no mistake.
-  bool is_right() const {
-    return curve != TransferCurve::none && curve != TransferCurve::gamma2_twice && !upside_down && !mirrored &&
-           !swapped;
-  }
+  bool is_right() const { return curve < TransferCurve::none && !upside_down && !mirrored && !swapped; }
   auto operator<=>(const Reading&) const = default;  // NOLINT(modernize-use-nullptr): means the comparison with 0
 };
 

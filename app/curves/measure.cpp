@@ -81,8 +81,8 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
   exact.render.caustics = Caustics::chains;
   exact.render.sharing = true;
   const std::shared_ptr<const PreparedScene> prepared = prepare(exact);
-  const SceneFeatures features = prepared->columns().features;
-  std::vector<ChartMethod> methods;
+  const SceneFeatures& features = prepared->columns().features;
+  const bool glass = has_material<Dielectric<>>(features);
   RenderSettings settings = scene.render;
   settings.spp.reset();
   settings.adaptive = false;
@@ -90,37 +90,33 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
   settings.sampler = SamplerKind::random;
   settings.caustics = Caustics::scatter;
   settings.sharing = false;
-  settings.fresnel = has_material<Dielectric<>>(features) ? FresnelKind::schlick : FresnelKind::exact;
-  methods.push_back({"the books' method", settings, "scalar"});
+  settings.fresnel = glass ? FresnelKind::schlick : FresnelKind::exact;
   bool splits = false;
-  const auto switch_on = [&](const char* name, auto setting, auto value) {
-    settings.*setting = value;
-    methods.push_back({name, settings, "scalar", false, splits});
+  std::vector<ChartMethod> methods;
+  const auto add = [&](const std::string& name, const char* isa = "scalar", bool clean = false) {
+    methods.push_back({name, settings, isa, clean, splits});
   };
-  using Settings = RenderSettings;
-  if (has_material<Dielectric<>>(features)) switch_on("+ exact Fresnel", &Settings::fresnel, FresnelKind::exact);
+  add("the books' method");
+  if (glass) settings.fresnel = FresnelKind::exact, add("+ exact Fresnel");
   if (has_material<Light<>>(features)) {
-    switch_on("+ light sampling", &Settings::integrator, Integrator::nee);
-    switch_on("+ MIS", &Settings::integrator, Integrator::mis);
+    settings.integrator = Integrator::nee, add("+ light sampling");
+    settings.integrator = Integrator::mis, add("+ MIS");
   }
-  switch_on("+ Sobol'", &Settings::sampler, SamplerKind::sobol);
+  settings.sampler = SamplerKind::sobol, add("+ Sobol'");
   const bool specular_paths = !prepared->columns().specular.sphere.empty(), guided = prepared->guide().lobes() > 0;
-  const char* paths = !guided ? "+ chains" : specular_paths ? "+ chains, guided light" : "+ guided light";
-  if (specular_paths || guided) switch_on(paths, &Settings::caustics, Caustics::chains);
-  splits = true;
-  if (prepared->columns().splits_paths) switch_on("+ splitting", &Settings::caustics, Caustics::chains);
-  if (prepared->reuses_paths()) switch_on("+ sharing", &Settings::sharing, true);
-  for (const Kernels& kernels : available_kernels())
-    if (std::string_view(kernels.isa) != "scalar")
-      methods.push_back({std::string("+ ") + kernels.isa, settings, kernels.isa});
-  methods.push_back({"+ clean (filtered)", settings, "", true});
-  settings.adaptive = true;
-  methods.push_back({"+ adaptive", settings, ""});
-  settings.adaptive = false;
-  if (has_material<Dielectric<>>(features)) {
-    settings.fresnel = FresnelKind::schlick;
-    methods.push_back({"Schlick", settings, ""});
+  if (specular_paths || guided) {
+    settings.caustics = Caustics::chains;
+    add(!guided ? "+ chains" : specular_paths ? "+ chains, guided light" : "+ guided light");
   }
+  splits = true;
+  if (prepared->columns().splits_paths) settings.caustics = Caustics::chains, add("+ splitting");
+  if (prepared->reuses_paths()) settings.sharing = true, add("+ sharing");
+  for (const Kernels& kernels : available_kernels())
+    if (std::string_view(kernels.isa) != "scalar") add(std::string("+ ") + kernels.isa, kernels.isa);
+  add("+ clean (filtered)", "", true);
+  settings.adaptive = true, add("+ adaptive", "");
+  settings.adaptive = false;
+  if (glass) settings.fresnel = FresnelKind::schlick, add("Schlick", "");
   return methods;
 }
 
