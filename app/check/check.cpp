@@ -221,14 +221,14 @@ Check check_picture(const CheckRequest& request) {
   const bool gamma2 = ppm && request.ppm == PpmCurve::srgb && check.verdict.curve == TransferCurve::gamma2;
   if (ppm && (gamma2 || request.ppm == PpmCurve::gamma2)) read_as_gamma2(picture.image);
   const std::size_t pixels = picture.image.rgb.size() / 3;
-  PicturePair pair{{pixels, pixels}, {}, {scene.width, scene.height, std::move(reference.mean)}};
-  pair.image = take_pixels(pair, request.image, std::move(picture));
-  pair.image.frame.reset();
+  PicturePair pair{{pixels, pixels}, {}, {loaded.name, {scene.width, scene.height, std::move(reference.mean)}}};
+  pair.image = {request.image, take_pixels(pair, request.image, std::move(picture))};
+  pair.image.pixels.frame.reset();
   if (!remark.empty()) pair.remarks.push_back(remark);
   if (gamma2)
     pair.remarks.push_back(request.image.string() +
                            ": read as the books' programs write it (gamma 2), which fits the scene better");
-  check.comparison = compare_pair(std::move(pair), request.image, loaded.name);
+  check.comparison = compare_pair(std::move(pair));
   return check;
 }
 

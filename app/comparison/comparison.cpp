@@ -16,24 +16,18 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// One of the two pictures, for messages and for its place.
-struct Placed {
-  const Path& name;
-  const LinearImage& image;
-};
-
 std::string text_of(const Region& r) { return fmt::format("{},{},{},{}", r.x0, r.y0, r.x1, r.y1); }
 std::string size_of(const LinearImage& image) { return fmt::format("{}x{}", image.width, image.height); }
 
-[[noreturn]] void refuse(const Placed& image, const Placed& reference, const std::string& found,
+[[noreturn]] void refuse(const PairedPicture& image, const PairedPicture& reference, const std::string& found,
                          const std::string& expected) {
   throw UsageError(
       fmt::format("{}: found {}, expected {} as in {}", image.name.string(), found, expected, reference.name.string()));
 }
 
 /// Refuses two EXR files whose pixels cannot be the same ones.
-void check_frames(const Placed& image, const Placed& reference) {
-  const ImageFrame &a = *image.image.frame, &b = *reference.image.frame;
+void check_frames(const PairedPicture& image, const PairedPicture& reference) {
+  const ImageFrame &a = *image.pixels.frame, &b = *reference.pixels.frame;
   if (!(a.display == b.display))
     refuse(image, reference, "the display window " + text_of(a.display), text_of(b.display));
   if (a.pixel_aspect != b.pixel_aspect)
@@ -44,16 +38,16 @@ void check_frames(const Placed& image, const Placed& reference) {
 }
 
 /// Where the pixels of a picture lie, compared with another one.
-Region place_of(const Placed& picture, const Placed& other) {
-  if (picture.image.frame) return picture.image.frame->data;
-  const Region whole{0, 0, other.image.width, other.image.height};
-  const ImageFrame frame = other.image.frame.value_or(ImageFrame{whole, whole});
+Region place_of(const PairedPicture& picture, const PairedPicture& other) {
+  if (picture.pixels.frame) return picture.pixels.frame->data;
+  const Region whole{0, 0, other.pixels.width, other.pixels.height};
+  const ImageFrame frame = other.pixels.frame.value_or(ImageFrame{whole, whole});
   if (frame.pixel_aspect != 1)
     refuse(picture, other, "square pixels", fmt::format("pixelAspectRatio {}", frame.pixel_aspect));
   for (const Region& place : {frame.display, frame.data})
-    if (place.width() == picture.image.width && place.height() == picture.image.height) return place;
-  const std::string data = frame.data == frame.display ? "" : " or " + size_of(other.image);
-  refuse(picture, other, size_of(picture.image) + " pixels",
+    if (place.width() == picture.pixels.width && place.height() == picture.pixels.height) return place;
+  const std::string data = frame.data == frame.display ? "" : " or " + size_of(other.pixels);
+  refuse(picture, other, size_of(picture.pixels) + " pixels",
          fmt::format("{}x{}{}", frame.display.width(), frame.display.height(), data));
 }
 
@@ -147,19 +141,19 @@ LinearImage take_pixels(PairFiles& files, const Path& name, PictureFile picture)
 
 PicturePair read_pair(const Path& image_name, const Path& reference_name, PpmCurve ppm) {
   PicturePair pair;
-  pair.image = take_pixels(pair, image_name, read_picture(image_name, ppm));
+  PairedPicture &image = pair.image, &reference = pair.reference;
+  image = {image_name, take_pixels(pair, image_name, read_picture(image_name, ppm))};
   const std::vector<std::string> told = pair.remarks;
-  pair.reference = take_pixels(pair, reference_name, read_picture(reference_name, ppm));
+  reference = {reference_name, take_pixels(pair, reference_name, read_picture(reference_name, ppm))};
   if (image_name == reference_name) pair.remarks = told;
-  pair.image_pixels = pair.image.rgb.size() / 3, pair.reference_pixels = pair.reference.rgb.size() / 3;
-  const Placed image{image_name, pair.image}, reference{reference_name, pair.reference};
-  if (pair.image.frame && pair.reference.frame) check_frames(image, reference);
-  const Region a = place_of(image, reference), b = place_of(reference, image), both = common_part(a, b);
+  pair.image_pixels = image.pixels.rgb.size() / 3, pair.reference_pixels = reference.pixels.rgb.size() / 3;
+  if (image.pixels.frame && reference.pixels.frame) check_frames(image, reference);
+  image.place = place_of(image, reference), reference.place = place_of(reference, image);
+  const Region both = common_part(image.place, reference.place);
   if (both.x0 >= both.x1 || both.y0 >= both.y1)
-    refuse(image, reference, "pixels in the data window " + text_of(a) + " alone", "some in " + text_of(b));
-  pair.image_place = a, pair.reference_place = b;
-  cut(pair.image, a, both);
-  cut(pair.reference, b, both);
+    refuse(image, reference, "pixels in the data window " + text_of(image.place) + " alone",
+           "some in " + text_of(reference.place));
+  for (PairedPicture* one : {&image, &reference}) cut(one->pixels, one->place, both);
   return pair;
 }
 
@@ -197,11 +191,10 @@ NoisyImage read_noisy_image(const Path& name, const Region& place) {
   return image;
 }
 
-Comparison compare_images(const std::filesystem::path& image, const std::filesystem::path& reference, PpmCurve ppm,
-                          bool noise) {
+Comparison compare_images(const Path& image, const Path& reference, PpmCurve ppm, bool noise) {
   PicturePair pair = read_pair(image, reference, ppm);
-  const Region place = pair.image_place, reference_place = pair.reference_place;
-  Comparison result = compare_pair(std::move(pair), image, reference);
+  const Region place = pair.image.place, reference_place = pair.reference.place;
+  Comparison result = compare_pair(std::move(pair));
   if (noise && result.not_finite.empty())
     result.noise = noise_scores(read_noisy_image(image, place), read_noisy_image(reference, reference_place));
   return result;
@@ -218,9 +211,8 @@ std::string noise_text(const NoiseScores& s) {
   return text;
 }
 
-Comparison compare_pair(PicturePair pair, const std::filesystem::path& image_file,
-                        const std::filesystem::path& reference_file) {
-  const LinearImage &image = pair.image, &reference = pair.reference;
+Comparison compare_pair(PicturePair pair) {
+  const LinearImage &image = pair.image.pixels, &reference = pair.reference.pixels;
   Comparison result{std::move(static_cast<PairFiles&>(pair)),
                     image.width,
                     image.height,
@@ -229,9 +221,9 @@ Comparison compare_pair(PicturePair pair, const std::filesystem::path& image_fil
                     flip_map(image.rgb, reference.rgb, image.width, image.height),
                     outside_error(image.rgb, reference.rgb)};
   // What is equal to nothing: says so in words, and in the map of FLIP, which takes such values for black or white.
-  for (const auto& [file, picture] : {std::pair(&image_file, &image), std::pair(&reference_file, &reference)})
-    if (const std::string text = not_finite_text(*picture); !text.empty())
-      result.not_finite.push_back(all_printable(file->string()) + ": " + text);
+  for (const PairedPicture* one : {&pair.image, &pair.reference})
+    if (const std::string text = not_finite_text(one->pixels); !text.empty())
+      result.not_finite.push_back(all_printable(one->name.string()) + ": " + text);
   for (std::size_t i = 0; i < result.flip_map.size() && !result.not_finite.empty(); ++i)
     if (!is_finite(image, i) || !is_finite(reference, i)) result.flip_map[i] = 1;
   for (const float value : result.flip_map) result.flip += static_cast<double>(value);

@@ -91,9 +91,9 @@ std::string pictures_of(const CheckedPicture& picture, PpmCurve ppm) {
   const Comparison& c = *picture.comparison;
   const LinearImage flip = heat_colours(c.flip_map, c.width, c.height);
   const PicturePair pair = read_pair(picture.image, picture.reference, ppm);
-  return from_template(
-      "report_pair.html",
-      {{"baseline", data_of(pair.reference)}, {"rendered", data_of(pair.image)}, {"flip", data_of(flip)}});
+  return from_template("report_pair.html", {{"baseline", data_of(pair.reference.pixels)},
+                                            {"rendered", data_of(pair.image.pixels)},
+                                            {"flip", data_of(flip)}});
 }
 
 std::string table_of(const CheckedPicture& picture) {
