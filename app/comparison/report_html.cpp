@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 
 namespace tyndall {
@@ -134,13 +136,13 @@ std::string summary_row(const CheckedPicture& picture, std::size_t number) {
 
 /// The colours of a heat map as stops of a CSS gradient.
 std::string css_stops() {
-  std::vector<float> values;
-  for (int i = 0; i <= 16; ++i) values.push_back(static_cast<float>(i) / 16);
-  const std::vector<std::uint8_t> rgb = tone_map(heat_colours(values, 17, 1).rgb, 0, ToneMap::srgb);
-  std::vector<std::string> stops;
-  for (std::size_t k = 0; k < rgb.size(); k += 3)
-    stops.push_back(fmt::format("rgb({} {} {})", rgb[k], rgb[k + 1], rgb[k + 2]));
-  return joined(stops);
+  std::string text;
+  for (int i = 0; i <= 16; ++i) {
+    const std::array<float, 3> colour = heat(static_cast<float>(i) / 16);
+    const auto byte = [](float v) { return static_cast<int>(std::lround(255 * static_cast<double>(srgb_encode(v)))); };
+    text += fmt::format("{}rgb({} {} {})", i == 0 ? "" : ", ", byte(colour[0]), byte(colour[1]), byte(colour[2]));
+  }
+  return text;
 }
 
 /// The numbers of the page, for programs.
