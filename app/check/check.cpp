@@ -127,23 +127,20 @@ std::vector<Pairs> sums_of(const std::vector<BookSample>& samples, const Regions
   return sums;
 }
 
-/// One sample of each pixel of the lattice.
-std::vector<double> ask_once(OwnProgram& program, const Lattice& lattice, int sample) {
-  std::vector<double> places;
-  const double across = std::fmod(0.5 + 0.7548776662466927 * sample, 1),
-               down = std::fmod(0.5 + 0.5698402909980532 * sample, 1);
-  for (int y = 0; y < lattice.rows(); ++y)
-    for (int x = 0; x < lattice.columns(); ++x)
-      places.insert(places.end(), {x * lattice.step + across, y * lattice.step + down});
-  return program.samples(places);
-}
-
 /// As many samples of each pixel as the program computes in its time: those of a pixel follow each other.
 std::vector<BookSample> own_samples(const ProgramScene& program, const Lattice& lattice) {
   const auto begin = std::chrono::steady_clock::now();
-  std::vector<std::vector<double>> all;
-  while (all.size() < fewest_samples || (all.size() < most_samples && seconds_since(begin) < seconds_of_program))
-    all.push_back(ask_once(*program.own, lattice, static_cast<int>(all.size())));
+  std::vector<std::vector<double>> all;  // one sample of each pixel after the other
+  while (all.size() < fewest_samples || (all.size() < most_samples && seconds_since(begin) < seconds_of_program)) {
+    const auto number = static_cast<double>(all.size());
+    const double across = std::fmod(0.5 + 0.7548776662466927 * number, 1),
+                 down = std::fmod(0.5 + 0.5698402909980532 * number, 1);
+    std::vector<double> places;
+    for (int y = 0; y < lattice.rows(); ++y)
+      for (int x = 0; x < lattice.columns(); ++x)
+        places.insert(places.end(), {x * lattice.step + across, y * lattice.step + down});
+    all.push_back(program.own->samples(places));
+  }
   std::vector<BookSample> samples;
   for (std::size_t pixel = 0; pixel < lattice.pixels(); ++pixel)
     for (const std::vector<double>& one : all)
