@@ -43,6 +43,9 @@ struct ObjectDifference {
   Vec3d image, expected;
 };
 
+/// Of the cells of SeenObjects::regions; the largest difference first.
+std::vector<ObjectDifference> differing_objects(const SeenObjects& seen, std::span<const CellDifference> cells);
+
 /// What is found about a picture.
 struct Findings {
   bool agrees = false;  ///< the picture differs from the scene by noise and by `choices` alone

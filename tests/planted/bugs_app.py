@@ -201,7 +201,7 @@ APP = [
 
     ("swapped red and blue are not tried", "app/check/statistics.cpp", "picture.numbers[at + («reading.swapped ? 2 - c : c → c»)];", "app/check/explain"),
     ("a mean product in place of a covariance", "app/check/statistics.h", "(products - «a * b / count → 0.0») / (count - 1)", "app/check/explain"),
-    ("what a mistake explains is what it adds", "app/check/expectation.h",
+    ("what a mistake explains is what it adds", "app/check/statistics.h",
      "return seen > min_seen * amount() ? 1 - «amount_of(after.all, all) → amount_of(all, after.all)» / seen : 0;", "app/check/explain"),
     ("a picture of too few samples agrees", "app/check/explain.cpp", "findings_.too_few = agree && «findings_.unseen > max_unseen → false»;", "app/check/explain"),
     ("light of a depth alone, not up to it", "app/check/statistics.cpp", "for (std::size_t k = 1; k < light.size(); ++k) «light[k] += light[k - 1]; → »",
