@@ -56,12 +56,11 @@ class Search {
       : picture_(picture),
         start_(plain_program(scene)),
         lattice_(lattice_of(picture.width, picture.height)),
-        edge_(edge_of_blocks(lattice_)),
-        reference_{on_lattice(reference.mean), {}, on_lattice(squares_of(reference.deviation))},
+        reference_(on_lattice(reference)),
         go_on_(go_on),
-        right_readings_(readings_of(picture.coded, true)),
-        small_(blocks_of(lattice_, edge_)),
-        large_(blocks_of(lattice_, large_edge * edge_)) {
+        right_readings_(readings_of(picture.coded, true)) {
+    const int edge = edge_of_blocks(lattice_);
+    small_ = blocks_of(lattice_, edge), large_ = blocks_of(lattice_, 4 * edge);
     SeenObjects& seen = findings_.seen = seen_objects(scene, lattice_);
     for (std::size_t pixel = 0; pixel < seen.of_pixel.size(); ++pixel)
       if (seen.at(pixel).noisy_texture) small_.of_pixel[pixel] = large_.of_pixel[pixel] = -1;
@@ -72,7 +71,7 @@ class Search {
     findings_.unknown = pixels > 0 && static_cast<double>(kept()) / pixels < min_comparable;
     whole_ = {small_.of_pixel, 1};
     for (int& region : whole_.of_pixel) region = std::min(region, 0);
-    findings_.block_edge = edge_ * lattice_.step;
+    findings_.block_edge = edge * lattice_.step;
     findings_.seconds = options.seconds;
   }
 
@@ -89,16 +88,13 @@ class Search {
   }
 
  private:
-  static constexpr int large_edge = 4;  // of a large block, in small ones
-
-  static std::vector<float> squares_of(std::vector<float> numbers) {
-    for (float& number : numbers) number *= number;
-    return numbers;
-  }
-
-  /// Three numbers of each pixel of the lattice.
-  Numbers on_lattice(const std::vector<float>& whole) const {
-    return read_pixels({lattice_.width, lattice_.height, whole}, lattice_, {TransferCurve::light}).light;
+  /// The light of a picture, and the variance of its noise.
+  LatticeLight on_lattice(NoisyImage image) const {
+    const auto read = [this](const std::vector<float>& numbers) {
+      return read_pixels({lattice_.width, lattice_.height, numbers}, lattice_, {TransferCurve::light}).light;
+    };
+    for (float& number : image.deviation) number *= number;
+    return {read(image.mean), {}, read(image.deviation)};
   }
 
   /// Takes the samples of the scene as it is: as many as the time allows.
@@ -325,7 +321,6 @@ class Search {
   const PictureNumbers& picture_;
   BookProgram start_;  ///< renders the scene as it is
   Lattice lattice_;
-  int edge_;  ///< of a small block, in pixels of the lattice
   LatticeLight reference_;
   const std::function<bool()>& go_on_;
   std::vector<Reading> right_readings_;
