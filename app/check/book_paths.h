@@ -31,7 +31,6 @@ struct BookRules {
   bool short_frame = false;  ///< pixels are divided by width - 1 and height - 1, as in editions 2 and 3
   bool meets_itself =
       false;  ///< rays meet the surface that they leave where rounding has put them beyond it (no lower bound for t)
-  bool operator==(const BookRules&) const = default;
 };
 
 /// A scene and the rules by which a program renders it.
