@@ -37,11 +37,6 @@ struct Fit {
   Differences differences;
 };
 
-/// Whether clearly less is left of a difference, where both have the same noise.
-bool clearly_closer(const Differences& a, const Differences& b) {
-  return amount_of(a.all, b.all) < clear_improvement * amount_of(b.all, a.all);
-}
-
 /// The search for what explains a picture.
 ///
 /// The mean of a picture is not that of its light: white cuts off what is brighter, which lowers the mean of noisy
@@ -189,7 +184,10 @@ class Search {
     const LatticeLight read = read_pixels(picture_, lattice_, rough);
     for (const double samples : likely_counts(read, reference_, taken, count_, small_, white())) {
       Fit found = closest_reading(model_of(suspect, taken, samples), readings);
-      if (!best || found.differences.agree() || clearly_closer(found.differences, best->differences))
+      const auto clearly_closer = [](const std::vector<CellDifference>& a, const std::vector<CellDifference>& b) {
+        return amount_of(a, b) < clear_improvement * amount_of(b, a);  // where both have the same noise
+      };
+      if (!best || found.differences.agree() || clearly_closer(found.differences.all, best->differences.all))
         best = std::move(found);
       if (best->differences.agree() || !white_matters()) break;
     }

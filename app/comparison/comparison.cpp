@@ -82,14 +82,6 @@ NoisyImage read_with_errors(const Path& name, const Path& error_name, bool squar
   return {{}, std::move(image.rgb), std::move(errors.rgb)};
 }
 
-/// Takes over what the figures in an EXR of Tyndall say of its samples.
-void read_figures(const Path& file, NoisyImage& image) {
-  const auto json = nlohmann::json::parse(read_embedded_stats(file).value_or(""), nullptr, false);
-  if (!json.is_object()) return;
-  if (json.contains("spp") && json["spp"].is_number()) image.spp = json["spp"].get<double>();
-  image.correlated = json.contains("sharing") && json["sharing"].is_boolean() && json["sharing"].get<bool>();
-}
-
 NoisyImage read_exr(const Path& file) {
   if (const auto film = read_film(file)) {
     if (auto image = noisy_image(*film)) return std::move(*image);
@@ -98,7 +90,10 @@ NoisyImage read_exr(const Path& file) {
   const Path variance = file.string() + ":Variance";
   try {
     NoisyImage image = read_with_errors(file, variance, true);
-    read_figures(file, image);
+    // What the figures in an EXR of Tyndall say of its samples.
+    const auto json = nlohmann::json::parse(read_embedded_stats(file).value_or(""), nullptr, false);
+    if (json.contains("spp") && json["spp"].is_number()) image.spp = json["spp"].get<double>();
+    image.correlated = json.contains("sharing") && json["sharing"].is_boolean() && json["sharing"].get<bool>();
     return image;
   } catch (const NoSuchLayer&) {
     refuse_noise(file, "neither a film nor a layer Variance", "one of them: tyndall render writes both");

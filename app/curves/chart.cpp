@@ -45,11 +45,6 @@ struct Plot {
   double y(double error) const { return height - bottom - errors.part_of(error) * (height - top - bottom); }
 };
 
-std::string seconds_text(int exponent) {
-  return exponent < 0 ? fmt::format("{:g} ms", std::pow(10.0, exponent + 3))
-                      : fmt::format("{:g} s", std::pow(10.0, exponent));
-}
-
 std::string grid(const Plot& plot) {
   std::string out;
   for (int e = plot.seconds.first; e <= plot.seconds.last; ++e) {
@@ -57,7 +52,8 @@ std::string grid(const Plot& plot) {
       out += line(plot.x(m * std::pow(10.0, e)), top, plot.x(m * std::pow(10.0, e)), height - bottom, "minor");
     const double x = plot.x(std::pow(10.0, e));
     out += line(x, top, x, height - bottom, "grid");
-    out += text_at(x, height - bottom + 20, "text-anchor=\"middle\"", seconds_text(e));
+    out += text_at(x, height - bottom + 20, "text-anchor=\"middle\"",
+                   fmt::format("{:g} {}", std::pow(10.0, e < 0 ? e + 3 : e), e < 0 ? "ms" : "s"));
   }
   for (int e = plot.errors.first; e <= plot.errors.last; ++e) {
     const double y = plot.y(std::pow(10.0, e));

@@ -14,15 +14,6 @@ const char* type_of(const auto& kinds) {
   return std::visit([]<class Kind>(const Kind&) { return type_name<Kind>; }, kinds);
 }
 
-void count(const Scene& scene, const Solid3d& solid, Contents& contents) {
-  const auto* sphere = std::get_if<Sphere<>>(&solid.shape);
-  const auto* disk = std::get_if<Disk<>>(&solid.shape);
-  const bool moves = sphere && sphere->center_end, has_hole = disk && disk->inner > 0;
-  ++contents.shapes[moves ? "moving sphere" : has_hole ? "ring" : type_of(solid.shape)];
-  if (std::holds_alternative<Light<double>>(scene.materials[static_cast<std::size_t>(solid.material)].kind))
-    contents.lights += std::holds_alternative<Box<>>(solid.shape) ? 6 : 1;
-}
-
 }  // namespace
 
 const Object* find_object(const Scene& scene, const ObjectPath& path) {
@@ -55,7 +46,14 @@ std::vector<ObjectPath> leaves(const Scene& scene) {
 Contents contents_of(const Scene& scene) {
   Contents contents;
   each_object(scene.objects, [&](const Object& object) {
-    if (const auto* solid = std::get_if<Solid3d>(&object.kind)) count(scene, *solid, contents);
+    if (const auto* solid = std::get_if<Solid3d>(&object.kind)) {
+      const auto* sphere = std::get_if<Sphere<>>(&solid->shape);
+      const auto* disk = std::get_if<Disk<>>(&solid->shape);
+      const bool moves = sphere && sphere->center_end, has_hole = disk && disk->inner > 0;
+      ++contents.shapes[moves ? "moving sphere" : has_hole ? "ring" : type_of(solid->shape)];
+      if (std::holds_alternative<Light<double>>(scene.materials[static_cast<std::size_t>(solid->material)].kind))
+        contents.lights += std::holds_alternative<Box<>>(solid->shape) ? 6 : 1;
+    }
     const auto* volume = std::get_if<Volume>(&object.kind);
     contents.media += volume ? 1 : 0;
     contents.phase_functions += volume && volume->medium.g != 0 ? 1 : 0;

@@ -47,7 +47,7 @@ APP = [
      "commands/refusals commands/convert_foreign_slow"),
 
     ("a ring is a disk", "app/report/contents.cpp", "has_hole = «disk && disk->inner > 0 → false»;", "app/report/contents"),
-    ("a box of light is one lamp", "app/report/contents.cpp", "std::holds_alternative<Box<>>(solid.shape) ? «6 → 1» : 1;", "app/report/contents"),
+    ("a box of light is one lamp", "app/report/contents.cpp", "std::holds_alternative<Box<>>(solid->shape) ? «6 → 1» : 1;", "app/report/contents"),
     ("the noise of halves is twice that of their mean", "app/report/gain.cpp", "const Vec3f deviates = «0.5f → 1.0f» * (a - b);", "app/report/gain"),
     ("the squared difference has the noise of one half in it", "app/report/gain.cpp",
      "squares += sum_of(a * «b → a»);", "app/report/gain"),
