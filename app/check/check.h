@@ -2,6 +2,7 @@
 #include "app/check/statistics.h"
 #include "app/comparison/comparison.h"
 #include "app/files/open_scene.h"
+#include "core/accuracy/noise_test.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -67,6 +68,17 @@ struct Findings {
   SeenObjects seen;
   std::vector<ObjectDifference> objects;  ///< before the mistake is taken into account, the largest difference first
 };
+
+struct CheckOptions {
+  double seconds = 20;  ///< for all of it, but for what is needed for any answer
+  int samples = 0;      ///< that are taken of each pixel for a program; 0: as many as the time allows
+};
+
+/// Renders the scene until the noise is small against the difference from `picture`, which has the scene's size, or
+/// a limit is reached, which the first samples may exceed. go_on: asked now and then; false ends it. Pixels share no
+/// paths, so that their errors are independent.
+NoisyImage render_reference(Scene scene, const LinearImage& picture, double seconds, std::uint32_t spp,
+                            const std::function<bool()>& go_on);
 
 /// Finds out how a picture differs from a scene of its size. reference: the scene, rendered; go_on: asked now and then;
 /// after it has said false no more is tried.

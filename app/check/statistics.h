@@ -1,6 +1,5 @@
 #pragma once
 #include "app/check/book_paths.h"
-#include "core/accuracy/noise_test.h"
 #include "core/image/image.h"
 #include "core/scene/scene.h"
 
@@ -235,16 +234,5 @@ struct Differences {
 std::vector<double> likely_counts(const LatticeLight& picture, const LatticeLight& reference,
                                   const std::vector<BookSample>& samples, int count, const Regions& regions,
                                   double white);
-
-struct CheckOptions {
-  double seconds = 20;  ///< for all of it, but for what is needed for any answer
-  int samples = 0;      ///< that are taken of each pixel for a program; 0: as many as the time allows
-};
-
-/// Renders the scene until the noise is small against the difference from `picture`, which has the scene's size, or
-/// a limit is reached, which the first samples may exceed. go_on: asked now and then; false ends it. Pixels share no
-/// paths, so that their errors are independent.
-NoisyImage render_reference(Scene scene, const LinearImage& picture, double seconds, std::uint32_t spp,
-                            const std::function<bool()>& go_on);
 
 }  // namespace tyndall
