@@ -2,6 +2,7 @@
 
 #include "core/base/math.h"
 #include "core/base/sampling.h"
+#include "core/base/thread_pool.h"
 #include "core/compile/compile.h"
 #include "core/materials/materials.h"
 #include "core/targets/kernels.h"
@@ -18,7 +19,7 @@
 namespace tyndall {
 namespace {
 
-constexpr int paths_per_job = 4096;
+constexpr std::size_t paths_per_job = 4096;
 constexpr double at_once = 1e-6;         // a distance, of a ray that meets the surface that it leaves
 constexpr float min_throughput = 1e-4f;  // what carries less is not followed: far below what 8 bits show
 
@@ -27,7 +28,7 @@ struct BookPath {
   float length;  ///< that the direction has in the books' program, which does not make all of them unit vectors
   Vec3f throughput;
   Sampler<float> sampler;
-  std::size_t sample;  ///< place of its result
+  BookSample* sample;  ///< its result
   std::int32_t depth;  ///< scattering events so far
   bool at_surface;     ///< it meets the surface that it leaves at once, see BookRules::meets_itself
   Vec3d exact;         ///< where the ray begins in the books' program; only with that rule
@@ -47,15 +48,9 @@ BookDirection unit_of(Vec3f sum, const Incident<float>& in) {
 }
 
 BookDirection scatter_matt(DiffuseRule rule, const Incident<float>& in) {
-  switch (rule) {
-    case DiffuseRule::cosine:
-      break;
-    case DiffuseRule::filled_sphere:
-      return unit_of(point_at(in.facing, std::cbrt(in.sampler.next_1d(dimension::radius)), in.unit_vector), in);
-    case DiffuseRule::hemisphere:
-      return {dot(in.unit_vector, in.facing) < 0 ? -in.unit_vector : in.unit_vector};
-  }
-  return unit_of(in.facing + in.unit_vector, in);
+  if (rule == DiffuseRule::hemisphere) return {dot(in.unit_vector, in.facing) < 0 ? -in.unit_vector : in.unit_vector};
+  const float part = rule == DiffuseRule::cosine ? 1 : std::cbrt(in.sampler.next_1d(dimension::radius));
+  return unit_of(point_at(in.facing, part, in.unit_vector), in);
 }
 
 BookDirection scatter_metal(const Metal<float>& metal, const BookRules& rules, float length,
@@ -93,8 +88,8 @@ double book_distance(const SceneView& s, std::int32_t element, Vec3f point, Vec3
   return (h - root) / a > 0 ? (h - root) / a : (h + root) / a;
 }
 
-/// The ray on which a sample starts, with the length that its direction has there.
-BookPath begin(const SceneView& s, const BookRules& rules, int x, int y, int index, std::size_t place) {
+/// The ray on which a sample of a pixel starts, with the length that its direction has there.
+BookPath begin(const SceneView& s, const BookRules& rules, int x, int y, std::size_t index, BookSample& sample) {
   BookPath p{};
   p.sampler = Sampler<float>::of(s.seed, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
                                  static_cast<std::uint32_t>(index), SamplerKind::random);
@@ -109,134 +104,114 @@ BookPath begin(const SceneView& s, const BookRules& rules, int x, int y, int ind
   p.length = length(point_at(point_at(s.camera.corner, at_x, s.camera.du), at_y, s.camera.dv));
   p.sampler.event = static_cast<std::uint32_t>(dimension::camera_count * golden_ratio);
   p.throughput = {1, 1, 1};
-  p.sample = place;
+  p.sample = &sample;
   p.exact = to_double(p.ray.origin);
   return p;
 }
 
-/// Follows paths until all have ended.
-class BookPaths {
- public:
-  BookPaths(const SceneView& scene, const Kernels& kernels, const BookRules& rules, std::vector<BookSample>& samples)
-      : s_(scene), kernels_(kernels), rules_(rules), samples_(samples) {}
+/// Moves paths on in a scene.
+struct BookTracer {
+  const SceneView& s;
+  const BookRules& rules;
 
-  void follow(std::vector<BookPath>& paths) {
-    std::vector<TraceRay> rays;
-    std::vector<TraceHit> hits;
-    while (!paths.empty()) {
-      rays.clear();
-      for (const BookPath& p : paths) rays.push_back({p.ray.origin, p.ray.direction, p.ray.time, p.ray.from});
-      hits.resize(paths.size());
-      kernels_.trace(s_, rays.data(), hits.data(), static_cast<int>(rays.size()), false);
-      std::size_t kept = 0;
-      for (std::size_t i = 0; i < paths.size(); ++i)
-        if (step(paths[i], hits[i])) paths[kept++] = paths[i];
-      paths.resize(kept);
-    }
-  }
-
- private:
   /// Takes a path to where its ray ends. Whether it goes on.
-  bool step(BookPath& p, TraceHit hit) {
+  bool step(BookPath& p, TraceHit hit) const {
     if (p.at_surface) hit = {0, p.ray.from >> 2};
     float nearest = hit.element < 0 ? std::numeric_limits<float>::infinity() : hit.t;
     MediumEvent<float> medium = no_event<float>();
-    if (s_.features.media && !p.at_surface) {
-      fly_through_media(s_, p.ray, p.sampler, true, nearest, medium);
+    if (s.features.media && !p.at_surface) {
+      fly_through_media(s, p.ray, p.sampler, true, nearest, medium);
       // The books' black smoke ends paths at random, so that samples vary more than with this as their weight.
-      if (p.sampler.next_1d(dimension::roulette) >= transmitted_by_absorbers(s_, p.ray, p.sampler, nearest, true))
+      if (p.sampler.next_1d(dimension::roulette) >= transmitted_by_absorbers(s, p.ray, p.sampler, nearest, true))
         return false;
     }
-    const bool goes_on = medium.happens     ? meet_medium(p, medium)
-                         : hit.element >= 0 ? meet_surface(p, hit)
-                                            : find_light(p, background(p.ray.direction));
+    const bool goes_on = medium.happens ? meet_medium(p, medium) : hit.element >= 0 ? meet_surface(p, hit) : escape(p);
     p.sampler.next_event();
     ++p.depth;
     return goes_on && max_component(p.throughput) > min_throughput;
   }
 
-  Vec3f background(Vec3f direction) const {
-    return s_.has_sky() ? sky_towards(s_.sky, direction).radiance : background_radiance(s_.background, direction);
-  }
-
-  bool find_light(const BookPath& p, Vec3f radiance) {
+  static bool find_light(const BookPath& p, Vec3f radiance) {
     const Vec3f light = p.throughput * radiance;
-    if (std::isfinite(light.x + light.y + light.z)) samples_[p.sample] = {light, p.depth};
+    if (std::isfinite(light.x + light.y + light.z)) *p.sample = {light, p.depth};
     return false;
   }
 
-  bool meet_medium(BookPath& p, const MediumEvent<float>& event) {
-    if (p.depth >= s_.max_depth) return false;
+  bool escape(const BookPath& p) const {
+    const Vec3f direction = p.ray.direction;
+    return find_light(
+        p, s.has_sky() ? sky_towards(s.sky, direction).radiance : background_radiance(s.background, direction));
+  }
+
+  bool meet_medium(BookPath& p, const MediumEvent<float>& event) const {
+    if (p.depth >= s.max_depth) return false;
     Vec3f albedo = event.albedo;
-    if (s_.features.textures) albedo = textured<float>(s_, albedo, event.texture, true, event.point, nullptr);
+    if (s.features.textures) albedo = textured<float>(s, albedo, event.texture, true, event.point, nullptr);
     const Pair<float> u = p.sampler.next_2d(dimension::direction);
     const Vec3f out = scatter_in_medium(event.g, p.ray.direction, on_sphere(u), u);
     p.throughput = p.throughput * albedo;
-    p.ray = {event.point, out, rules_.time == TimeRule::lost ? 0 : p.ray.time, event.from};
+    p.ray = {event.point, out, rules.time == TimeRule::lost ? 0 : p.ray.time, event.from};
     p.length = 1, p.at_surface = false, p.exact = to_double(event.point);
     return true;
   }
 
-  bool meet_surface(BookPath& p, const TraceHit& hit) {
-    const SurfacePoint<float> at = surface_at(s_, p.ray, hit.t, hit.element);
-    const Vec3f colour = surface_colour(s_, at, true);
-    const std::int32_t kind = s_.materials.kind[at.material];
+  bool meet_surface(BookPath& p, const TraceHit& hit) const {
+    const SurfacePoint<float> at = surface_at(s, p.ray, hit.t, hit.element);
+    const Vec3f colour = surface_colour(s, at, true);
+    const std::int32_t kind = s.materials.kind[at.material];
     if (has_trait<&BsdfTraits::emits>(kind)) return find_light(p, colour);
-    if (p.depth >= s_.max_depth) return false;
+    if (p.depth >= s.max_depth) return false;
     const float towards = dot(p.ray.direction, at.normal);
-    const bool exiting = towards > 0;
+    const bool exiting = towards > 0, matt = has_trait<&BsdfTraits::diffuse>(kind);
     const Incident<float> in{p.ray.direction,
                              at.normal,
                              exiting ? -at.normal : at.normal,
                              std::min(std::abs(towards), 1.0f),
                              exiting,
                              on_sphere(p.sampler.next_2d(dimension::direction)),
-                             rules_.schlick,
+                             rules.schlick,
                              p.sampler};
-    const BookDirection out = scatter(p, at, kind, in);
+    const BookDirection out =
+        matt ? scatter_matt(rules.diffuse, in)
+        : kind == place_in<Metal<double>, MaterialKinds<double>>
+            ? scatter_metal(load_material<Metal<float>, float>(s, at.material), rules, p.length, in)
+            : scatter_glass(load_material<Dielectric<float>, float>(s, at.material), rules, in);
     if (out.absorbed) return false;
-    const bool inside = (exiting != at.inverted) != out.transmitted;
-    const bool matt = has_trait<&BsdfTraits::diffuse>(kind);
-    const bool loses_time =
-        p.ray.time != 0 && (rules_.time == TimeRule::lost || (rules_.time == TimeRule::lost_by_matt && matt));
-    if (rules_.meets_itself) {
+    if (rules.meets_itself) {
       const auto distance = [&](Vec3d direction) {
-        return book_distance(s_, at.element, at.point, p.exact, direction, p.ray.time);
+        return book_distance(s, at.element, at.point, p.exact, direction, p.ray.time);
       };
       const Vec3d direction = static_cast<double>(p.length) * to_double(p.ray.direction);
       p.exact = p.exact + distance(direction) * direction;
       const double again = distance(static_cast<double>(out.length) * to_double(out.direction));
       p.at_surface = again > 0 && again < at_once;
     }
+    const bool loses_time = p.ray.time != 0 && rules.time != TimeRule::kept && (rules.time == TimeRule::lost || matt);
+    const bool jumps = loses_time && s.features.moving_spheres && !(s.elements.move[at.element] == Vec3f{});
+    const bool inside = (exiting != at.inverted) != out.transmitted;
     p.throughput = p.throughput * colour;
-    p.ray = {at.point, out.direction, loses_time ? 0 : p.ray.time, 4 * at.element + (inside ? 1 : 0)};
-    if (loses_time && moves(at.element)) p.ray.from = from_nowhere;  // the ball has jumped, and can be met again
+    // A ball that has jumped can be met again.
+    p.ray = {at.point, out.direction, loses_time ? 0 : p.ray.time, jumps ? from_nowhere : 4 * at.element + inside};
     p.length = out.length;
     return true;
   }
-
-  bool moves(std::int32_t element) const {
-    return s_.features.moving_spheres && !(s_.elements.move[element] == Vec3f{});
-  }
-
-  BookDirection scatter(const BookPath& p, const SurfacePoint<float>& at, std::int32_t kind,
-                        const Incident<float>& in) {
-    using List = MaterialKinds<double>;
-    switch (kind) {
-      case place_in<Metal<double>, List>:
-        return scatter_metal(load_material<Metal<float>, float>(s_, at.material), rules_, p.length, in);
-      case place_in<Dielectric<double>, List>:
-        return scatter_glass(load_material<Dielectric<float>, float>(s_, at.material), rules_, in);
-      default:
-        return scatter_matt(rules_.diffuse, in);
-    }
-  }
-
-  const SceneView& s_;
-  const Kernels& kernels_;
-  const BookRules& rules_;
-  std::vector<BookSample>& samples_;
 };
+
+/// Follows paths until all have ended.
+void follow(const BookTracer& tracer, const Kernels& kernels, std::vector<BookPath>& paths) {
+  std::vector<TraceRay> rays;
+  std::vector<TraceHit> hits;
+  while (!paths.empty()) {
+    rays.clear();
+    for (const BookPath& p : paths) rays.push_back({p.ray.origin, p.ray.direction, p.ray.time, p.ray.from});
+    hits.resize(paths.size());
+    kernels.trace(tracer.s, rays.data(), hits.data(), static_cast<int>(rays.size()), false);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < paths.size(); ++i)
+      if (tracer.step(paths[i], hits[i])) paths[kept++] = paths[i];
+    paths.resize(kept);
+  }
+}
 
 }  // namespace
 
@@ -252,27 +227,26 @@ Lattice lattice_of(int width, int height) {
   return lattice;
 }
 
-std::vector<BookSample> book_samples(const BookProgram& program, const Lattice& lattice, int count, ThreadPool& threads,
+std::vector<BookSample> book_samples(const BookProgram& program, const Lattice& lattice, int count,
                                      const std::function<bool()>& go_on) {
   SceneView scene{compile(program.scene)};
   if (program.columns) program.columns(scene);
   const Kernels kernels = *choose_kernels("");
-  std::vector<BookSample> samples(lattice.pixels() * static_cast<std::size_t>(count));
-  const int pixels = static_cast<int>(lattice.pixels()), pixels_per_job = std::max(1, paths_per_job / count);
-  std::atomic<bool> give_up = !go_on();
-  const auto follow = [&](int job) {
-    if (give_up) return;
+  const auto each = static_cast<std::size_t>(count), columns = static_cast<std::size_t>(lattice.columns());
+  std::vector<BookSample> samples(lattice.pixels() * each);
+  const auto stops = [&go_on] { return go_on && !go_on(); };
+  std::atomic<bool> give_up = stops();
+  const auto follow_some = [&](int job) {
+    const std::size_t first = paths_per_job * static_cast<std::size_t>(job);
     std::vector<BookPath> paths;
-    for (int pixel = job * pixels_per_job; pixel < std::min(pixels, (job + 1) * pixels_per_job); ++pixel) {
-      const int x = pixel % lattice.columns() * lattice.step, y = pixel / lattice.columns() * lattice.step;
-      for (int index = 0; index < count; ++index)
-        paths.push_back(
-            begin(scene, program.rules, x, y, index,
-                  static_cast<std::size_t>(pixel) * static_cast<std::size_t>(count) + static_cast<std::size_t>(index)));
+    for (std::size_t k = first; k < std::min(first + paths_per_job, samples.size()) && !give_up; ++k) {
+      const auto row = static_cast<int>(k / each / columns), column = static_cast<int>(k / each % columns);
+      paths.push_back(begin(scene, program.rules, column * lattice.step, row * lattice.step, k % each, samples[k]));
     }
-    BookPaths(scene, kernels, program.rules, samples).follow(paths);
+    follow({scene, program.rules}, kernels, paths);
   };
-  threads.for_each((pixels + pixels_per_job - 1) / pixels_per_job, follow, [&] { give_up = give_up || !go_on(); });
+  const auto jobs = static_cast<int>((samples.size() + paths_per_job - 1) / paths_per_job);
+  ThreadPool(0).for_each(jobs, follow_some, [&] { give_up = give_up || stops(); });
   if (give_up) samples.clear();
   return samples;
 }

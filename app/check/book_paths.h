@@ -1,5 +1,4 @@
 #pragma once
-#include "core/base/thread_pool.h"
 #include "core/compile/render_scene.h"
 #include "core/scene/scene.h"
 
@@ -32,7 +31,6 @@ struct BookRules {
   bool short_frame = false;  ///< pixels are divided by width - 1 and height - 1, as in editions 2 and 3
   bool meets_itself =
       false;  ///< rays meet the surface that they leave where rounding has put them beyond it (no lower bound for t)
-  bool operator==(const BookRules&) const = default;
 };
 
 /// A scene and the rules by which a program renders it.
@@ -66,8 +64,8 @@ struct BookSample {
 
 /// The samples 0 … count - 1 of each pixel of the lattice: those of a pixel follow each other. The same random numbers
 /// are used whatever the rules are, so that pictures by two rules have much the same noise, and differ only where the
-/// rules do. go_on: asked now and then; after it has said false the result is empty.
-std::vector<BookSample> book_samples(const BookProgram& program, const Lattice& lattice, int count, ThreadPool& threads,
-                                     const std::function<bool()>& go_on);
+/// rules do. go_on: asked now and then; after it has said false the result is empty. Empty: nobody is asked.
+std::vector<BookSample> book_samples(const BookProgram& program, const Lattice& lattice, int count,
+                                     const std::function<bool()>& go_on = {});
 
 }  // namespace tyndall

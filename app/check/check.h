@@ -2,6 +2,7 @@
 #include "app/check/statistics.h"
 #include "app/comparison/comparison.h"
 #include "app/files/open_scene.h"
+#include "core/accuracy/noise_test.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -43,6 +44,9 @@ struct ObjectDifference {
   Vec3d image, expected;
 };
 
+/// Of the cells of SeenObjects::regions; the largest difference first.
+std::vector<ObjectDifference> differing_objects(const SeenObjects& seen, std::span<const CellDifference> cells);
+
 /// What is found about a picture.
 struct Findings {
   bool agrees = false;  ///< the picture differs from the scene by noise and by `choices` alone
@@ -65,9 +69,20 @@ struct Findings {
   std::vector<ObjectDifference> objects;  ///< before the mistake is taken into account, the largest difference first
 };
 
+struct CheckOptions {
+  double seconds = 20;  ///< for all of it, but for what is needed for any answer
+  int samples = 0;      ///< that are taken of each pixel for a program; 0: as many as the time allows
+};
+
+/// Renders the scene until the noise is small against the difference from `picture`, which has the scene's size, or
+/// a limit is reached, which the first samples may exceed. go_on: asked now and then; false ends it. Pixels share no
+/// paths, so that their errors are independent.
+NoisyImage render_reference(Scene scene, const LinearImage& picture, double seconds, std::uint32_t spp,
+                            const std::function<bool()>& go_on);
+
 /// Finds out how a picture differs from a scene of its size. reference: the scene, rendered; go_on: asked now and then;
 /// after it has said false no more is tried.
-Findings explain(const PictureNumbers& picture, const Scene& scene, const Reference& reference,
+Findings explain(const PictureNumbers& picture, const Scene& scene, const NoisyImage& reference,
                  const CheckOptions& options, const std::function<bool()>& go_on);
 
 /// What is found about a picture, in lines for a table.

@@ -1,7 +1,10 @@
 #include "app/check/check.h"
 
-#include "app/check/expectation.h"
+#include "core/base/seconds.h"
 
+#include <chrono>
+#include <limits>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -24,7 +27,7 @@ struct Suspect {
 struct Model {
   Suspect suspect;
   double samples = 0;  ///< a pixel, that the user's picture has if it is one of them; 0: not known
-  ExpectedPixels expected;
+  LatticeLight expected;
 };
 
 /// A way in which the picture may have been made, and how far the picture is from that.
@@ -34,19 +37,36 @@ struct Fit {
   Differences differences;
 };
 
-/// Whether clearly less is left of a difference, where both have the same noise.
-bool clearly_closer(const Differences& a, const Differences& b) {
-  return amount_of(a.all, b.all) < clear_improvement * amount_of(b.all, a.all);
-}
-
 /// The search for what explains a picture.
+///
+/// The mean of a picture is not that of its light: white cuts off what is brighter, which lowers the mean of noisy
+/// pixels. So what is expected of a program is what its samples show of means of as many as the picture has, cut at
+/// white; and what those of the scene itself, of the same random numbers, happened to miss of the scene, rendered well,
+/// as far as it gets through the cut. How far that is, their covariance tells (J. M. Hammersley, D. C. Handscomb, Monte
+/// Carlo Methods, 5.5: control variates).
 class Search {
  public:
-  Search(const PictureNumbers& picture, const Scene& scene, const Reference& reference, const CheckOptions& options,
+  Search(const PictureNumbers& picture, const Scene& scene, const NoisyImage& reference, const CheckOptions& options,
          const std::function<bool()>& go_on)
-      : expectation_(picture, scene, reference, options, go_on),
-        right_readings_(readings_of(picture.coded, true)),
-        wrong_readings_(readings_of(picture.coded, false)) {
+      : picture_(picture),
+        start_(plain_program(scene)),
+        lattice_(lattice_of(picture.width, picture.height)),
+        reference_(on_lattice(reference)),
+        go_on_(go_on),
+        right_readings_(readings_of(picture.coded, true)) {
+    const int edge = edge_of_blocks(lattice_);
+    small_ = blocks_of(lattice_, edge), large_ = blocks_of(lattice_, 4 * edge);
+    SeenObjects& seen = findings_.seen = seen_objects(scene, lattice_);
+    for (std::size_t pixel = 0; pixel < seen.of_pixel.size(); ++pixel)
+      if (seen.at(pixel).noisy_texture) small_.of_pixel[pixel] = large_.of_pixel[pixel] = -1;
+    take_samples(options);
+    const auto kept = [this] { return std::ranges::count_if(small_.of_pixel, [](int region) { return region >= 0; }); };
+    const auto pixels = static_cast<double>(kept());
+    for (Regions* regions : {&small_, &large_, &seen.regions}) leave_out_rare_light(*regions, single_, reference_);
+    findings_.unknown = pixels > 0 && static_cast<double>(kept()) / pixels < min_comparable;
+    whole_ = {small_.of_pixel, 1};
+    for (int& region : whole_.of_pixel) region = std::min(region, 0);
+    findings_.block_edge = edge * lattice_.step;
     findings_.seconds = options.seconds;
   }
 
@@ -57,31 +77,95 @@ class Search {
     try_readings(right);
     for (const int depth : likely_depths(right)) try_mistake(right, shorter_paths(depth), false);
     for (const Difference& mistake : usual_mistakes()) try_mistake(right, mistake, true);
-    std::stable_sort(findings_.tried.begin(), findings_.tried.end(),
-                     [](const Difference& a, const Difference& b) { return a.explained > b.explained; });
+    std::ranges::stable_sort(findings_.tried, std::greater{}, &Difference::explained);
     if (!right.differences.agree_in_blocks()) name_mistake(right);
     return std::move(findings_);
   }
 
  private:
-  /// Samples of what a suspect renders; empty: there is nothing that its choices or its mistake would change, or there
-  /// is no time left.
-  std::vector<BookSample> samples_of(const Suspect& suspect, bool in_time) {
-    BookProgram program = expectation_.start();
-    std::vector<Difference> changes = suspect.choices;
-    if (suspect.mistake) changes.push_back(*suspect.mistake);
-    if (changes.empty()) return expectation_.start_samples();
-    for (const Difference& change : changes)
-      if (!change.apply(program)) return {};
-    return expectation_.samples_of(program, in_time);
+  /// The light of a picture, and the variance of its noise.
+  LatticeLight on_lattice(NoisyImage image) const {
+    const auto read = [this](const std::vector<float>& numbers) {
+      return read_pixels({lattice_.width, lattice_.height, numbers}, lattice_, {TransferCurve::light}).light;
+    };
+    for (float& number : image.deviation) number *= number;
+    return {read(image.mean), {}, read(image.deviation)};
   }
 
-  std::shared_ptr<const Model> model_of(Suspect suspect, const std::vector<BookSample>& taken, double samples) {
-    return std::make_shared<Model>(Model{std::move(suspect), samples, expectation_.expected_of(taken, samples)});
+  /// Takes the samples of the scene as it is: as many as the time allows.
+  void take_samples(const CheckOptions& options) {
+    constexpr int fewest = 4, limit = 24;
+    constexpr double part_for_samples = 1 / 60.0;  // of the time, for the samples of one program
+    const auto begin = std::chrono::steady_clock::now();
+    count_ = options.samples;
+    if (count_ == 0) {
+      count_ = fewest;
+      book_samples(start_, lattice_, count_);
+      const double fit = options.seconds * part_for_samples * fewest / std::max(seconds_since(begin), 1e-6);
+      count_ = static_cast<int>(std::clamp(fit, 1.0 * fewest, 1.0 * limit));
+    }
+    samples_ = book_samples(start_, lattice_, count_);
+    single_ = statistics_of(samples_, count_, {});
+  }
+
+  double white() const { return picture_.coded ? 1 : std::numeric_limits<double>::infinity(); }
+
+  /// Whether so much of the samples is brighter than white that their number decides what the picture looks like.
+  bool white_matters() const {
+    constexpr double min_cut = 0.02;  // of the light of single samples, that white cuts off
+    double cut = 0, all = 0;
+    for (const SampleStatistics& number : single_) cut += number.excess, all += number.mean;
+    return picture_.coded && cut > min_cut * all;
+  }
+
+  /// Samples of what a suspect renders; empty: there is nothing that its choices or its mistake would change, or there
+  /// is no time left. in_time: whether that matters.
+  std::vector<BookSample> samples_of(const Suspect& suspect, bool in_time) const {
+    if (suspect.choices.empty() && !suspect.mistake) return samples_;
+    BookProgram program = start_;
+    for (const Difference& choice : suspect.choices)
+      if (!choice.apply(program)) return {};
+    if (suspect.mistake && !suspect.mistake->apply(program)) return {};
+    return book_samples(program, lattice_, count_, in_time ? go_on_ : std::function<bool()>());
+  }
+
+  /// What is expected of a suspect of whose program these samples were taken. count: samples a pixel that the picture
+  /// has; 0: not known.
+  std::shared_ptr<const Model> model_of(const Suspect& suspect, const std::vector<BookSample>& samples,
+                                        double count) const {
+    const int group = count > 0 ? std::clamp(static_cast<int>(std::lround(count)), 1, count_) : count_;
+    const auto now = statistics_of(samples, count_, {group, white()}, &samples_);
+    const Numbers common = means_of(large_, now, &SampleStatistics::common),
+                  variance = means_of(large_, single_, &SampleStatistics::variance);
+    Numbers ratios;
+    if (picture_.coded && count > count_ * 1.2) ratios = excess_ratios(samples, count_, count, large_);
+    const auto model = std::make_shared<Model>(Model{suspect, count, {}});
+    for (std::size_t at = 0; at < now.size(); ++at) {
+      const std::size_t cell = large_.cell_of(at);
+      const bool known = cell != Regions::no_cell;
+      // What it has of the luck of the scene's own samples.
+      const double passes =
+          known && variance[cell] > 0 ? std::clamp(common[cell] * group / variance[cell], 0.0, 1.0) : 1;
+      const double missed = passes * (reference_.light[at] - single_[at].mean);
+      double excess = now[at].excess;
+      if (known && !ratios.empty())  // means of few samples are too noisy; no pixel is brighter than white
+        excess = std::max(excess * std::min(1.0, ratios[cell]), now[at].mean + missed - 1);
+      model->expected.light.push_back(now[at].mean - excess + missed);
+      // A picture of unknown samples shows by itself alone how noisy it is.
+      model->expected.variance.push_back(count > 0 ? now[at].noise * group / count : 0);
+    }
+    return model;
   }
 
   Fit fit(const std::shared_ptr<const Model>& model, const Reading& reading) {
-    return {model, reading, expectation_.differences(model->expected, reading)};
+    LatticeLight& pixels = read_[reading];
+    if (pixels.light.empty()) pixels = read_pixels(picture_, lattice_, reading);
+    const auto differ = [&](const Regions& regions) { return differences_of(pixels, model->expected, regions); };
+    Differences found{differ(small_), differ(large_), differ(findings_.seen.regions), {}, differ(whole_)};
+    for (const auto* part : {&found.small, &found.large, &found.objects})
+      found.all.insert(found.all.end(), part->begin(), part->end());
+    if (!reading.is_right()) read_.erase(reading);  // those are tried once
+    return {model, reading, std::move(found)};
   }
 
   Fit closest_reading(const std::shared_ptr<const Model>& model, const std::vector<Reading>& readings) {
@@ -97,11 +181,15 @@ class Search {
   Fit closest(const Suspect& suspect, const std::vector<Reading>& readings, const std::vector<BookSample>& taken) {
     const Reading rough = closest_reading(model_of(suspect, taken, 0), readings).reading;
     std::optional<Fit> best;
-    for (const double samples : expectation_.likely_samples(taken, rough)) {
+    const LatticeLight read = read_pixels(picture_, lattice_, rough);
+    for (const double samples : likely_counts(read, reference_, taken, count_, small_, white())) {
       Fit found = closest_reading(model_of(suspect, taken, samples), readings);
-      if (!best || found.differences.agree() || clearly_closer(found.differences, best->differences))
+      const auto clearly_closer = [](const std::vector<CellDifference>& a, const std::vector<CellDifference>& b) {
+        return amount_of(a, b) < clear_improvement * amount_of(b, a);  // where both have the same noise
+      };
+      if (!best || found.differences.agree() || clearly_closer(found.differences.all, best->differences.all))
         best = std::move(found);
-      if (best->differences.agree() || !expectation_.white_matters()) break;
+      if (best->differences.agree() || !white_matters()) break;
     }
     return *best;
   }
@@ -109,18 +197,17 @@ class Search {
   /// Takes over the choices of editions that bring the picture clearly closer to the program's, where they show at all,
   /// or with which nothing but noise is left.
   Fit with_choices(Fit best) {
-    std::vector<Difference> choices = usual_choices();
-    for (const Difference& again : usual_choices()) choices.push_back(again);  // a small one may show after a large one
-    for (const Difference& choice : choices) {
-      if (best.differences.agree()) break;
-      Suspect suspect = best.model->suspect;
-      suspect.choices.push_back(choice);
-      const std::shared_ptr<const Model> model = known_model_of(suspect, best.model->samples);
-      if (!model) continue;
-      Fit other = fit(model, best.reading);
-      if (other.differences.agree() || best.differences.left_by(other.differences) <= clear_improvement)
-        best = std::move(other);
-    }
+    for (int round = 0; round < 2; ++round)  // a small one may show after a large one
+      for (const Difference& choice : usual_choices()) {
+        if (best.differences.agree()) return best;
+        Suspect suspect = best.model->suspect;
+        suspect.choices.push_back(choice);
+        const std::shared_ptr<const Model> model = known_model_of(suspect, best.model->samples);
+        if (!model) continue;
+        Fit other = fit(model, best.reading);
+        if (other.differences.agree() || best.differences.left_by(other.differences) <= clear_improvement)
+          best = std::move(other);
+      }
     return best;
   }
 
@@ -137,7 +224,7 @@ class Search {
 
   /// The program without mistakes that is closest to the picture.
   Fit best_right() {
-    const Fit start = closest({}, right_readings_, expectation_.start_samples());
+    const Fit start = closest({}, right_readings_, samples_);
     std::optional<Fit> best;
     const auto rank = [](const Fit& fit) { return std::pair(!fit.differences.agree(), fit.differences.amount()); };
     for (const Reading& reading : right_readings_) {
@@ -151,40 +238,20 @@ class Search {
   void describe(const Fit& right) {
     const Misfit small = misfit_of(right.differences.small);
     findings_.blocks = small.blocks, findings_.different = small.different;
-    findings_.block_edge = expectation_.block_edge();
     findings_.curve = right.reading.curve, findings_.samples = right.model->samples;
-    findings_.seen = expectation_.seen();
     findings_.choices = right.model->suspect.choices;
-    findings_.unknown = expectation_.comparable() < min_comparable;
     const bool agree = !findings_.unknown && right.differences.agree();
     findings_.unseen = right.differences.unseen_light();
     findings_.too_few = agree && findings_.unseen > max_unseen;
     findings_.agrees = agree && !findings_.too_few;
     const double times = findings_.unseen / max_unseen;
     findings_.enough = std::ceil(findings_.samples * times * times);
-    describe_objects(right.differences.objects);
-  }
-
-  void describe_objects(std::span<const CellDifference> cells) {
-    findings_.objects.clear();
-    for (std::size_t k = 0; k < cells.size(); k += 3) {
-      const auto c = cells.subspan(k, 3);
-      if (misfit_of(c).different == 0) continue;
-      const Vec3d expected{c[0].expected, c[1].expected, c[2].expected};
-      const Vec3d off{c[0].difference, c[1].difference, c[2].difference};
-      findings_.objects.push_back({findings_.seen.objects[k / 3], c[0].pixels, expected + off, expected});
-    }
-    const auto amount = [](const ObjectDifference& d) {
-      const Vec3d off = d.image - d.expected;
-      return d.pixels * (std::abs(off.x) + std::abs(off.y) + std::abs(off.z));
-    };
-    std::sort(findings_.objects.begin(), findings_.objects.end(),
-              [&](const ObjectDifference& a, const ObjectDifference& b) { return amount(a) > amount(b); });
+    findings_.objects = differing_objects(findings_.seen, right.differences.objects);
   }
 
   /// A wrong reading must be clearly better than the best right one.
   void try_readings(const Fit& right) {
-    const Fit best = closest_reading(right.model, wrong_readings_);
+    const Fit best = closest_reading(right.model, readings_of(picture_.coded, false));
     if (best.differences.amount() >= clear_improvement * right.differences.amount()) return;
     findings_.tried.push_back(mistake_of(best.reading));
     findings_.tried.back().explained = right.differences.gone(best.differences);
@@ -195,8 +262,8 @@ class Search {
     double light = 0, expected = 0;
     for (const CellDifference& cell : right.differences.whole)
       light += cell.expected + cell.difference, expected += cell.expected;
-    const Numbers by_depth = light_by_depth(expectation_.start_samples());
-    const int max_depth = std::min(static_cast<int>(by_depth.size()), expectation_.start().scene.render.max_depth);
+    const Numbers by_depth = light_by_depth(samples_);
+    const int max_depth = std::min(static_cast<int>(by_depth.size()), start_.scene.render.max_depth);
     int above = 0;
     while (above < max_depth && by_depth[static_cast<std::size_t>(above)] * expected < light) ++above;
     std::vector<int> depths;
@@ -208,7 +275,7 @@ class Search {
   /// Which right curve the picture has may only be seen together with the mistake: the best one counts.
   void try_mistake(const Fit& right, Difference mistake, bool in_time) {
     const Suspect suspect{right.model->suspect.choices, mistake};
-    if (BookProgram program = expectation_.start(); !mistake.apply(program)) return;
+    if (BookProgram program = start_; !mistake.apply(program)) return;
     const std::vector<BookSample> taken = samples_of(suspect, in_time);
     if (taken.empty()) {
       ++findings_.untried;
@@ -233,8 +300,10 @@ class Search {
       if (findings_.untried > 0 || mistake.explained < promising) return;
       const Suspect suspect{{}, mistake};
       const std::vector<BookSample> taken = samples_of(suspect, true);
-      if (taken.empty()) ++findings_.untried;
-      if (taken.empty()) return;
+      if (taken.empty()) {
+        ++findings_.untried;
+        return;
+      }
       known_.clear();
       const Fit found = with_choices(closest(suspect, {mistake.reading}, taken));
       mistake.explained = right.differences.gone(found.differences);
@@ -247,15 +316,24 @@ class Search {
     }
   }
 
-  Expectation expectation_;
+  const PictureNumbers& picture_;
+  BookProgram start_;  ///< renders the scene as it is
+  Lattice lattice_;
+  LatticeLight reference_;
+  const std::function<bool()>& go_on_;
+  std::vector<Reading> right_readings_;
+  Regions small_, large_, whole_;
+  int count_ = 0;                         ///< samples that were taken of each pixel
+  std::vector<BookSample> samples_;       ///< of the program that renders the scene as it is
+  std::vector<SampleStatistics> single_;  ///< of these, as if the picture had one
+  std::map<Reading, LatticeLight> read_;  ///< the picture, as the right readings take it
   Findings findings_;
-  std::vector<Reading> right_readings_, wrong_readings_;
   std::map<std::string, std::shared_ptr<const Model>> known_;  ///< by the names of choices
 };
 
 }  // namespace
 
-Findings explain(const PictureNumbers& picture, const Scene& scene, const Reference& reference,
+Findings explain(const PictureNumbers& picture, const Scene& scene, const NoisyImage& reference,
                  const CheckOptions& options, const std::function<bool()>& go_on) {
   return Search(picture, scene, reference, options, go_on).run();
 }

@@ -1,4 +1,4 @@
-#include "app/check/statistics.h"
+#include "app/check/check.h"
 #include "app/report/contents.h"
 #include "app/report/replay.h"
 #include "core/compile/compile.h"
@@ -55,17 +55,18 @@ SeenObjects::Object describe(const Scene& scene, const std::vector<int>& path) {
 
 /// Of each object the pixels around which it is seen.
 Regions regions_of(const SeenObjects& seen, const Lattice& lattice) {
-  Regions regions{seen.of_pixel, static_cast<int>(seen.objects.size())};
-  const int right = lattice.columns() - 1, low = lattice.rows() - 1;
-  for (int y = 0; y <= low; ++y)
-    for (int x = 0; x <= right; ++x) {
-      const auto pixel = [&](int dx, int dy) {
-        return static_cast<std::size_t>(std::clamp(y + dy, 0, low) * (right + 1) + std::clamp(x + dx, 0, right));
-      };
-      const int object = seen.of_pixel[pixel(0, 0)];
-      bool same = !seen.at(pixel(0, 0)).noisy_texture;
-      for (int k = 0; k < 9; ++k) same = same && seen.of_pixel[pixel(k % 3 - 1, k / 3 - 1)] == object;
-      if (!same) regions.of_pixel[pixel(0, 0)] = -1;
+  Regions regions{{}, static_cast<int>(seen.objects.size())};
+  const int columns = lattice.columns(), rows = lattice.rows();
+  const auto object_at = [&](int x, int y) {
+    return seen
+        .of_pixel[static_cast<std::size_t>(std::clamp(y, 0, rows - 1) * columns + std::clamp(x, 0, columns - 1))];
+  };
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) {
+      const int object = object_at(x, y);
+      bool same = !seen.objects[static_cast<std::size_t>(object)].noisy_texture;
+      for (int k = 0; k < 9; ++k) same = same && object_at(x + k % 3 - 1, y + k / 3 - 1) == object;
+      regions.of_pixel.push_back(same ? object : -1);
     }
   return regions;
 }
@@ -97,6 +98,35 @@ SeenObjects seen_objects(const Scene& scene, const Lattice& lattice) {
   }
   seen.regions = regions_of(seen, lattice);
   return seen;
+}
+
+void leave_out_rare_light(Regions& regions, const std::vector<SampleStatistics>& samples, const LatticeLight& right) {
+  constexpr double rare_light = 0.5, dark = 0.003;  // of the light of a region, and light, that samples may be off
+  const Numbers sampled = means_of(regions, samples, &SampleStatistics::mean), all = means_of(regions, right.light);
+  for (int& region : regions.of_pixel) {
+    if (region < 0) continue;
+    const auto first = 3 * static_cast<std::size_t>(region);
+    const double light = all[first] + all[first + 1] + all[first + 2];
+    const double off = sampled[first] + sampled[first + 1] + sampled[first + 2] - light;
+    if (std::abs(off) > rare_light * light + dark) region = -1;
+  }
+}
+
+std::vector<ObjectDifference> differing_objects(const SeenObjects& seen, std::span<const CellDifference> cells) {
+  std::vector<ObjectDifference> objects;
+  for (std::size_t k = 0; k < cells.size(); k += 3) {
+    const auto c = cells.subspan(k, 3);
+    if (misfit_of(c).different == 0) continue;
+    const Vec3d expected{c[0].expected, c[1].expected, c[2].expected};
+    const Vec3d off{c[0].difference, c[1].difference, c[2].difference};
+    objects.push_back({seen.objects[k / 3], c[0].pixels, expected + off, expected});
+  }
+  const auto amount = [](const ObjectDifference& d) {
+    const Vec3d off = d.image - d.expected;
+    return d.pixels * (std::abs(off.x) + std::abs(off.y) + std::abs(off.z));
+  };
+  std::ranges::sort(objects, std::greater{}, amount);
+  return objects;
 }
 
 }  // namespace tyndall

@@ -12,6 +12,8 @@
 namespace tyndall {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 constexpr std::size_t max_objects = 6;
 constexpr double min_light = 0.005;  // below that a relative difference says nothing
 
@@ -70,15 +72,6 @@ std::string mistake_text(const Findings& v) {
   return text + "\n";
 }
 
-nlohmann::ordered_json json_of(const Difference& d) {
-  return {{"name", d.name}, {"text", d.words}, {"explained", d.explained}};
-}
-nlohmann::ordered_json json_of(const std::vector<Difference>& list) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const Difference& d : list) json.push_back(json_of(d));
-  return json;
-}
-
 }  // namespace
 
 std::string verdict_text(const Findings& v) {
@@ -95,8 +88,7 @@ std::string verdict_text(const Findings& v) {
   else if (v.agrees)
     text = fmt::format("check    the pictures agree within the noise, in {} {}\n", v.blocks - v.different, blocks);
   text += how_made(v);
-  if (std::any_of(v.seen.objects.begin(), v.seen.objects.end(),
-                  [](const auto& object) { return object.noisy_texture; }))
+  if (std::ranges::any_of(v.seen.objects, &SeenObjects::Object::noisy_texture))
     text += "left out objects with noise textures: their veins lie elsewhere in Tyndall\n";
   if (v.too_few || v.agrees) return text;
   for (std::size_t k = 0; k < std::min(max_objects, v.objects.size()); ++k) text += object_line(v.objects[k]);
@@ -106,28 +98,28 @@ std::string verdict_text(const Findings& v) {
   return text + mistake_text(v);
 }
 
-nlohmann::ordered_json verdict_json(const Findings& v) {
-  const auto channels = [](Vec3d c) { return nlohmann::ordered_json{c.x, c.y, c.z}; };
-  nlohmann::ordered_json json;
-  json["agrees"] = nullptr;
-  if (!v.unknown && !v.too_few) json["agrees"] = v.agrees;
-  json["too_few_samples"] = v.too_few;
-  json["explanation"] = nullptr;
-  if (v.mistake) json["explanation"] = json_of(*v.mistake);
-  json["choices"] = json_of(v.choices);
-  json["curve"] = curve_text(v.curve);
-  json["samples"] = v.samples;
-  json["blocks"] = {{"count", v.blocks}, {"different", v.different}, {"edge", v.block_edge}};
-  json["objects"] = nlohmann::ordered_json::array();
-  for (const ObjectDifference& d : v.objects)
-    json["objects"].push_back({{"name", d.object.name},
-                               {"kind", d.object.kind},
-                               {"pixels", d.pixels},
-                               {"mean_image", channels(d.image)},
-                               {"mean_reference", channels(d.expected)}});
-  json["tried"] = json_of(v.tried);
-  json["out_of_time"] = v.untried > 0;
-  return json;
+static void to_json(Json& json, const Difference& d) {
+  json = {{"name", d.name}, {"text", d.words}, {"explained", d.explained}};
+}
+static void to_json(Json& json, const ObjectDifference& d) {
+  json = {{"name", d.object.name},
+          {"kind", d.object.kind},
+          {"pixels", d.pixels},
+          {"mean_image", {d.image.x, d.image.y, d.image.z}},
+          {"mean_reference", {d.expected.x, d.expected.y, d.expected.z}}};
+}
+
+Json verdict_json(const Findings& v) {
+  return {{"agrees", v.unknown || v.too_few ? Json() : Json(v.agrees)},
+          {"too_few_samples", v.too_few},
+          {"explanation", v.mistake ? Json(*v.mistake) : Json()},
+          {"choices", v.choices},
+          {"curve", curve_text(v.curve)},
+          {"samples", v.samples},
+          {"blocks", {{"count", v.blocks}, {"different", v.different}, {"edge", v.block_edge}}},
+          {"objects", v.objects},
+          {"tried", v.tried},
+          {"out_of_time", v.untried > 0}};
 }
 
 }  // namespace tyndall

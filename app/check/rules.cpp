@@ -3,10 +3,11 @@
 #include "core/base/math.h"
 #include "core/base/text.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <utility>
 
 namespace tyndall {
 namespace {
@@ -54,73 +55,63 @@ std::function<bool(BookProgram&)> rule(Rule BookRules::*member, T value, bool (*
   };
 }
 
+/// Changes the scene; what is the same afterwards has nothing that this would change.
+template <class Change>
+std::function<bool(BookProgram&)> edit(const Change& change) {
+  return [=](BookProgram& program) {
+    const Scene before = program.scene;
+    change(program.scene);
+    return !(program.scene == before);
+  };
+}
+
 /// The books' sky with another weight: 0.5 · y + 0.5 becomes scale · that + offset.
 std::function<bool(BookProgram&)> other_sky(double scale, double offset) {
-  return [=](BookProgram& program) {
-    auto* sky = std::get_if<Gradient>(&program.scene.background);
-    if (!sky || sky->bottom == sky->top) return false;
+  return edit([=](Scene& scene) {
+    auto* sky = std::get_if<Gradient>(&scene.background);
+    if (!sky) return;
     const Gradient right = *sky;
     const auto at = [&](double weight) { return right.bottom + weight * (right.top - right.bottom); };
     sky->bottom = at(offset), sky->top = at(scale + offset);
-    return true;
-  };
+  });
 }
 
 /// Albedo 0: what is left of a colour that scatter() did not hand on.
 template <class Kind>
-bool blacken(BookProgram& program) {
-  for (Material* material : materials_of<Kind>(program.scene)) material->colour = Vec3d{0, 0, 0};
-  return has_material<Kind>(program.scene);
+void blacken(Scene& scene) {
+  for (Material* material : materials_of<Kind>(scene)) material->colour = Vec3d{0, 0, 0};
 }
 
-bool flip_radii(BookProgram& program) {
-  bool flipped = false;
-  for (Sphere<>* sphere : spheres_of(program.scene))
-    if (sphere->radius <= 0) sphere->radius = -sphere->radius, flipped = true;
-  return flipped;
+void flip_radii(Scene& scene) {
+  for (Sphere<>* sphere : spheres_of(scene)) sphere->radius = std::abs(sphere->radius);
 }
 
 /// Of refractive indices below `limit`. 1: only the air in a hollow ball.
 std::function<bool(BookProgram&)> invert_indices(double limit) {
-  return [=](BookProgram& program) {
-    bool changed = false;
-    for (Material* material : materials_of<Dielectric<>>(program.scene))
-      if (double& index = std::get<Dielectric<>>(material->kind).refractive_index; index < limit && index != 1)
-        index = 1 / index, changed = true;
-    return changed;
-  };
+  return edit([=](Scene& scene) {
+    for (Material* material : materials_of<Dielectric<>>(scene))
+      if (double& index = std::get<Dielectric<>>(material->kind).refractive_index; index < limit) index = 1 / index;
+  });
 }
 
-bool remove_fuzz(BookProgram& program) {
-  if (!has_fuzz(program.scene)) return false;
-  for (Material* material : materials_of<Metal<>>(program.scene)) std::get<Metal<>>(material->kind).fuzz = 0;
-  return true;
+void remove_fuzz(Scene& scene) {
+  for (Material* material : materials_of<Metal<>>(scene)) std::get<Metal<>>(material->kind).fuzz = 0;
 }
 
-bool close_shutter(BookProgram& program) {
-  if (!has_motion(program.scene)) return false;
-  program.scene.camera.shutter_close = program.scene.camera.shutter_open;
-  return true;
+void close_shutter(Scene& scene) {
+  if (has_motion(scene)) scene.camera.shutter_close = scene.camera.shutter_open;
 }
-bool sharpen(BookProgram& program) { return std::exchange(program.scene.camera.defocus_angle, 0) > 0; }
-bool widen_lens(BookProgram& program) {
-  Camera& camera = program.scene.camera;
-  if (camera.defocus_angle <= 0) return false;
-  camera.defocus_angle = 360 / pi * std::atan(2 * std::tan(camera.defocus_angle * pi / 360));
-  return true;
+void sharpen(Scene& scene) { scene.camera.defocus_angle = 0; }
+void widen_lens(Scene& scene) {
+  double& angle = scene.camera.defocus_angle;
+  if (angle > 0) angle = 360 / pi * std::atan(2 * std::tan(angle * pi / 360));
 }
-bool light_sky(BookProgram& program) {
-  const auto* colour = std::get_if<Vec3d>(&program.scene.background);
-  if (!colour || !(*colour == Vec3d{0, 0, 0})) return false;
-  program.scene.background = Gradient{};
-  return true;
+void light_sky(Scene& scene) {
+  if (scene.background == Background(Vec3d{})) scene.background = Gradient{};
 }
-bool invert_checkers(BookProgram& program) {
-  bool changed = false;
-  for (Texture& texture : program.scene.textures)
-    if (auto* checker = std::get_if<Checker<>>(&texture.kind); checker && checker->scale != 1)
-      checker->scale = 1 / checker->scale, changed = true;
-  return changed;
+void invert_checkers(Scene& scene) {
+  for (Texture& texture : scene.textures)
+    if (auto* checker = std::get_if<Checker<>>(&texture.kind)) checker->scale = 1 / checker->scale;
 }
 
 /// A cross product in one of whose components a plus stands for the minus.
@@ -135,10 +126,9 @@ Vec3f mistyped_cross(Vec3f a, Vec3f b, int component) {
 /// The camera's axes as the books compute them: u from vup and w, which points backwards, v from w and u.
 std::function<bool(BookProgram&)> mistyped_camera(int component) {
   return [=](BookProgram& program) {
-    const Vec3d up = program.scene.camera.vup;
-    program.columns = [=](RenderScene& scene) {
+    program.columns = [component, vup = to_float(program.scene.camera.vup)](RenderScene& scene) {
       CameraColumns& c = scene.camera;
-      const Vec3f w = -c.axis, vup{static_cast<float>(up.x), static_cast<float>(up.y), static_cast<float>(up.z)};
+      const Vec3f w = -c.axis;
       const Vec3f u = normalize(mistyped_cross(vup, w, component)), v = mistyped_cross(w, u, component);
       const float focus = dot(c.corner, c.axis), lens = length(c.lens_u);
       c.du = length(c.du) * u, c.dv = -length(c.dv) * v;
@@ -184,17 +174,12 @@ Difference mistake_of(const Reading& r) {
 }
 
 Difference shorter_paths(int depth) {
-  Difference mistake{
-      "depth-" + std::to_string(depth),
-      "paths end too early, after " + std::to_string(depth) + (depth == 1 ? " scattering" : " scatterings"),
-      [depth](BookProgram& program) {
-        program.scene.render.max_depth = depth;
-        return true;
-      }};
+  const auto end = edit([depth](Scene& scene) { scene.render.max_depth = depth; });
   if (depth == 0)
-    mistake.name = "attenuation-lost",
-    mistake.words = "what is hit sends on no light: attenuation is passed by value, or paths end at the first hit";
-  return mistake;
+    return {"attenuation-lost",
+            "what is hit sends on no light: attenuation is passed by value, or paths end at the first hit", end};
+  return {fmt::format("depth-{}", depth),
+          fmt::format("paths end too early, after {} scattering{}", depth, depth == 1 ? "" : "s"), end};
 }
 
 std::vector<Difference> usual_mistakes() {
@@ -208,29 +193,30 @@ std::vector<Difference> usual_mistakes() {
       {"inverted-index", "the ratio of the refractive indices is upside down", invert_indices(1e300)},
       {"one-sided-index", "rays that leave glass are refracted by the ratio of those that enter it",
        rule(&BookRules::glass, GlassRule::enters_only, has_material<Dielectric<>>)},
-      {"positive-radius", "the inner ball of hollow glass has lost the minus of its radius", flip_radii},
+      {"positive-radius", "the inner ball of hollow glass has lost the minus of its radius", edit(flip_radii)},
       {"bubble-index", "the air in hollow glass has the refractive index of glass", invert_indices(1)},
       {"long-mirror", "the mirror direction is not made a unit vector before fuzz is added",
        rule(&BookRules::long_mirror, true, has_fuzz)},
-      {"no-fuzz", "metal has no fuzz", remove_fuzz},
+      {"no-fuzz", "metal has no fuzz", edit(remove_fuzz)},
       {"sky-brackets", "the sky's weight is 0.5 * y + 1.0 where 0.5 * (y + 1.0) is meant", other_sky(1, 0.5)},
       {"sky-half", "the sky's weight is 0.5 * y where 0.5 * (y + 1.0) is meant", other_sky(1, -0.5)},
       {"sky-upside-down", "the sky's colours have changed places", other_sky(-1, 1)},
-      {"sky-left-in", "the blue sky shines where the background is black", light_sky},
+      {"sky-left-in", "the blue sky shines where the background is black", edit(light_sky)},
       {"time-lost", "scattered rays lose their time", rule(&BookRules::time, TimeRule::lost, has_motion)},
       {"time-lost-matt", "rays that matt surfaces scatter lose their time",
        rule(&BookRules::time, TimeRule::lost_by_matt, has_motion)},
-      {"no-motion", "camera rays have no time, so that nothing moves", close_shutter},
-      {"no-defocus", "nothing is out of focus", sharpen},
-      {"wide-lens", "the lens is twice as wide: its diameter is taken for the radius", widen_lens},
+      {"no-motion", "camera rays have no time, so that nothing moves", edit(close_shutter)},
+      {"no-defocus", "nothing is out of focus", edit(sharpen)},
+      {"wide-lens", "the lens is twice as wide: its diameter is taken for the radius", edit(widen_lens)},
       {"shadow-acne", "rays meet the surface that they leave: t has no lower bound such as 0.001",
        rule(&BookRules::meets_itself, true, always)},
       {"matt-black", "matt surfaces are black: their attenuation is lost, as where it is passed by value",
-       blacken<Lambertian<>>},
-      {"metal-black", "metal is black: its attenuation is lost, as where it is passed by value", blacken<Metal<>>},
+       edit(blacken<Lambertian<>>)},
+      {"metal-black", "metal is black: its attenuation is lost, as where it is passed by value",
+       edit(blacken<Metal<>>)},
       {"glass-black", "glass is black: its attenuation is lost, as where it is passed by value",
        rule(&BookRules::glass, GlassRule::black, has_material<Dielectric<>>)},
-      {"checker-scale", "checkers are as large as their inverse scale", invert_checkers},
+      {"checker-scale", "checkers are as large as their inverse scale", edit(invert_checkers)},
       {"cross-x", "the first component of cross() has a wrong sign", mistyped_camera(0)},
       {"cross-y", "the second component of cross() has a wrong sign", mistyped_camera(1)},
       {"cross-z", "the third component of cross() has a wrong sign", mistyped_camera(2)},

@@ -1,11 +1,12 @@
 #include "app/check/statistics.h"
 
+#include "core/image/tonemap.h"
+
 #include <utility>
 
 namespace tyndall {
 namespace {
 
-constexpr float Vec3f::*each_channel[] = {&Vec3f::x, &Vec3f::y, &Vec3f::z};
 constexpr double min_pairs = 20;       // of neighbours, that tell the noise of a cell
 constexpr std::size_t min_ratios = 8;  // blocks that tell how many samples a picture has
 constexpr double max_cut = 1e-3;       // of light, that white cuts off of blocks whose noise tells anything
@@ -14,12 +15,19 @@ constexpr double noise_factor = 2;     // by which noise tells the number of sam
 constexpr double amount_errors = 3;    // standard errors that an amount leaves to noise
 constexpr int min_pixels = 24;         // of a block that is compared
 
-/// Pairs of numbers: their covariance.
-struct Pairs {
-  double a = 0, b = 0, products = 0, count = 0;
-  void add(double x, double y) { a += x, b += y, products += x * y, ++count; }
-  double covariance() const { return count > 1 ? (products - a * b / count) / (count - 1) : 0; }
-};
+float light_of(TransferCurve curve, float number) {
+  constexpr float powers[] = {1, 0, 2.2f, 2, 1, 4};  // in the order of TransferCurve; sRGB's curve is none
+  const float power = powers[static_cast<std::size_t>(curve)];
+  return curve == TransferCurve::srgb ? srgb_decode(number) : power == 1 ? number : std::pow(number, power);
+}
+
+/// Half of the light between the numbers one step above and below, at least that of a dark grey: in black no step can
+/// be seen.
+float tolerance_of(TransferCurve curve, float number, float step) {
+  if (curve == TransferCurve::light) return step * std::max(std::abs(number), 0.02f);
+  const float middle = std::clamp(number, 0.02f, 1 - step);
+  return 0.5f * (light_of(curve, middle + step) - light_of(curve, middle - step));
+}
 
 /// One channel of a pixel.
 SampleStatistics of_channel(const BookSample* samples, const BookSample* other, int count, const Exposure& exposure,
@@ -56,7 +64,7 @@ double quantile_of(Numbers values, double fraction) {
 
 /// The variance of a pixel of the picture, of each cell; negative where there are too few pixels. From neighbours in a
 /// row, so that what changes slowly from pixel to pixel counts little; what is brighter than white counts nothing.
-Numbers noise_of(const ReadPixels& picture, const ExpectedPixels& reference, const Regions& regions, double white) {
+Numbers noise_of(const LatticeLight& picture, const LatticeLight& reference, const Regions& regions, double white) {
   Numbers noise(regions.cells()), counts(regions.cells());
   for (std::size_t at = 3; at < picture.light.size(); ++at) {
     const std::size_t cell = regions.cell_of(at);
@@ -95,6 +103,55 @@ double median_noise_ratio(const Numbers& of_program, const Numbers& cut, const N
 }
 
 }  // namespace
+
+std::vector<Reading> readings_of(bool coded, bool right) {
+  std::vector<TransferCurve> curves{TransferCurve::light};
+  if (coded)
+    curves = {TransferCurve::gamma2, TransferCurve::srgb, TransferCurve::power22, TransferCurve::none,
+              TransferCurve::gamma2_twice};
+  std::vector<Reading> readings;
+  for (const bool swapped : {false, true})
+    for (const bool upside_down : {false, true})
+      for (const bool mirrored : {false, true})
+        for (const TransferCurve curve : curves)
+          if (const Reading reading{curve, upside_down, mirrored, swapped}; reading.is_right() == right)
+            readings.push_back(reading);
+  return readings;
+}
+
+PictureNumbers numbers_of(const PictureFile& picture) {
+  PictureNumbers result{picture.image.width, picture.image.height, picture.image.rgb};
+  result.coded = picture.bits < 32;
+  if (picture.kind == ImageKind::jpeg) result.step = 3 / 256.0f;
+  if (!result.coded) {
+    result.step = picture.kind == ImageKind::hdr ? 1 / 128.0f : 1 / 500.0f;
+    return result;
+  }
+  // The books' programs round down, to one of 256 steps.
+  const bool rounded_down = picture.kind == ImageKind::ppm && picture.bits == 8;
+  for (float& value : result.numbers) {
+    const float number = std::clamp(srgb_encode(value), 0.0f, 1.0f);
+    value = rounded_down ? (std::round(255 * number) + 0.5f) / 256 : number;
+  }
+  return result;
+}
+
+LatticeLight read_pixels(const PictureNumbers& picture, const Lattice& lattice, const Reading& reading) {
+  LatticeLight pixels;
+  for (int y = 0; y < picture.height; y += lattice.step)
+    for (int x = 0; x < picture.width; x += lattice.step) {
+      const int column = reading.mirrored ? picture.width - 1 - x : x;
+      const int row = reading.upside_down ? picture.height - 1 - y : y;
+      const auto at = 3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.width) +
+                           static_cast<std::size_t>(column));
+      for (std::size_t c = 0; c < 3; ++c) {
+        const float number = picture.numbers[at + (reading.swapped ? 2 - c : c)];
+        pixels.light.push_back(static_cast<double>(light_of(reading.curve, number)));
+        pixels.tolerance.push_back(static_cast<double>(tolerance_of(reading.curve, number, picture.step)));
+      }
+    }
+  return pixels;
+}
 
 std::vector<SampleStatistics> statistics_of(const std::vector<BookSample>& samples, int count, const Exposure& exposure,
                                             const std::vector<BookSample>* other) {
@@ -151,7 +208,7 @@ Regions blocks_of(const Lattice& lattice, int edge) {
   return regions;
 }
 
-std::vector<CellDifference> differences_of(const ReadPixels& picture, const ExpectedPixels& expected,
+std::vector<CellDifference> differences_of(const LatticeLight& picture, const LatticeLight& expected,
                                            const Regions& regions) {
   std::vector<CellDifference> cells(regions.cells());  // sums at first
   Numbers squares(cells.size()), variances(cells.size());
@@ -198,7 +255,7 @@ double amount_of(std::span<const CellDifference> differences, std::span<const Ce
   return amount;
 }
 
-std::vector<double> likely_counts(const ReadPixels& picture, const ExpectedPixels& reference,
+std::vector<double> likely_counts(const LatticeLight& picture, const LatticeLight& reference,
                                   const std::vector<BookSample>& samples, int count, const Regions& regions,
                                   double white) {
   const Numbers noise = noise_of(picture, reference, regions, white);

@@ -18,7 +18,8 @@ namespace tyndall {
 /// Three a pixel of a lattice, or of cells of its regions.
 using Numbers = std::vector<double>;
 
-/// How numbers of a file stand for light. light: they are light, without limits (floating-point files).
+/// How numbers of a file stand for light. light: they are light, without limits (floating-point files). From none on
+/// they are mistakes.
 enum class TransferCurve { light, srgb, power22, gamma2, none, gamma2_twice };
 
 /// One way to read a picture. The first members are what programs choose, the others mistakes.
@@ -27,10 +28,7 @@ struct Reading {
   bool upside_down = false, mirrored = false;  ///< the first row is at the bottom; the first column at the right
   bool swapped = false;                        ///< red and blue have changed places
   /// Whether it holds no mistake.
-  bool is_right() const {
-    return curve != TransferCurve::none && curve != TransferCurve::gamma2_twice && !upside_down && !mirrored &&
-           !swapped;
-  }
+  bool is_right() const { return curve < TransferCurve::none && !upside_down && !mirrored && !swapped; }
   auto operator<=>(const Reading&) const = default;  // NOLINT(modernize-use-nullptr): means the comparison with 0
 };
 
@@ -49,17 +47,22 @@ struct PictureNumbers {
 PictureNumbers numbers_of(const PictureFile& picture);
 
 /// Light at the pixels of a lattice.
-struct ReadPixels {
+struct LatticeLight {
   Numbers light;
-  Numbers tolerance;  ///< by how much the light may be off because of PictureNumbers::step
+  Numbers tolerance{};  ///< of a picture: by how much the light may be off because of PictureNumbers::step
+  Numbers variance{};   ///< of what is expected: of a pixel's noise, as far as it is known
 };
-ReadPixels read_pixels(const PictureNumbers& picture, const Lattice& lattice, const Reading& reading);
+LatticeLight read_pixels(const PictureNumbers& picture, const Lattice& lattice, const Reading& reading);
 
-/// What light is expected at the pixels of a lattice.
-struct ExpectedPixels {
-  Numbers light;
-  Numbers variance;  ///< of a pixel's noise, as far as it is known
+/// Pairs of numbers: their covariance; of pairs of equal numbers their mean, and the variance of that.
+struct Pairs {
+  double a = 0, b = 0, products = 0, count = 0;
+  void add(double x, double y) { a += x, b += y, products += x * y, ++count; }
+  double covariance() const { return count > 1 ? (products - a * b / count) / (count - 1) : 0; }
+  double mean() const { return a / count; }
+  double variance_of_mean() const { return std::max(covariance(), 0.0) / count; }
 };
+inline constexpr float Vec3f::*each_channel[] = {&Vec3f::x, &Vec3f::y, &Vec3f::z};
 
 /// What the samples of a pixel tell of one channel.
 struct SampleStatistics {
@@ -126,6 +129,10 @@ Numbers means_of(const Regions& regions, const std::vector<Number>& numbers, Mem
   return sums;
 }
 
+/// Leaves out the regions in which samples show quite another amount of light than there is: it comes on few paths, so
+/// that nobody knows how often white cuts it off.
+void leave_out_rare_light(Regions& regions, const std::vector<SampleStatistics>& samples, const LatticeLight& right);
+
 /// What white cuts off of means of many samples, over what it cuts off of means of `count`, of each cell. many: more
 /// samples than there are of a pixel, so that those of neighbours are taken together; in the same way for both. 1 where
 /// nothing is cut off.
@@ -150,7 +157,7 @@ struct CellDifference {
 /// Of each cell. The error is the greater of two: what the scatter of the pixels' differences shows, and what their
 /// known variance predicts. The first also holds the noise of the expected light. The second is right where rare bright
 /// paths have not happened to be met.
-std::vector<CellDifference> differences_of(const ReadPixels& picture, const ExpectedPixels& expected,
+std::vector<CellDifference> differences_of(const LatticeLight& picture, const LatticeLight& expected,
                                            const Regions& regions);
 
 /// Standard errors beyond which a difference is no noise. Errors are estimated, and the noise of few samples is no
@@ -168,28 +175,64 @@ Misfit misfit_of(std::span<const CellDifference> differences);
 /// noisier.
 double amount_of(std::span<const CellDifference> differences, std::span<const CellDifference> other);
 
+/// How the means of a picture differ from what is expected.
+struct Differences {
+  std::vector<CellDifference> small, large, objects;  ///< of small blocks, of large ones, of the objects seen
+  std::vector<CellDifference> all;                    ///< these three, one behind the other
+  std::vector<CellDifference> whole;                  ///< of the picture
+
+  double amount() const { return amount_of(all, all); }
+
+  /// Whether the small blocks differ by noise alone. The noise of few samples is no normal distribution: so now and
+  /// then one of them is beyond noise_limit.
+  bool agree_in_blocks() const {
+    constexpr double max_different = 1 / 150.0;
+    const Misfit misfit = misfit_of(small);
+    return misfit.different <= max_different * misfit.blocks;
+  }
+
+  /// Whether all of them do.
+  bool agree() const {
+    return agree_in_blocks() && misfit_of(large).different == 0 && misfit_of(objects).different == 0 &&
+           misfit_of(whole).different == 0;
+  }
+
+  /// How much of the differences is left with `now` in place of these, as far as the two differ at all.
+  double left_by(const Differences& now) const {
+    double before = 0, after = 0;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const CellDifference &a = all[k], &b = now.all[k];
+      const double error = std::max(a.error, b.error);
+      if (a.pixels == 0 || std::abs(a.difference - b.difference) <= a.tolerance + 2 * error) continue;
+      const double weight = a.pixels / a.tolerance;
+      before += weight * std::max(0.0, std::abs(a.difference) - 2 * error);
+      after += weight * std::max(0.0, std::abs(b.difference) - 2 * error);
+    }
+    return before > 0 ? after / before : 1;
+  }
+
+  /// How much of the differences is gone; nothing, if `after` is so noisy that little of them could be seen beside its
+  /// noise.
+  double gone(const Differences& after) const {
+    constexpr double min_seen = 0.25;
+    const double seen = amount_of(all, after.all);
+    return seen > min_seen * amount() ? 1 - amount_of(after.all, all) / seen : 0;
+  }
+
+  /// Fraction of the light by which the whole may be off without that it is seen.
+  double unseen_light() const {
+    double light = 0, unseen = 0;
+    for (const CellDifference& channel : whole)
+      light += channel.expected, unseen += channel.tolerance + noise_limit * channel.error;
+    return light > 0 ? unseen / light : 0;
+  }
+};
+
 /// The numbers of samples a pixel that a picture's noise may stand for if a program with these samples, `count` of each
 /// pixel, has made it, the likeliest first; 0: not known. White makes few samples show as little noise as many, so that
 /// there may be several. reference: the picture without noise, and the variance of that.
-std::vector<double> likely_counts(const ReadPixels& picture, const ExpectedPixels& reference,
+std::vector<double> likely_counts(const LatticeLight& picture, const LatticeLight& reference,
                                   const std::vector<BookSample>& samples, int count, const Regions& regions,
                                   double white);
-
-struct CheckOptions {
-  double seconds = 20;  ///< for all of it, but for what is needed for any answer
-  int samples = 0;      ///< that are taken of each pixel for a program; 0: as many as the time allows
-};
-
-/// A picture rendered to measure another one against.
-struct Reference {
-  LinearImage image;
-  std::vector<float> variance;  ///< of each number of the image, from two halves of the samples
-};
-
-/// Renders the scene until the noise is small against the difference from `picture`, which has the scene's size, or
-/// a limit is reached, which the first samples may exceed. go_on: asked now and then; false ends it. Pixels share no
-/// paths, so that their errors are independent.
-Reference render_reference(Scene scene, const LinearImage& picture, double seconds, std::uint32_t spp,
-                           const std::function<bool()>& go_on);
 
 }  // namespace tyndall

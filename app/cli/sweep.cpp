@@ -1,6 +1,6 @@
 #include "app/cli/pictures.h"
 #include "app/report/contact_sheet.h"
-#include "app/report/film_difference.h"
+#include "app/report/gain.h"
 #include "app/text/markup.h"
 #include "app/text/standard_streams.h"
 #include "core/accuracy/error.h"

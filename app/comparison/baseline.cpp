@@ -7,7 +7,6 @@
 #include "core/base/text.h"
 #include "core/image/image_io.h"
 #include "core/image/image_io_file.h"
-#include "core/image/whole_file.h"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -15,7 +14,6 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
-#include <span>
 
 namespace tyndall {
 namespace {
@@ -155,14 +153,10 @@ void check_ordinary(const fs::path& image) {
 
 void check(CheckedPicture& picture, PpmCurve ppm) {
   std::error_code error;
-  if (picture.image.empty()) {
-    picture.failures.push_back("the baseline has it, and it was not rendered; delete it there if that is meant");
-    return;
-  }
-  if (!fs::exists(picture_name(picture.reference).file, error)) {
-    picture.failures.push_back("the baseline lacks it; --update keeps it");
-    return;
-  }
+  if (picture.image.empty())
+    return picture.failures.push_back("the baseline has it, and it was not rendered; delete it there if that is meant");
+  if (!fs::exists(picture_name(picture.reference).file, error))
+    return picture.failures.push_back("the baseline lacks it; --update keeps it");
   const auto start = std::chrono::steady_clock::now();
   try {
     check_ordinary(picture.image);
@@ -202,9 +196,7 @@ void copy_all(const std::map<fs::path, fs::path>& copies) {
   try {
     for (const auto& [target, file] : copies) {
       const std::vector<std::uint8_t> bytes = read_bytes(file);
-      WholeFile copy(target);
-      copy.write(std::as_bytes(std::span(bytes)));
-      copy.commit();
+      write_text_file(target, {bytes.begin(), bytes.end()});
       ++done;
     }
   } catch (const std::runtime_error& problem) {
@@ -230,19 +222,17 @@ BaselineCheck check_baseline(const BaselineRequest& request) {
   BaselineCheck result{{}, found.notes};
   bool has_ppm = false;
   for (const auto& [name, image] : found.files) {
-    CheckedPicture& picture = result.pictures.emplace_back();
-    picture.name = name, picture.image = image, picture.reference = request.folder / name;
-    picture.limits = chosen(request.limits, tolerances, name);
+    result.pictures.push_back({name, image, request.folder / name, chosen(request.limits, tolerances, name)});
+    CheckedPicture& picture = result.pictures.back();
     check(picture, request.ppm);
     has_ppm = has_ppm || (picture.comparison && picture.comparison->has_ppm);
   }
   check_gamma2(request.ppm, has_ppm);
-  if (result.pictures.empty()) {  // nothing was checked, which is no success
-    CheckedPicture& none = result.pictures.emplace_back();
-    none.name = "no picture";
-    none.failures.push_back("nothing was compared: there is no picture in " + request.images.front().string() +
-                            " (names that end in " + picture_endings + ")");
-  }
+  if (result.pictures.empty())  // nothing was checked, which is no success
+    result.pictures.push_back(
+        {.name = "no picture",
+         .failures = {"nothing was compared: there is no picture in " + request.images.front().string() +
+                      " (names that end in " + picture_endings + ")"}});
   return result;
 }
 

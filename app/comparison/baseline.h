@@ -17,12 +17,12 @@ bool has_picture_ending(const std::filesystem::path& file);
 
 /// One picture and what became of it.
 struct CheckedPicture {
-  std::string name;                        ///< from the folder on: "box.png", "fog/thin.exr"
-  std::filesystem::path image, reference;  ///< reference: in the baseline; image: empty if it was not rendered
-  Tolerance limits;
-  std::optional<Comparison> comparison;  ///< absent if there was nothing to compare
-  std::vector<std::string> failures;     ///< none: it passed
-  double seconds = 0;                    ///< that the comparison took
+  std::string name;                            ///< from the folder on: "box.png", "fog/thin.exr"
+  std::filesystem::path image{}, reference{};  ///< reference: in the baseline; image: empty if it was not rendered
+  Tolerance limits{};
+  std::optional<Comparison> comparison{};  ///< absent if there was nothing to compare
+  std::vector<std::string> failures{};     ///< none: it passed
+  double seconds = 0;                      ///< that the comparison took
 };
 
 struct BaselineRequest {

@@ -53,10 +53,14 @@ struct Comparison : PairFiles {
 Comparison compare_images(const std::filesystem::path& image, const std::filesystem::path& reference,
                           PpmCurve ppm = PpmCurve::srgb, bool noise = false);
 
-/// The pixels that two pictures both have.
+/// One of two pictures that are compared.
+struct PairedPicture {
+  std::filesystem::path name;
+  LinearImage pixels;  ///< those that both have
+  Region place{};      ///< where the pixels of the file lie, before they were cut
+};
 struct PicturePair : PairFiles {
-  LinearImage image, reference;             ///< of the same size
-  Region image_place{}, reference_place{};  ///< where the pixels of the files lie, before they were cut
+  PairedPicture image, reference;
 };
 
 /// Reads two pictures and cuts them to the pixels that both have.
@@ -79,8 +83,8 @@ PictureFile read_whole_picture(const std::filesystem::path& name);
 /// which says what to pass, for all others, and for a film with fewer than 2 samples in a pixel; ImageFileError.
 NoisyImage read_noisy_image(const std::filesystem::path& name, const Region& place);
 
-/// Compares two pictures of a pair that was read from files of these names.
-Comparison compare_pair(PicturePair pair, const std::filesystem::path& image, const std::filesystem::path& reference);
+/// Compares the two pictures of a pair.
+Comparison compare_pair(PicturePair pair);
 
 /// Throws UsageError if --gamma2 was given and no PPM was read.
 void check_gamma2(PpmCurve ppm, bool has_ppm);

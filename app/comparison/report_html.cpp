@@ -93,9 +93,9 @@ std::string pictures_of(const CheckedPicture& picture, PpmCurve ppm) {
   const Comparison& c = *picture.comparison;
   const LinearImage flip = heat_colours(c.flip_map, c.width, c.height);
   const PicturePair pair = read_pair(picture.image, picture.reference, ppm);
-  return from_template(
-      "report_pair.html",
-      {{"baseline", data_of(pair.reference)}, {"rendered", data_of(pair.image)}, {"flip", data_of(flip)}});
+  return from_template("report_pair.html", {{"baseline", data_of(pair.reference.pixels)},
+                                            {"rendered", data_of(pair.image.pixels)},
+                                            {"flip", data_of(flip)}});
 }
 
 std::string table_of(const CheckedPicture& picture) {
@@ -145,26 +145,22 @@ std::string css_stops() {
   return text;
 }
 
-/// The numbers of the page, for programs.
-std::string json_text(const std::vector<CheckedPicture>& pictures) {
-  Json json{{"pictures", Json::array()}};
-  for (const CheckedPicture& picture : pictures) {
-    Json failures = Json::array(), measured = Json::object(), limits = Json::object();
-    for (const std::string& failure : picture.failures) failures.push_back(all_printable(failure));
-    for (const Row& row : picture.comparison ? rows_of(picture) : std::vector<Row>{}) {
-      measured[row.key] = row.value;  // null where it is not finite
-      if (row.limit) limits[row.key] = *row.limit;
-    }
-    json["pictures"].push_back({{"name", all_printable(picture.name)},
-                                {"passed", picture.failures.empty()},
-                                {"failures", failures},
-                                {"measured", measured},
-                                {"limits", limits}});
-  }
-  return json.dump(2) + "\n";
-}
-
 }  // namespace
+
+/// Its numbers on the page, for programs.
+static void to_json(Json& json, const CheckedPicture& picture) {
+  Json failures = Json::array(), measured = Json::object(), limits = Json::object();
+  for (const std::string& failure : picture.failures) failures.push_back(all_printable(failure));
+  for (const Row& row : picture.comparison ? rows_of(picture) : std::vector<Row>{}) {
+    measured[row.key] = row.value;  // null where it is not finite
+    if (row.limit) limits[row.key] = *row.limit;
+  }
+  json = {{"name", all_printable(picture.name)},
+          {"passed", picture.failures.empty()},
+          {"failures", failures},
+          {"measured", measured},
+          {"limits", limits}};
+}
 
 void write_html_report(const std::filesystem::path& file, const std::vector<CheckedPicture>& pictures, PpmCurve ppm) {
   const auto passes = [](const CheckedPicture& picture) { return picture.failures.empty(); };
@@ -185,7 +181,7 @@ void write_html_report(const std::filesystem::path& file, const std::vector<Chec
                                                            {"numbers", in_html(numbers.filename().string())},
                                                            {"rows", rows},
                                                            {"sections", sections}}));
-  write_text_or_rescue(numbers, json_text(pictures));
+  write_text_or_rescue(numbers, Json{{"pictures", pictures}}.dump(2) + "\n");
 }
 
 std::string junit_report(const std::vector<CheckedPicture>& pictures) {

@@ -45,11 +45,6 @@ struct Plot {
   double y(double error) const { return height - bottom - errors.part_of(error) * (height - top - bottom); }
 };
 
-std::string seconds_text(int exponent) {
-  return exponent < 0 ? fmt::format("{:g} ms", std::pow(10.0, exponent + 3))
-                      : fmt::format("{:g} s", std::pow(10.0, exponent));
-}
-
 std::string grid(const Plot& plot) {
   std::string out;
   for (int e = plot.seconds.first; e <= plot.seconds.last; ++e) {
@@ -57,7 +52,8 @@ std::string grid(const Plot& plot) {
       out += line(plot.x(m * std::pow(10.0, e)), top, plot.x(m * std::pow(10.0, e)), height - bottom, "minor");
     const double x = plot.x(std::pow(10.0, e));
     out += line(x, top, x, height - bottom, "grid");
-    out += text_at(x, height - bottom + 20, "text-anchor=\"middle\"", seconds_text(e));
+    out += text_at(x, height - bottom + 20, "text-anchor=\"middle\"",
+                   fmt::format("{:g} {}", std::pow(10.0, e < 0 ? e + 3 : e), e < 0 ? "ms" : "s"));
   }
   for (int e = plot.errors.first; e <= plot.errors.last; ++e) {
     const double y = plot.y(std::pow(10.0, e));
@@ -82,7 +78,8 @@ std::string slope_guide(const Plot& plot, const std::vector<ErrorCurve>& curves)
   return line(x, y, plot.x(to), plot.y(best / to), "guide") + text_at(x + 6, y + 14, "class=\"dim\"", "slope -1");
 }
 
-std::string curve_lines(const Plot& plot, const ErrorCurve& curve, const std::optional<double>& bias, std::size_t i) {
+std::string curve_lines(const Plot& plot, const Chart& chart, std::size_t i) {
+  const ErrorCurve& curve = chart.curves[i];
   std::string points, dots;
   for (const ErrorPoint& p : curve.points) {
     if (!(p.rel_mse > 0)) continue;
@@ -92,7 +89,8 @@ std::string curve_lines(const Plot& plot, const ErrorCurve& curve, const std::op
   }
   std::string out = fmt::format("<polyline class=\"curve s{}{}\" points=\"", i % colours, i < colours ? "" : " again") +
                     points + "\"/>\n" + dots;
-  if (bias) out += line(left, plot.y(*bias), width - right, plot.y(*bias), fmt::format("bias s{}", i % colours));
+  if (const auto bias = bias_of(curve, chart.reference_noise))
+    out += line(left, plot.y(*bias), width - right, plot.y(*bias), fmt::format("bias s{}", i % colours));
   return out;
 }
 
@@ -158,23 +156,19 @@ std::filesystem::path csv_beside(std::filesystem::path svg) { return svg.replace
 
 void write_chart(const Chart& chart, const std::filesystem::path& svg) {
   std::string problem;
-  const auto write = [&problem](const std::filesystem::path& file, const std::string& text) {
+  for (const auto& [file, text] : {std::pair(csv_beside(svg), chart_csv(chart)), std::pair(svg, chart_svg(chart))})
     try {
       write_text_or_rescue(file, text);
     } catch (const ImageFileError& error) {
       problem += (problem.empty() ? "" : "; ") + std::string(error.what());
     }
-  };
-  write(csv_beside(svg), chart_csv(chart));
-  write(svg, chart_svg(chart));
   if (!problem.empty()) throw ImageFileError(problem);
 }
 
 std::string chart_svg(const Chart& chart) {
   const Plot plot(chart.curves);
   std::string curves = slope_guide(plot, chart.curves);
-  for (std::size_t i = 0; i < chart.curves.size(); ++i)
-    curves += curve_lines(plot, chart.curves[i], bias_of(chart.curves[i], chart.reference_noise), i);
+  for (std::size_t i = 0; i < chart.curves.size(); ++i) curves += curve_lines(plot, chart, i);
   const std::string title = in_xml(chart.title);
   return from_template("chart.svg", {{"title", title},
                                      {"title", title},

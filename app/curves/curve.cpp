@@ -95,8 +95,7 @@ void Convergence::add(std::uint64_t edit, const std::string& method, ErrorPoint 
 
 void Convergence::keep_current() {
   if (current_.points.size() < 3 || current_.points.back().seconds < min_seconds) return;
-  const auto same = std::find_if(earlier_.begin(), earlier_.end(),
-                                 [this](const ErrorCurve& one) { return one.method == current_.method; });
+  const auto same = std::ranges::find(earlier_, current_.method, &ErrorCurve::method);
   if (same != earlier_.end())
     *same = std::move(current_);
   else

@@ -15,43 +15,21 @@ namespace {
 double squared(double x) { return x * x; }
 
 /// A picture that is rendered further and further, each time from where it was left.
-class GrowingPicture {
- public:
-  GrowingPicture(std::shared_ptr<const PreparedScene> scene, const std::string& isa, bool clean, const ChartRun& run)
-      : scene_(std::move(scene)), run_(run) {
-    options_.isa = isa;
-    options_.clean = clean;
-    options_.threads = run.threads;
-    options_.adaptive = scene_->scene().render.adaptive;
-  }
+struct GrowingPicture {
+  std::shared_ptr<const PreparedScene> scene;
+  const ChartRun& run;
+  RenderOptions options{};
+  RenderResult result{};  ///< of the last step
+  double seconds = 0;     ///< of all steps
+
   /// Renders on until each pixel has `spp` samples; false if it was stopped on the way.
   bool grow(std::uint32_t spp) {
-    options_.spp = spp;
-    const auto progress = [this](const RenderProgress& now) { return run_.go_on(seconds_ + now.seconds); };
-    result_ = render(*scene_, options_, progress, std::move(result_.film));
-    seconds_ += result_.seconds;
-    return !result_.interrupted;
+    options.threads = run.threads, options.adaptive = scene->scene().render.adaptive, options.spp = spp;
+    const auto progress = [this](const RenderProgress& now) { return run.go_on(seconds + now.seconds); };
+    result = render(*scene, options, progress, std::move(result.film));
+    seconds += result.seconds;
+    return !result.interrupted;
   }
-  double seconds() const { return seconds_; }
-  FinishedPicture finished() const { return finished_picture(*scene_, result_); }
-  /// The error of the picture as it is or, if that was asked for, of its clean view; nothing where there is none.
-  std::optional<ErrorPoint> point(std::uint32_t spp, const ChartReference& reference) const {
-    const auto at = [&](double seconds, const std::vector<float>& rgb, double relative_error) {
-      return ErrorPoint{seconds, relative_mse(rgb, reference.image.rgb) - reference.noise, spp,
-                        squared(relative_error)};
-    };
-    if (options_.clean && !result_.clean) return {};
-    if (options_.clean) return at(seconds_ + result_.seconds_clean, result_.clean->rgb, result_.clean->relative_error);
-    const FinishedPicture now = finished();
-    return at(seconds_, now.image.rgb, now.estimate.relative_error);
-  }
-
- private:
-  std::shared_ptr<const PreparedScene> scene_;
-  const ChartRun& run_;
-  RenderOptions options_{};
-  RenderResult result_{};  ///< of the last step
-  double seconds_ = 0;     ///< of all steps
 };
 
 }  // namespace
@@ -62,10 +40,9 @@ ChartReference render_reference(Scene scene, double seconds, const ChartRun& run
   scene.render.fresnel = FresnelKind::exact;
   scene.render.adaptive = false;
   scene.render.seed += 0x5eed;
-  GrowingPicture picture(prepare(scene), "", false, run);
-  std::uint32_t spp = 2;
-  while (picture.grow(spp) && spp < (1u << 22) && 2 * picture.seconds() < seconds * 1.4) spp *= 2;
-  FinishedPicture reference = picture.finished();
+  GrowingPicture picture{prepare(scene), run};
+  for (std::uint32_t spp = 2; picture.grow(spp) && spp < (1u << 22) && 2 * picture.seconds < seconds * 1.4;) spp *= 2;
+  FinishedPicture reference = finished_picture(*picture.scene, picture.result);
   const std::uint32_t taken = reference.totals.min_taken;
   if (taken < 2) return {};
   return {std::move(reference.image), squared(reference.estimate.relative_error),
@@ -75,15 +52,24 @@ ChartReference render_reference(Scene scene, double seconds, const ChartRun& run
 ErrorCurve measure_curve(Scene scene, const ChartMethod& method, const ChartReference& reference, double seconds,
                          const ChartRun& run) {
   scene.render = method.settings;
-  GrowingPicture picture(method.splits ? prepare(scene) : prepare_without_splitting(scene), method.isa, method.clean,
-                         run);
+  GrowingPicture picture{method.splits ? prepare(scene) : prepare_without_splitting(scene), run};
+  picture.options.isa = method.isa, picture.options.clean = method.clean;
   ErrorCurve curve{method.name, {}};
+  const auto add = [&](double at, std::uint32_t spp, const std::vector<float>& rgb, double relative_error) {
+    curve.points.push_back(
+        {at, relative_mse(rgb, reference.image.rgb) - reference.noise, spp, squared(relative_error)});
+  };
   for (std::uint32_t spp = 1; spp < (1u << 22) && picture.grow(spp); spp *= 2) {
-    const auto point = picture.point(spp, reference);
-    if (!point) continue;
-    curve.points.push_back(*point);
-    const double measured = point->rel_mse + reference.noise;
-    if (measured < min_measurable(reference.noise) || 2 * picture.seconds() > seconds * 1.4) break;
+    const std::optional<CleanPicture>& clean = picture.result.clean;
+    if (method.clean && !clean) continue;
+    if (clean) {
+      add(picture.seconds + picture.result.seconds_clean, spp, clean->rgb, clean->relative_error);
+    } else {
+      const FinishedPicture now = finished_picture(*picture.scene, picture.result);
+      add(picture.seconds, spp, now.image.rgb, now.estimate.relative_error);
+    }
+    const double measured = curve.points.back().rel_mse + reference.noise;
+    if (measured < min_measurable(reference.noise) || 2 * picture.seconds > seconds * 1.4) break;
   }
   return curve;
 }
@@ -95,8 +81,8 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
   exact.render.caustics = Caustics::chains;
   exact.render.sharing = true;
   const std::shared_ptr<const PreparedScene> prepared = prepare(exact);
-  const SceneFeatures features = prepared->columns().features;
-  std::vector<ChartMethod> methods;
+  const SceneFeatures& features = prepared->columns().features;
+  const bool glass = has_material<Dielectric<>>(features);
   RenderSettings settings = scene.render;
   settings.spp.reset();
   settings.adaptive = false;
@@ -104,37 +90,33 @@ std::vector<ChartMethod> default_methods(const Scene& scene) {
   settings.sampler = SamplerKind::random;
   settings.caustics = Caustics::scatter;
   settings.sharing = false;
-  settings.fresnel = has_material<Dielectric<>>(features) ? FresnelKind::schlick : FresnelKind::exact;
-  methods.push_back({"the books' method", settings, "scalar"});
+  settings.fresnel = glass ? FresnelKind::schlick : FresnelKind::exact;
   bool splits = false;
-  const auto switch_on = [&](const char* name, auto setting, auto value) {
-    settings.*setting = value;
-    methods.push_back({name, settings, "scalar", false, splits});
+  std::vector<ChartMethod> methods;
+  const auto add = [&](const std::string& name, const char* isa = "scalar", bool clean = false) {
+    methods.push_back({name, settings, isa, clean, splits});
   };
-  using Settings = RenderSettings;
-  if (has_material<Dielectric<>>(features)) switch_on("+ exact Fresnel", &Settings::fresnel, FresnelKind::exact);
+  add("the books' method");
+  if (glass) settings.fresnel = FresnelKind::exact, add("+ exact Fresnel");
   if (has_material<Light<>>(features)) {
-    switch_on("+ light sampling", &Settings::integrator, Integrator::nee);
-    switch_on("+ MIS", &Settings::integrator, Integrator::mis);
+    settings.integrator = Integrator::nee, add("+ light sampling");
+    settings.integrator = Integrator::mis, add("+ MIS");
   }
-  switch_on("+ Sobol'", &Settings::sampler, SamplerKind::sobol);
+  settings.sampler = SamplerKind::sobol, add("+ Sobol'");
   const bool specular_paths = !prepared->columns().specular.sphere.empty(), guided = prepared->guide().lobes() > 0;
-  const char* paths = !guided ? "+ chains" : specular_paths ? "+ chains, guided light" : "+ guided light";
-  if (specular_paths || guided) switch_on(paths, &Settings::caustics, Caustics::chains);
-  splits = true;
-  if (prepared->columns().splits_paths) switch_on("+ splitting", &Settings::caustics, Caustics::chains);
-  if (prepared->reuses_paths()) switch_on("+ sharing", &Settings::sharing, true);
-  for (const Kernels& kernels : available_kernels())
-    if (std::string_view(kernels.isa) != "scalar")
-      methods.push_back({std::string("+ ") + kernels.isa, settings, kernels.isa});
-  methods.push_back({"+ clean (filtered)", settings, "", true});
-  settings.adaptive = true;
-  methods.push_back({"+ adaptive", settings, ""});
-  settings.adaptive = false;
-  if (has_material<Dielectric<>>(features)) {
-    settings.fresnel = FresnelKind::schlick;
-    methods.push_back({"Schlick", settings, ""});
+  if (specular_paths || guided) {
+    settings.caustics = Caustics::chains;
+    add(!guided ? "+ chains" : specular_paths ? "+ chains, guided light" : "+ guided light");
   }
+  splits = true;
+  if (prepared->columns().splits_paths) settings.caustics = Caustics::chains, add("+ splitting");
+  if (prepared->reuses_paths()) settings.sharing = true, add("+ sharing");
+  for (const Kernels& kernels : available_kernels())
+    if (std::string_view(kernels.isa) != "scalar") add(std::string("+ ") + kernels.isa, kernels.isa);
+  add("+ clean (filtered)", "", true);
+  settings.adaptive = true, add("+ adaptive", "");
+  settings.adaptive = false;
+  if (glass) settings.fresnel = FresnelKind::schlick, add("Schlick", "");
   return methods;
 }
 

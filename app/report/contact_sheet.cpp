@@ -82,74 +82,67 @@ void write_plain(ScreenPicture& picture, int left, int top, std::string letters,
 class Lettering {
  public:
   /// height: of a line, pixels.
-  explicit Lettering(int height);
+  explicit Lettering(int height) : scale_(static_cast<float>(height) / 12) {  // which is the height of the built-in one
+    for (const char* name : {"Roboto-Medium.ttf", "DejaVuSans.ttf", "Roboto-Regular.ttf"}) {
+      std::ifstream in(find_font(name), std::ios::binary);
+      file_.assign(std::istreambuf_iterator<char>(in), {});
+      if (!file_.empty() && stbtt_InitFont(&font_, file_.data(), 0)) break;
+      file_.clear();
+    }
+    if (file_.empty()) return;
+    int ascent = 0, descent = 0, line_gap = 0;
+    stbtt_GetFontVMetrics(&font_, &ascent, &descent, &line_gap);
+    scale_ = static_cast<float>(height) / static_cast<float>(ascent - descent);
+    ascent_ = static_cast<int>(std::lround(scale_ * static_cast<float>(ascent)));
+  }
+
   /// Writes the text, or its beginning and "…", in at most `width` pixels beside and below (left, top).
-  void write(ScreenPicture& picture, int left, int top, const std::string& text, int width, Colour colour) const;
+  void write(ScreenPicture& picture, int left, int top, const std::string& text, int width, Colour colour) const {
+    std::string fitted = text;
+    for (std::size_t size = text.size(); size > 0 && width_of(fitted) > static_cast<float>(width);)
+      fitted = text.substr(0, size = size_of_letters(text, size - 1)) + "…";
+    if (file_.empty()) return write_plain(picture, left, top, plain(fitted), colour, scale_);
+    for_each_letter(fitted, [&](int letter, float at) {
+      int columns = 0, rows = 0, x0 = 0, y0 = 0;
+      const float whole = std::floor(at);
+      unsigned char* cover =
+          stbtt_GetCodepointBitmapSubpixel(&font_, scale_, scale_, at - whole, 0, letter, &columns, &rows, &x0, &y0);
+      for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < columns; ++x)
+          blend(picture, left + static_cast<int>(whole) + x0 + x, top + ascent_ + y0 + y, colour,
+                cover[y * columns + x]);
+      stbtt_FreeBitmap(cover, nullptr);
+    });
+  }
 
  private:
-  int width_of(const std::string& text) const;
+  float width_of(const std::string& text) const {
+    if (!file_.empty()) return for_each_letter(text, [](int, float) {});
+    return static_cast<float>(stb_easy_font_width(plain(text).data())) * scale_;
+  }
+
+  /// Calls draw(letter, x) for each letter; returns where the text ends. x: pixels.
   template <class Draw>
-  float for_each_letter(const std::string& text, const Draw& draw) const;
+  float for_each_letter(const std::string& text, const Draw& draw) const {
+    float x = 0;
+    int before = 0;
+    for (std::size_t at = 0; at < text.size();) {
+      const int letter = static_cast<int>(next_letter(text, at));
+      if (before) x += scale_ * static_cast<float>(stbtt_GetCodepointKernAdvance(&font_, before, letter));
+      draw(letter, x);
+      int advance = 0;
+      stbtt_GetCodepointHMetrics(&font_, letter, &advance, nullptr);
+      x += scale_ * static_cast<float>(advance);
+      before = letter;
+    }
+    return x;
+  }
 
   std::vector<unsigned char> file_{};  ///< of the font; empty: the built-in one
   stbtt_fontinfo font_{};
   float scale_;     ///< from the font's units to pixels
   int ascent_ = 0;  ///< pixels from the top of a line to the letters' feet
 };
-
-Lettering::Lettering(int height) : scale_(static_cast<float>(height) / 12) {  // which is the height of the built-in one
-  for (const char* name : {"Roboto-Medium.ttf", "DejaVuSans.ttf", "Roboto-Regular.ttf"}) {
-    std::ifstream in(find_font(name), std::ios::binary);
-    file_.assign(std::istreambuf_iterator<char>(in), {});
-    if (!file_.empty() && stbtt_InitFont(&font_, file_.data(), 0)) break;
-    file_.clear();
-  }
-  if (file_.empty()) return;
-  int ascent = 0, descent = 0, line_gap = 0;
-  stbtt_GetFontVMetrics(&font_, &ascent, &descent, &line_gap);
-  scale_ = static_cast<float>(height) / static_cast<float>(ascent - descent);
-  ascent_ = static_cast<int>(std::lround(scale_ * static_cast<float>(ascent)));
-}
-
-/// Calls draw(letter, x) for each letter; returns where the text ends. x: pixels.
-template <class Draw>
-float Lettering::for_each_letter(const std::string& text, const Draw& draw) const {
-  float x = 0;
-  int before = 0;
-  for (std::size_t at = 0; at < text.size();) {
-    const int letter = static_cast<int>(next_letter(text, at));
-    if (before) x += scale_ * static_cast<float>(stbtt_GetCodepointKernAdvance(&font_, before, letter));
-    draw(letter, x);
-    int advance = 0;
-    stbtt_GetCodepointHMetrics(&font_, letter, &advance, nullptr);
-    x += scale_ * static_cast<float>(advance);
-    before = letter;
-  }
-  return x;
-}
-
-int Lettering::width_of(const std::string& text) const {
-  if (!file_.empty()) return static_cast<int>(std::ceil(for_each_letter(text, [](int, float) {})));
-  return static_cast<int>(std::ceil(static_cast<float>(stb_easy_font_width(plain(text).data())) * scale_));
-}
-
-void Lettering::write(ScreenPicture& picture, int left, int top, const std::string& text, int width,
-                      Colour colour) const {
-  std::string fitted = text;
-  for (std::size_t size = text.size(); size > 0 && width_of(fitted) > width;)
-    fitted = text.substr(0, size = size_of_letters(text, size - 1)) + "…";
-  if (file_.empty()) return write_plain(picture, left, top, plain(fitted), colour, scale_);
-  for_each_letter(fitted, [&](int letter, float at) {
-    int columns = 0, rows = 0, x0 = 0, y0 = 0;
-    const float whole = std::floor(at);
-    unsigned char* cover =
-        stbtt_GetCodepointBitmapSubpixel(&font_, scale_, scale_, at - whole, 0, letter, &columns, &rows, &x0, &y0);
-    for (int y = 0; y < rows; ++y)
-      for (int x = 0; x < columns; ++x)
-        blend(picture, left + static_cast<int>(whole) + x0 + x, top + ascent_ + y0 + y, colour, cover[y * columns + x]);
-    stbtt_FreeBitmap(cover, nullptr);
-  });
-}
 
 }  // namespace
 

@@ -2,40 +2,16 @@
 
 #include "core/base/text.h"
 
-#include <type_traits>
-
 namespace tyndall {
 namespace {
 
-template <class Kinds>
-const char* type_of(const Kinds& kind) {
-  const auto type = []<class Kind>(const Kind&) {
-    if constexpr (std::is_same_v<Kind, Vec3d>)
-      return "constant";
-    else
-      return Kind::type;
-  };
-  return std::visit(type, kind);
-}
+template <class Kind>
+constexpr const char* type_name = Kind::type;
+template <>
+constexpr const char* type_name<Vec3d> = "constant";
 
-void count(const Scene& scene, const Solid3d& solid, Contents& contents) {
-  const auto* sphere = std::get_if<Sphere<>>(&solid.shape);
-  const auto* disk = std::get_if<Disk<>>(&solid.shape);
-  const bool moves = sphere && sphere->center_end, has_hole = disk && disk->inner > 0;
-  ++contents.shapes[moves ? "moving sphere" : has_hole ? "ring" : type_of(solid.shape)];
-  if (std::holds_alternative<Light<double>>(scene.materials[static_cast<std::size_t>(solid.material)].kind))
-    contents.lights += std::holds_alternative<Box<>>(solid.shape) ? 6 : 1;
-}
-
-void add_leaves(const std::vector<Object>& objects, ObjectPath& path, std::vector<ObjectPath>& out) {
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    path.push_back(static_cast<int>(i));
-    if (const Group* group = std::get_if<Group>(&objects[i].kind))
-      add_leaves(group->objects, path, out);
-    else
-      out.push_back(path);
-    path.pop_back();
-  }
+const char* type_of(const auto& kinds) {
+  return std::visit([]<class Kind>(const Kind&) { return type_name<Kind>; }, kinds);
 }
 
 }  // namespace
@@ -54,15 +30,30 @@ const Object* find_object(const Scene& scene, const ObjectPath& path) {
 
 std::vector<ObjectPath> leaves(const Scene& scene) {
   std::vector<ObjectPath> out;
-  ObjectPath path;
-  add_leaves(scene.objects, path, out);
+  const auto add = [&out](const auto& self, const std::vector<Object>& objects, ObjectPath path) -> void {
+    for (path.push_back(0); const Object& object : objects) {
+      if (const Group* group = std::get_if<Group>(&object.kind))
+        self(self, group->objects, path);
+      else
+        out.push_back(path);
+      ++path.back();
+    }
+  };
+  add(add, scene.objects, {});
   return out;
 }
 
 Contents contents_of(const Scene& scene) {
   Contents contents;
   each_object(scene.objects, [&](const Object& object) {
-    if (const auto* solid = std::get_if<Solid3d>(&object.kind)) count(scene, *solid, contents);
+    if (const auto* solid = std::get_if<Solid3d>(&object.kind)) {
+      const auto* sphere = std::get_if<Sphere<>>(&solid->shape);
+      const auto* disk = std::get_if<Disk<>>(&solid->shape);
+      const bool moves = sphere && sphere->center_end, has_hole = disk && disk->inner > 0;
+      ++contents.shapes[moves ? "moving sphere" : has_hole ? "ring" : type_of(solid->shape)];
+      if (std::holds_alternative<Light<double>>(scene.materials[static_cast<std::size_t>(solid->material)].kind))
+        contents.lights += std::holds_alternative<Box<>>(solid->shape) ? 6 : 1;
+    }
     const auto* volume = std::get_if<Volume>(&object.kind);
     contents.media += volume ? 1 : 0;
     contents.phase_functions += volume && volume->medium.g != 0 ? 1 : 0;

@@ -1,9 +1,11 @@
 #include "app/report/gain.h"
 
 #include "core/accuracy/estimate.h"
+#include "core/film/groups.h"
 #include "core/render/render.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -40,15 +42,7 @@ std::vector<double> time_ratios(const TimedPair& pair, int rounds,
   return ratios;
 }
 
-MethodGain measure(const PreparedScene& with, const PreparedScene& without, const std::string& isa) {
-  double own_error = 0, other_error = 0;
-  const std::vector<double> times =
-      time_ratios({with, without, isa, 4, 0.2}, 5, [&](const auto& own, const auto& other) {
-        own_error = estimate_error(own.film).relative_error, other_error = estimate_error(other.film).relative_error;
-      });
-  const double ratio = own_error / other_error;
-  return {true, times[2], other_error > 0 ? times[2] * ratio * ratio : 1};
-}
+double sum_of(Vec3f v) { return static_cast<double>(v.x) + static_cast<double>(v.y) + static_cast<double>(v.z); }
 
 }  // namespace
 
@@ -74,18 +68,45 @@ MethodGain measure_method_gain(MisMethod method, Scene scene, const std::string&
     scene.width = widest;
   }
   const auto with = prepare(scene);
-  const bool specular = !with->columns().specular.sphere.empty() || with->guide().lobes() > 0;
-  switch (method) {
-    case MisMethod::specular:
-      scene.render.caustics = Caustics::scatter;
-      return specular ? measure(*with, *prepare(scene), isa) : MethodGain{};
-    case MisMethod::splitting:
-      return with->columns().splits_paths ? measure(*with, *prepare_without_splitting(scene), isa) : MethodGain{};
-    case MisMethod::sharing:
-      scene.render.sharing = false;
-      return with->reuses_paths() ? measure(*with, *prepare(scene), isa) : MethodGain{};
-  }
-  return {};
+  const bool has_chains = !with->columns().specular.sphere.empty() || with->guide().lobes() > 0;
+  const bool used[] = {has_chains, with->columns().splits_paths, with->reuses_paths()};  // in the order of MisMethod
+  if (!used[static_cast<std::size_t>(method)]) return {};
+  if (method == MisMethod::specular) scene.render.caustics = Caustics::scatter;
+  if (method == MisMethod::sharing) scene.render.sharing = false;
+  const auto without = method == MisMethod::splitting ? prepare_without_splitting(scene) : prepare(scene);
+  double own_error = 0, other_error = 0;
+  const std::vector<double> times =
+      time_ratios({*with, *without, isa, 4, 0.2}, 5, [&](const auto& own, const auto& other) {
+        own_error = estimate_error(own.film).relative_error, other_error = estimate_error(other.film).relative_error;
+      });
+  const double ratio = own_error / other_error;
+  return {true, times[2], other_error > 0 ? times[2] * ratio * ratio : 1};
+}
+
+FilmDifference film_difference(const Film& film, const Film& reference) {
+  double sum = 0, squares = 0, noise = 0, group_noise = 0;
+  bool whole = true;
+  const auto deviation = [&](const FilmPixel& pixel) {
+    const FilmPixel& other = reference.pixels[static_cast<std::size_t>(&pixel - film.pixels.data())];
+    for (const int half : {0, 1})
+      whole = whole && counted(film, pixel, half) > 0 && counted(reference, other, half) > 0;
+    const Vec3f a = half_mean(film, pixel, 0) - half_mean(reference, other, 0);
+    const Vec3f b = half_mean(film, pixel, 1) - half_mean(reference, other, 1);
+    const Vec3f deviates = 0.5f * (a - b);
+    sum += sum_of(mean(film, pixel) - mean(reference, other));
+    squares += sum_of(a * b);
+    noise += sum_of(deviates * deviates);
+    return sum_of(deviates);
+  };
+  for (const double group : group_sums(film, film.region, deviation)) group_noise += group * group;
+  const double values = 3.0 * static_cast<double>(film.pixels.size());
+  FilmDifference difference;
+  difference.mean = sum / values;
+  difference.rms = std::sqrt(std::max(0.0, squares / values));
+  if (!whole) return difference;
+  difference.mean_error = std::sqrt(group_noise) / values;
+  difference.rms_error = std::sqrt(noise / values);
+  return difference;
 }
 
 }  // namespace tyndall

@@ -1,12 +1,14 @@
 #pragma once
+#include "core/film/film.h"
 #include "core/render/prepare.h"
 #include "core/scene/scene.h"
 #include "core/targets/kernels.h"
 
+#include <limits>
 #include <string>
 
 /// What is gained in a scene by a kernel that leaves out the models which it does not use, and by methods of integrator
-/// mis.
+/// mis; and how far two pictures of one sweep are apart, and how much of that is noise.
 namespace tyndall {
 
 /// What a scene's own kernel gains over the one that holds every model.
@@ -35,5 +37,20 @@ enum class MisMethod { specular, splitting, sharing };
 /// Renders the scene with and without the method in turns, as a small picture on one thread, for about two seconds.
 /// Where chance seldom finds the light, the error without chains is estimated too small, and the true gain is larger.
 MethodGain measure_method_gain(MisMethod method, Scene scene, const std::string& isa);
+
+/// Each with an error found from the two halves of the difference itself. Pictures of one seed have most of their noise
+/// in common: the errors of both pictures taken together would be several times too large.
+struct FilmDifference {
+  double mean = 0;                                              ///< of the pixels and channels of film - reference
+  double mean_error = std::numeric_limits<double>::infinity();  ///< standard error of `mean`
+  double rms = 0;  ///< root mean square over pixels and channels, freed of noise
+  double rms_error = std::numeric_limits<double>::infinity();  ///< root mean square error of a pixel's difference
+};
+
+/// Both films have one region. The errors are infinite while a half of a pixel is empty.
+///
+/// With the halves a and b of the difference d, ((a - b) / 2)² estimates the variance of d and a b its true square,
+/// both without bias.
+FilmDifference film_difference(const Film& film, const Film& reference);
 
 }  // namespace tyndall

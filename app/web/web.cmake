@@ -15,7 +15,7 @@ target_link_options(tyndall_headless PRIVATE ${web_link} -sENVIRONMENT=node,work
 # ---- the page: the window, without what only a program on a desk has ------------------------------------------------
 file(GLOB_RECURSE window_sources CONFIGURE_DEPENDS app/window/*.cpp)
 file(GLOB page_sources CONFIGURE_DEPENDS app/web/*.cpp app/text/*.cpp app/curves/*.cpp app/report/*.cpp
-     app/comparison/comparison.cpp app/comparison/pair.cpp app/files/arriving_picture.cpp app/files/memory.cpp
+     app/comparison/comparison.cpp app/files/arriving_picture.cpp app/files/memory.cpp
      app/files/outputs.cpp app/files/watched_function.cpp)
 list(APPEND page_sources ${window_sources})
 list(FILTER page_sources EXCLUDE REGEX "app/window/page_commands.cpp$")

@@ -47,9 +47,9 @@ APP = [
      "commands/refusals commands/convert_foreign_slow"),
 
     ("a ring is a disk", "app/report/contents.cpp", "has_hole = «disk && disk->inner > 0 → false»;", "app/report/contents"),
-    ("a box of light is one lamp", "app/report/contents.cpp", "std::holds_alternative<Box<>>(solid.shape) ? «6 → 1» : 1;", "app/report/contents"),
-    ("the noise of halves is twice that of their mean", "app/report/film_difference.cpp", "const Vec3f deviates = «0.5f → 1.0f» * (a - b);", "app/report/gain"),
-    ("the squared difference has the noise of one half in it", "app/report/film_difference.cpp",
+    ("a box of light is one lamp", "app/report/contents.cpp", "std::holds_alternative<Box<>>(solid->shape) ? «6 → 1» : 1;", "app/report/contents"),
+    ("the noise of halves is twice that of their mean", "app/report/gain.cpp", "const Vec3f deviates = «0.5f → 1.0f» * (a - b);", "app/report/gain"),
+    ("the squared difference has the noise of one half in it", "app/report/gain.cpp",
      "squares += sum_of(a * «b → a»);", "app/report/gain"),
     ("what is not a number is white", "app/report/heat_map.cpp", "«if (std::isnan(value)) return {0, 1, 0}; → »", "app/report/heat_map"),
     ("colours of heat end early", "app/report/heat_map.cpp", "std::clamp(value, 0.0f, 1.0f) * «4 → 5»;", "app/report/heat_map"),
@@ -187,10 +187,10 @@ APP = [
 
     ("tolerances that are kept are not looked at", "app/comparison/baseline.cpp",
      "return «at == kept.end() || at->second.none() ? usual_tolerance : at->second → usual_tolerance»;", "commands/baselines"),
-    ("parts of pictures lie at their upper left corner", "app/comparison/pair.cpp", "std::ptrdiff_t{3} * («part.x0 - place.x0 → 0»);", "app/comparison/pair"),
+    ("parts of pictures lie at their upper left corner", "app/comparison/comparison.cpp", "std::ptrdiff_t{3} * («part.x0 - place.x0 → 0»);", "app/comparison/pair"),
     ("what is as large as its limit fails", "app/comparison/comparison.cpp", "if (!limit || «value <= *limit → value < *limit») return;", "commands/compare"),
     ("a picture that cannot be read passes", "app/comparison/baseline.cpp", "«picture.failures.emplace_back(problem.what()); → »", "commands/baselines"),
-    ("variances pass as errors", "app/comparison/pair.cpp", "if («squared → false»)\n", "commands/compare"),
+    ("variances pass as errors", "app/comparison/comparison.cpp", "if («squared → false»)\n", "commands/compare"),
 
     ("failed samples are no failure", "app/watch/watch.cpp", "return failures > 0 ? «1 → 0» : 0;", "commands/installed"),
     ("the caller's rounding is lost", "app/watch/watch.cpp", "~Host() {\n    «std::fesetenv(&arithmetic_); → »", "commands/installed"),
@@ -199,9 +199,9 @@ APP = [
      "«if (options.spp > max_samples) refuse(fmt::format(\"spp: found {}, expected at most {}\", options.spp, max_samples)); → »", "commands/installed"),
     ("options of an older header are read behind their end", "app/watch/watch.cpp", "std::memcpy(&options, given, «std::min(given->size, sizeof options) → sizeof options»);", "commands/installed"),
 
-    ("swapped red and blue are not tried", "app/check/reading.cpp", "picture.numbers[at + («reading.swapped ? 2 - c : c → c»)];", "app/check/explain"),
-    ("a mean product in place of a covariance", "app/check/statistics.cpp", "(products - «a * b / count → 0.0») / (count - 1)", "app/check/explain"),
-    ("what a mistake explains is what it adds", "app/check/expectation.h",
+    ("swapped red and blue are not tried", "app/check/statistics.cpp", "picture.numbers[at + («reading.swapped ? 2 - c : c → c»)];", "app/check/explain"),
+    ("a mean product in place of a covariance", "app/check/statistics.h", "(products - «a * b / count → 0.0») / (count - 1)", "app/check/explain"),
+    ("what a mistake explains is what it adds", "app/check/statistics.h",
      "return seen > min_seen * amount() ? 1 - «amount_of(after.all, all) → amount_of(all, after.all)» / seen : 0;", "app/check/explain"),
     ("a picture of too few samples agrees", "app/check/explain.cpp", "findings_.too_few = agree && «findings_.unseen > max_unseen → false»;", "app/check/explain"),
     ("light of a depth alone, not up to it", "app/check/statistics.cpp", "for (std::size_t k = 1; k < light.size(); ++k) «light[k] += light[k - 1]; → »",

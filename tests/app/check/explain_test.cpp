@@ -24,8 +24,7 @@ std::vector<BookSample> grey(const std::vector<float>& values) {
 struct NoisyPicture {
   Lattice lattice{64, 64, 1};
   Regions regions = blocks_of(lattice, edge_of_blocks(lattice));
-  ReadPixels picture;
-  ExpectedPixels expected;
+  LatticeLight picture, expected;
   NoisyPicture(unsigned seed, double noise) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal(0.3, noise);

@@ -32,7 +32,7 @@ inline Findings verdict_of(
   LinearImage light{picture.width, picture.height, picture.numbers};
   for (float& value : light.rgb) value *= value;
   const double endless = std::numeric_limits<double>::infinity();
-  const Reference reference = render_reference(scene, light, endless, spp, [] { return true; });
+  const NoisyImage reference = render_reference(scene, light, endless, spp, [] { return true; });
   return explain(picture, scene, reference, options, go_on);
 }
 

@@ -1,5 +1,4 @@
 #include "app/report/gain.h"
-#include "app/report/film_difference.h"
 #include "tests/support/pictures.h"
 #include "tests/support/prepared.h"
 #include "tests/support/thorough.h"
