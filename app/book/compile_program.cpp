@@ -62,8 +62,8 @@ std::string chosen_compiler() {
 /// Compilers by their names, each with arguments that the user gave.
 std::vector<std::vector<std::string>> compilers(const std::string& wanted) {
   if (!wanted.empty()) return {{wanted}};
-  std::istringstream words(chosen_compiler());
-  const std::vector<std::string> command{std::istream_iterator<std::string>(words), {}};
+  std::istringstream parts(chosen_compiler());
+  const std::vector<std::string> command{std::istream_iterator<std::string>(parts), {}};
   if (!command.empty()) return {command};
   return {{"c++"}, {"g++"}, {"clang++"}};
 }

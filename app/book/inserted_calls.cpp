@@ -11,9 +11,9 @@ namespace tyndall {
 namespace {
 
 bool contains(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
-bool is_number(const Parameter& one) { return one.words.size() == 1 && !one.has("<") && !one.has("*"); }
+bool is_number(const Parameter& one) { return one.identifiers.size() == 1 && !one.has("<") && !one.has("*"); }
 /// The type's own name.
-std::string last_of(const Parameter& one) { return one.words.empty() ? "" : one.words.back(); }
+std::string last_of(const Parameter& one) { return one.identifiers.empty() ? "" : one.identifiers.back(); }
 bool is_integer(const Parameter& parameter) {
   const std::string last = last_of(parameter);
   return contains(last, "int") || is_one_of(last, {"long", "unsigned", "short", "size_t"});
@@ -118,7 +118,7 @@ void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
       insert(function, " ::tyndall_book::texture_made(this);");
     if (!may_be_hooked(function)) return;
     for (const Parameter& parameter : function.parameters)
-      for (const std::string& name : parameter.words)
+      for (const std::string& name : parameter.identifiers)
         if (outline_.is_derived(name, shape_)) return hook_colour(function, parameter.name);
   }
   /// Whether it is none of the things' own functions, and can be called again.

@@ -227,7 +227,7 @@ class Outliner {
     if (is_identifier(last) && has_type && !is_type) one.name = last, --end;
     one.type = words(begin, end);
     for (const std::string& token : one.type)
-      if (is_identifier(token) && token != "const") one.words.push_back(token);
+      if (is_identifier(token) && token != "const") one.identifiers.push_back(token);
     return one;
   }
   void add_function(std::size_t begin, std::size_t open, std::string_view body) {

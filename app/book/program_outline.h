@@ -5,13 +5,12 @@
 #include <string_view>
 #include <vector>
 
-/// The classes and functions of a program, as far as they can be seen in its
-/// preprocessed text.
+/// The classes and functions of a program, as far as they can be seen in its preprocessed text.
 namespace tyndall {
 
 struct Parameter {
-  std::vector<std::string> type, words;  ///< the tokens of its type; words: the names in it
-  std::string name;                      ///< "": it has none
+  std::vector<std::string> type, identifiers;  ///< the tokens of its type; those of them that are names
+  std::string name;                            ///< "": it has none
   bool has(std::string_view token) const { return std::find(type.begin(), type.end(), token) != type.end(); }
 };
 

@@ -14,7 +14,7 @@ namespace {
 /// An object of the scene: where it lies for the object that encloses it.
 struct Piece {
   std::string body, material{}, moves{}, end{};  ///< JSON; moves: innermost first; end: behind them
-  std::string turned{};                          ///< its body where the sides of what is hit are turned; "": the same
+  std::string flipped{};                         ///< its body where the sides of what is hit are turned; "": the same
   Vec3d centre{};
   double size = 1;
   bool is_solid = false, is_medium = false;
@@ -204,23 +204,23 @@ class WorldReader {
     for (const double part : parts) add(part);
     join_box(begin);
     for (const Move& move : parts.size() == 1 ? moves_of(o) : std::vector<Move>(1))
-      if (const std::optional<bool> turns = turns_nearest(shape, parts, move, begin)) {
-        for (std::size_t k = begin; k < pieces_.size(); ++k) place(pieces_[k], move, *turns);
+      if (const std::optional<bool> flips = flips_nearest(shape, parts, move, begin)) {
+        for (std::size_t k = begin; k < pieces_.size(); ++k) place(pieces_[k], move, *flips);
         return true;
       }
     pieces_.resize(begin);
     reason_ = "its hit() is not that of the nearest of its parts";
     return false;
   }
-  static void place(Piece& piece, const Move& move, bool turns) {
+  static void place(Piece& piece, const Move& move, bool flips) {
     const std::string text = move.text();
     piece.moves += (piece.moves.empty() || text.empty() ? "" : ",") + text;
     piece.centre = move.out(piece.centre) + move.by;
-    if (turns && !piece.turned.empty()) std::swap(piece.body, piece.turned);
+    if (flips && !piece.flipped.empty()) std::swap(piece.body, piece.flipped);
   }
   /// Whether it turns the sides of all that is hit, as the third edition's flip_face does; nothing: its hit() is not
   /// that of the nearest part.
-  std::optional<bool> turns_nearest(double shape, const std::vector<double>& parts, const Move& move,
+  std::optional<bool> flips_nearest(double shape, const std::vector<double>& parts, const Move& move,
                                     std::size_t begin) {
     for (std::size_t k = begin; k < pieces_.size(); ++k)
       if (pieces_[k].is_medium) return false;  // whose hits are random
@@ -231,7 +231,7 @@ class WorldReader {
       for (const double part : parts) shots.push_back(inside), shots.back().shape = part;
     }
     const std::vector<book::shot_answer> all = r_.program.ask<book::shot_answer>('h', 0, shots);
-    bool is_same = false, is_turned = false;
+    bool is_same = false, is_flipped = false;
     for (auto its = all.begin(), end = its; its != all.end(); its = end) {
       end = its + static_cast<std::ptrdiff_t>(parts.size()) + 1;
       const auto nearest = std::min_element(its + 1, end, [](const book::shot_answer& a, const book::shot_answer& b) {
@@ -239,9 +239,9 @@ class WorldReader {
       });
       const book::shot_answer expected = nearest != end ? *nearest : book::shot_answer{};
       if (its->found != expected.found || (its->found != 0 && !is_near(its->t, expected.t, 0.01))) return {};
-      if (its->found != 0) (its->front == expected.front ? is_same : is_turned) = true;
+      if (its->found != 0) (its->front == expected.front ? is_same : is_flipped) = true;
     }
-    return is_turned && !is_same;
+    return is_flipped && !is_same;
   }
 
   /// Fog has a boundary, a phase function, and a density.
@@ -256,10 +256,10 @@ class WorldReader {
     if (pieces_.size() != begin + 1 || !pieces_.back().is_solid) o.refuse("Tyndall's fog fills one sphere or one box");
     const double extinction = inverse < 0 ? -1 / inverse : inverse;
     check_passing(shape, o, boundary[0], extinction, aimed(begin));
-    Piece& fog = pieces_.back();
-    fog.body = "{\"type\":\"medium\",\"boundary\":" + fog.body;
-    fog.end = fmt::format("}},\"density\":{},\"albedo\":{}", extinction, medium_colour(r_, phase[0]));
-    fog.is_solid = false, fog.is_medium = true;
+    Piece& whole = pieces_.back();
+    whole.body = "{\"type\":\"medium\",\"boundary\":" + whole.body;
+    whole.end = fmt::format("}},\"density\":{},\"albedo\":{}", extinction, medium_colour(r_, phase[0]));
+    whole.is_solid = false, whole.is_medium = true;
     return true;
   }
   /// Counts how often rays pass the fog.

@@ -45,6 +45,15 @@ def test_numbers_and_files():
     run("convert deep/src/main.cc -o deep.json", 0, 'cannot open "../data/balls.txt"')
 
 
+def test_rows_first():
+    """A get_ray() may take the row before the column."""
+    turned = {r"get_ray\(x, y\)": "get_ray(y, x)", r"get_ray\(int x, int y\)": "get_ray(int y, int x)"}
+    for name, changes in ("columns", {}), ("rows", turned):
+        program(f"{name}/main.cc", world(ball_of()), changes)
+        run(f"convert {name}/main.cc -o {name}.json")
+    assert read("rows.json") == read("columns.json")
+
+
 QUAD = "make_shared<{}>(point3(0, 0, -1), vec3(1, 0, 0), vec3(0, 1, 0), grey)"
 INTERIOR = "struct {} : quad {{ using quad::quad; bool is_interior(double a, double b) const override {{ {} }} }};"
 

@@ -224,7 +224,7 @@ std::vector<Way> other_ways() {
       {"network", way([](auto& o) { connect_to(o.port); })},
       {"memory", way([](auto& o) { write_memory(o); })},
       {"vm-write", way([](auto& o) { copy_to_memory(o); })},
-      {"nice", way([](auto& o) { setpriority(PRIO_PROCESS, static_cast<id_t>(o.process), 5); })},
+      {"nice", way([](auto& o) { setpriority(PRIO_PROCESS, static_cast<id_t>(o.process), 19); })},
       {"prlimit", way([](auto& o) {
          const rlimit limit{77, 77};
          prlimit(o.process, RLIMIT_NOFILE, &limit, nullptr);
@@ -338,7 +338,7 @@ class Victims {
         {"network", [&] { return accept(network_, nullptr, nullptr) >= 0; }},
         {"memory", [&] { return numbers[0] != 0; }},
         {"vm-write", [&] { return numbers[1] != 0; }},
-        {"nice", [&] { return getpriority(PRIO_PROCESS, static_cast<id_t>(outside_.process)) != 0; }},
+        {"nice", [&] { return getpriority(PRIO_PROCESS, static_cast<id_t>(outside_.process)) == 19; }},
         {"prlimit",
          [&] {
            rlimit limit{};

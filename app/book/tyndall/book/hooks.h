@@ -60,7 +60,7 @@ struct ray_source {
   vector (*side)(int, int) = nullptr;  ///< how far it sees as an argument, of those that are parts, goes from 0 to 1
   bool by_places = false;              ///< the arguments are those of session::ray_at()
   bool by_pixels = false;              ///< the arguments are a column and a row, not parts of the picture's sides
-  double first = 0, second = 0;        ///< the last arguments
+  bool rows_first = false;             ///< they are a row and a column
 };
 
 /// Whether this thread is asked by us, which the inserted calls look at: then his functions do what they always do.
@@ -78,7 +78,8 @@ struct session : picture_told {
   /// A ray through the point, in pixels from the upper left corner.
   const void* ray_at(double x, double y) const {
     if (rays.by_places) return rays.make(x, y);
-    if (rays.by_pixels) return rays.make(std::fmin(x, width - 1), std::fmin(y, height - 1));
+    const double column = std::fmin(x, width - 1), row = std::fmin(y, height - 1);
+    if (rays.by_pixels) return rays.rows_first ? rays.make(row, column) : rays.make(column, row);
     return rays.make(x / (width - less), (from_top ? y : height - y) / (height - less));
   }
 };
@@ -95,7 +96,11 @@ struct one_thread {
 /// Watches the first pixels of the reader's loop, whose rays get black at once, until it is known what it does.
 class watcher {
  public:
+  struct place {
+    double first, second;
+  };
   inline static ray_source rays;
+  inline static thread_local place last;  ///< the last arguments of get_ray()
 
   /// Whether all is known; called for each ray of the loop.
   static bool knows(session& s) {
@@ -103,9 +108,12 @@ class watcher {
       thread_ = std::this_thread::get_id(), begin_ = std::chrono::steady_clock::now(), size_ = rays.size();
       read_head(size_);
       rows_rise_ = !rays.by_pixels && rays.side(0, 1).y > 0;
+      rows_first_ = rays.by_pixels && std::fabs(rays.side(1, 0).y) > std::fabs(rays.side(0, 1).y);
     }
+    rays.rows_first = rows_first_;
+    if (rows_first_) std::swap(last.first, last.second);
     if (thread_ != std::this_thread::get_id()) return false;
-    seen_.push_back({rays.first, rays.second});
+    seen_.push_back(last);
     static_cast<picture_told&>(s) = size_;
     s.rays = rays, s.by_pixels = rays.by_pixels;
     const bool high = seen_[0].second >= 0.5;
@@ -116,9 +124,6 @@ class watcher {
   }
 
  private:
-  struct place {
-    double first, second;
-  };
   static bool is_later(int seconds) {
     return std::chrono::steady_clock::now() - begin_ > std::chrono::seconds(seconds);
   }
@@ -155,6 +160,7 @@ class watcher {
   inline static std::thread::id thread_;
   inline static std::chrono::steady_clock::time_point begin_;
   inline static bool rows_rise_ = false;  ///< rows go up in the world: the picture is turned when it is written
+  inline static bool rows_first_ = false;
   inline static picture_told size_;
   inline static std::vector<place> seen_;
 };
@@ -168,7 +174,7 @@ void ray_wanted(const C& camera, F call, A first, B second) {
   const one_thread only;
   seen = &camera, kept.emplace(call);
   ray_source& rays = watcher::rays;
-  rays.first = double(first), rays.second = double(second);
+  watcher::last = {double(first), double(second)};
   rays.by_pixels = std::is_integral<A>::value;
   rays.size = [] { return size_of(*seen); };
   rays.described = [] { return described_camera(*seen); };

@@ -231,7 +231,7 @@ void add(std::string& answers, const A& one) {
   answers.append(reinterpret_cast<const char*>(&one), sizeof one);
 }
 /// A question that has come, and its answers.
-struct asked {
+struct query {
   question head;
   std::string given, answers;
   char letter() const { return static_cast<char>(head.letter); }
@@ -251,9 +251,9 @@ struct asked {
   }
 };
 inline vector sample(const session& s, const void*, const pixel_place& at) { return s.colour(s.ray_at(at.x, at.y)); }
-inline void answer_samples(const session& s, asked& one) { one.answer('p', s, sample); }
+inline void answer_samples(const session& s, query& one) { one.answer('p', s, sample); }
 template <class N>
-void answer(const session& s, asked& one) {
+void answer(const session& s, query& one) {
   using its = replies<N>;
   one.answer('h', s, its::hit), one.answer('x', s, its::scatter), one.answer('e', s, its::emitted);
   one.answer('v', s, its::value), one.answer('r', s, its::ray_at), one.answer('c', s, its::light);
@@ -262,13 +262,13 @@ void answer(const session& s, asked& one) {
 }
 
 /// Tells the picture, then answers for as long as questions come.
-[[noreturn]] inline void serve(const session& s, void (*answer)(const session&, asked&)) {
+[[noreturn]] inline void serve(const session& s, void (*answer)(const session&, query&)) {
   for (const std::string& name : opened_files::get().missing)
     if (!name.empty()) tell('F', name);
   const picture_told& told = s;
   tell('P', std::string(reinterpret_cast<const char*>(&told), sizeof told));
   for (;;) {
-    asked one;
+    query one;
     receive_bytes(&one.head, sizeof one.head);
     one.given.resize(static_cast<std::size_t>(one.head.size));
     receive_bytes(&one.given[0], one.given.size());

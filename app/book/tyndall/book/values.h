@@ -129,14 +129,15 @@ template <class R>
 struct ray_traits {
   template <class T>
   static decltype(auto) direction_of(T& ray) {
-    return pick(ray, TYNDALL_GET(o.direction()), TYNDALL_GET(o.dir), TYNDALL_GET(o.direction), TYNDALL_GET(o.B),
-                TYNDALL_GET(o.getDirection()), TYNDALL_GET(o.Direction()), TYNDALL_GET(o.d),
+    return pick(ray, TYNDALL_GET(o.direction()), TYNDALL_GET(o.dir()), TYNDALL_GET(o.dir), TYNDALL_GET(o.direction),
+                TYNDALL_GET(o.B), TYNDALL_GET(o.getDirection()), TYNDALL_GET(o.Direction()), TYNDALL_GET(o.d),
                 TYNDALL_GET(o.m_direction));
   }
   template <class T>
   static decltype(auto) origin_of(T& ray) {
-    return pick(ray, TYNDALL_GET(o.origin()), TYNDALL_GET(o.orig), TYNDALL_GET(o.origin), TYNDALL_GET(o.A),
-                TYNDALL_GET(o.getOrigin()), TYNDALL_GET(o.Origin()), TYNDALL_GET(o.o), TYNDALL_GET(o.m_origin));
+    return pick(ray, TYNDALL_GET(o.origin()), TYNDALL_GET(o.orig()), TYNDALL_GET(o.orig), TYNDALL_GET(o.origin),
+                TYNDALL_GET(o.A), TYNDALL_GET(o.getOrigin()), TYNDALL_GET(o.Origin()), TYNDALL_GET(o.o),
+                TYNDALL_GET(o.m_origin));
   }
   using part = std::decay_t<decltype(direction_of(std::declval<const R&>()))>;
   static_assert(is_vector<part>, "a ray has a direction");
