@@ -45,21 +45,13 @@ def test_numbers_and_files():
     run("convert deep/src/main.cc -o deep.json", 0, 'cannot open "../data/balls.txt"')
 
 
-def test_rows_first():
-    """A get_ray() may take the row before the column."""
-    turned = {r"get_ray\(x, y\)": "get_ray(y, x)", r"get_ray\(int x, int y\)": "get_ray(int y, int x)"}
-    for name, changes in ("columns", {}), ("rows", turned):
-        program(f"{name}/main.cc", world(ball_of()), changes)
-        run(f"convert {name}/main.cc -o {name}.json")
-    assert read("rows.json") == read("columns.json")
-
-
 QUAD = "make_shared<{}>(point3(0, 0, -1), vec3(1, 0, 0), vec3(0, 1, 0), grey)"
 INTERIOR = "struct {} : quad {{ using quad::quad; bool is_interior(double a, double b) const override {{ {} }} }};"
 
 
 def test_shapes():
-    """Shapes that the book proposes, by classes of the program's; helpers of its own; threads; other compilers."""
+    """Shapes that the book proposes, by classes of the program's; helpers of its own; threads; a get_ray() of row and
+    column; other compilers."""
     threads = ("std::thread one([&] { camera d = c; d.render(w); }), two([&] { camera d = c; d.render(w); }); "
                "one.join(); two.join();")
     triangle = INTERIOR.format("triangle", "return a > 0 && b > 0 && a + b < 1;")
@@ -68,7 +60,8 @@ def test_shapes():
     shapes = ("mine::put(mine::triangle(point3(0, 0, -1), vec3(1, 0, 0), vec3(0, 1, 0), grey))); "
               "w.add(mine::put(mine::washer(point3(0, 0, -2), vec3(2, 0, 0), vec3(0, 2, 0), grey))")
     helpers = f"#include <thread>\nnamespace mine {{ {triangle} {washer} {put} }}\n"
-    program("shapes.cc", helpers + world(shapes, render=threads))
+    turned = {r"get_ray\(x, y\)": "get_ray(y, x)", r"get_ray\(int x, int y\)": "get_ray(int y, int x)"}
+    program("shapes.cc", helpers + world(shapes, render=threads), turned)
     run("convert shapes.cc -o shapes.json")
     first, second = load("shapes.json")["objects"]
     assert first["type"] == "triangle" and second["type"] == "disk" and second["inner"] == 0.5
