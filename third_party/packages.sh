@@ -70,7 +70,6 @@ This is not a Debian or Ubuntu system, so Tyndall cannot install the packages th
 again with TYNDALL_SKIP_PACKAGES=1 in front, as in "TYNDALL_SKIP_PACKAGES=1 ./run":
   Fedora:  sudo dnf install gcc-c++ cmake ninja-build pkgconf glfw-devel mesa-libGL-devel stb_image-devel stb_image_write-devel libjpeg-turbo-devel libpng-devel json-devel cli11-devel fmt-devel doctest-devel openexr-devel highway-devel
   Arch:    sudo pacman -S --needed base-devel cmake ninja glfw mesa stb libjpeg-turbo libpng nlohmann-json cli11 fmt doctest openexr highway
-  macOS:   brew install cmake ninja pkg-config glfw jpeg-turbo libpng nlohmann-json cli11 fmt doctest openexr highway
 The window also needs glad 2 (pip install glad2) and Dear ImGui; to build with its sources, once call
 "cmake --preset release -DIMGUI_DIR=FOLDER". Without them Tyndall is built without the window.
 MSG
