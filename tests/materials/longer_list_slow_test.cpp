@@ -147,9 +147,9 @@ TEST_CASE("path loop: shadow rays into a ball of opal meet its far side, like th
   add(scene, sphere({0, 0, 0}, 1), lambertian(1));
   add(scene, sphere({2, 0, -20}, 9), lamp(2));
   aim(scene, {3, 0, 5}, {0.2, 0, 0});
-  const Estimate by_scattering = kernel_radiance(scene, 0.6, 1 << 18);
+  const Estimate by_scattering = kernel_radiance(scene, 0.6, 1 << 20);
   scene.render.integrator = Integrator::mis;
-  const Estimate with_shadow_rays = kernel_radiance(scene, 0.6, 1 << 17);
+  const Estimate with_shadow_rays = kernel_radiance(scene, 0.6, 1 << 18);
   CHECK(std::hypot(by_scattering.error, with_shadow_rays.error) < 0.02 * by_scattering.mean);
   check_agree(by_scattering, with_shadow_rays);
 }
