@@ -106,13 +106,16 @@ std::string missing_header(const std::string& errors) {
 }
 
 /// The folder in the program's own, or in the one or two above it, that holds a header, such as ../common; empty: none.
+/// It does not look beyond the program's repository.
 fs::path folder_with(const std::string& header, const fs::path& program) {
   std::error_code error;
   fs::path above = program.parent_path(), first;
-  for (int up = 0; up < 3 && !header.empty() && first.empty(); ++up, above = above.parent_path())
+  for (int up = 0; up < 3 && !header.empty() && first.empty(); ++up, above = above.parent_path()) {
     for (const fs::directory_entry& entry : fs::directory_iterator(above, error))
       if (fs::is_regular_file(entry.path() / header, error) && (first.empty() || entry.path() < first))
         first = entry.path();
+    if (fs::exists(above / ".git", error)) break;
+  }
   return first;
 }
 

@@ -92,6 +92,8 @@ def test_several_files():
     run("convert several/main.cc -Iseveral/include -o several.json", 2, "several/main.cc: undefined reference to",
         "balls()", "name that, too")
     run("convert several/main.cc several.json -o refused.json", 2, 'unexpected argument "several.json"')
+    os.mkdir("several/.git"), os.rename("several/include", "include")  # another project's
+    run("convert several/main.cc several/balls.cc -o several.json", 2, "rtweekend.h: No such file")
 
 
 def made_of(name, code):
