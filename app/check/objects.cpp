@@ -58,8 +58,8 @@ Regions regions_of(const SeenObjects& seen, const Lattice& lattice) {
   Regions regions{{}, static_cast<int>(seen.objects.size())};
   const int columns = lattice.columns(), rows = lattice.rows();
   const auto object_at = [&](int x, int y) {
-    return seen
-        .of_pixel[static_cast<std::size_t>(std::clamp(y, 0, rows - 1) * columns + std::clamp(x, 0, columns - 1))];
+    const std::ptrdiff_t row = std::clamp(y, 0, rows - 1);
+    return seen.of_pixel[static_cast<std::size_t>(row * columns + std::clamp(x, 0, columns - 1))];
   };
   for (int y = 0; y < rows; ++y)
     for (int x = 0; x < columns; ++x) {
