@@ -108,10 +108,9 @@ class watcher {
       thread_ = std::this_thread::get_id(), begin_ = std::chrono::steady_clock::now(), size_ = rays.size();
       read_head(size_);
       rows_rise_ = !rays.by_pixels && rays.side(0, 1).y > 0;
-      rows_first_ = rays.by_pixels && std::fabs(rays.side(1, 0).y) > std::fabs(rays.side(0, 1).y);
+      rays.rows_first = rays.by_pixels && std::fabs(rays.side(1, 0).y) > std::fabs(rays.side(0, 1).y);
     }
-    rays.rows_first = rows_first_;
-    if (rows_first_) std::swap(last.first, last.second);
+    if (rays.rows_first) std::swap(last.first, last.second);
     if (thread_ != std::this_thread::get_id()) return false;
     seen_.push_back(last);
     static_cast<picture_told&>(s) = size_;
@@ -160,7 +159,6 @@ class watcher {
   inline static std::thread::id thread_;
   inline static std::chrono::steady_clock::time_point begin_;
   inline static bool rows_rise_ = false;  ///< rows go up in the world: the picture is turned when it is written
-  inline static bool rows_first_ = false;
   inline static picture_told size_;
   inline static std::vector<place> seen_;
 };
