@@ -180,7 +180,7 @@ TEST_CASE("the window: a picture pauses by itself at an error or a time; an edit
   for (const bool by_error : {true, false}) {
     Driver driver("limits", [&](WindowOptions& options) {
       options.scene.scene.render.spp = 1000000;
-      (by_error ? options.limits.error : options.limits.seconds) = 0.4;
+      (by_error ? options.limits.error : options.limits.seconds) = by_error ? 0.03 : 0.4;  // long enough to be seen
     });
     const auto is = [&](const std::string& state) { driver.await("state", state); };
     is("paused");
