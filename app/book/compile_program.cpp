@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t longest_error = 240;  // letters of one message
+constexpr char library_name[] = "libtyndall-book.so";
 
 void write_text(const fs::path& file, const std::string& text) {
   errno = 0;
@@ -40,18 +41,16 @@ std::string read_text(const fs::path& file) {
   return text;
 }
 
-/// The folder of our headers: book in $TYNDALL_ASSETS, share/tyndall/book of the installation, or book beside the
-/// program.
+/// The folder of our headers, and of the library that is linked to readers' programs: lib/tyndall/book of the
+/// installation, or book beside the program.
 fs::path book_folder() {
   std::error_code error;
   const fs::path program = own_file().parent_path();
-  const char* assets = std::getenv("TYNDALL_ASSETS");
-  const fs::path chosen = assets && *assets ? fs::path(assets) / "book" : fs::path();
-  for (const fs::path& folder : {chosen, program.parent_path() / "share" / "tyndall" / "book", program / "book"})
-    if (!folder.empty() && fs::is_regular_file(folder / "take.h", error)) return fs::canonical(folder);
+  for (const fs::path& folder : {program.parent_path() / "lib" / "tyndall" / "book", program / "book"})
+    if (fs::is_regular_file(folder / library_name, error)) return fs::canonical(folder);
   throw IoError(
-      "the folder of headers for readers' programs was not found: neither share/tyndall/book of the installation nor " +
-      (program / "book").string() + " has take.h");
+      "what readers' programs are compiled with was not found: neither lib/tyndall/book of the installation nor " +
+      (program / "book").string() + " has " + library_name);
 }
 
 /// What the user names as the compiler, with arguments; "": nothing.
@@ -146,8 +145,7 @@ class Compilation {
         for (const bool reads_world : {true, false}) {
           const InsertedCalls calls = insert_calls(text_, outline_, reads_world);
           if (!calls.problem.empty()) throw UsageError(task_.name + ": " + calls.problem);
-          if (compile(calls.text, reads_world))
-            return {task_.folder / "program", outline_.files, calls.draws_by_pdf, calls.decodes_images};
+          if (compile(calls.text, reads_world)) return {task_.folder / "program", outline_.files};
         }
       } catch (const CompilerError& error) {
         errors.push_back(all_printable(error.text));
@@ -189,7 +187,8 @@ class Compilation {
   /// False: it fails in our headers, where his world is read.
   bool compile(const std::string& text, bool reads_world) {
     write_text(task_.folder / "program.ii", text);
-    const ChildEnd end = call({"-O1", "-fno-access-control", "-fpermissive", "program.ii", "-o", "program", "-ldl"});
+    const ChildEnd end = call({"-O1", "-fno-access-control", "-fpermissive", "program.ii",
+                               (headers_ / library_name).string(), "-o", "program"});
     std::error_code ignored;  // what is no program cannot be started
     if (end.succeeded())      // a guard may refuse linkers that
       return fs::permissions(task_.folder / "program", fs::perms::owner_exec, fs::perm_options::add, ignored), true;

@@ -40,8 +40,7 @@ ChildEnd run_guarded(const ProgramTask& task, ChildPlan plan, const std::string&
 
 struct CompiledProgram {
   std::filesystem::path file;
-  std::vector<std::filesystem::path> sources;         ///< the reader's files that were read
-  bool draws_by_pdf = false, decodes_images = false;  ///< see InsertedCalls
+  std::vector<std::filesystem::path> sources;  ///< the reader's files that were read
 };
 
 /// Compiles the program, with its own headers, and our calls in its functions, as C++17, else as C++20. It is

@@ -61,11 +61,11 @@ class Inserter {
     show_heads();
     hurry_through_images();
     const std::string end = reads_world ? tail() : R"(namespace tyndall_book {
-template <class C> std::string described_camera(const C&) { return {}; }
-void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
+template <class C> void describe_camera(const C&, description&) {}
+void take_over() { serve(nullptr); }
 }
 )";
-    return {with_insertions() + "\n# 1 \"tyndall/book/names\"\n" + end, "", draws_by_pdf_, decodes_images()};
+    return {with_insertions() + "\n# 1 \"tyndall/book/names\"\n" + end, ""};
   }
 
  private:
@@ -249,7 +249,7 @@ void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
       if (!real) others.push_back(type);
       return name;
     });
-    if (has_ray) end = "one.part = to_vector(part), one.to = ray_traits<ray>::direction(out);";
+    if (has_ray) end = "one.part = to_vector(part), one.to = ray_traits<ray>::parts(&out).to;";
     if (others.size() == 2) end = "one.part = to_vector(part), one.to = to_vector(to);";
     draws_by_pdf_ = draws_by_pdf_ || end[0] == 'r';
     return fmt::format("ray out = in; {}scatter_answer one; one.does = const_cast<material&>(m).{}({}); {} return one;",
@@ -262,13 +262,13 @@ void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
   }
   /// A function that describes the members of an object by its class.
   std::string members_of(const std::string& root, const char* type) const {
-    std::string text = fmt::format("  static std::string members_of(const {}& o) {{\n", type);
+    std::string text = fmt::format("  static void describe(const {}& o, description& to) {{\n", type);
     for (const OutlinedClass& one : outline_.classes)
       if (one.name != root && one.can_be_named && outline_.is_derived(one.name, root))
         text += fmt::format(
-            "    if (typeid(o) == typeid({0})) return description<names>::of(dynamic_cast<const {0}&>(o));\n",
+            "    if (typeid(o) == typeid({0})) return teller<names>::tell(dynamic_cast<const {0}&>(o), to);\n",
             one.qualified);
-    return text + "    return {};\n  }\n";
+    return text + "  }\n";
   }
   /// What tells the members of the reader's classes.
   std::string members() const {
@@ -281,7 +281,7 @@ void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
         if (const OutlinedClass* known = outline_.class_named(base); known && known->can_be_named)
           text += fmt::format("members<{}>::each(o, f); ", known->qualified);
       for (const std::string& member : one.members)
-        text += fmt::format("f(\"{0}\", {1}, o.{0}); ", member, role_of(member));
+        text += fmt::format("f(\"{}\", {}, o.{}); ", key_of(member), role_of(member), member);
       text += "} };\n";
     }
     return text;
@@ -293,6 +293,7 @@ void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
     const auto value_of = [&](const Function* function, const char* object) {
       return function ? "return to_vector(" + call(*function, object, "u", "v") + ");" : "return {};";
     };
+    const std::string scatter = scatter_call();
     return "namespace tyndall_book {\n" + members() +
            fmt::format(R"(struct names {{
   using shape = {};
@@ -300,6 +301,7 @@ void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
   using record = {};
   using material = {};
   using texture = {};
+  static constexpr bool draws_by_pdf = {}, decodes_images = {};
   static bool hit(const shape& o, const ray& in, double low, double high, record& record) {{ return {}; }}
   static scatter_answer scatter(const material& m, const ray& in, record& record) {{ {} }}
   template <class P>
@@ -307,12 +309,16 @@ void take_over(session& s) { s.world = 0, serve(s, answer_samples); }
   template <class P> static vector value(const texture& t, double u, double v, const P& p) {{ {} }}
 )",
                        qualified(shape_), qualified(ray_), qualified(record_), class_or(material_, "absent_class<'m'>"),
-                       class_or(texture_, "absent_class<'t'>"), call(*hit_, "shape&>(o)", "low", "high"),
-                       scatter_call(), value_of(emitted_, "material&>(m)"), value_of(value_, "texture&>(t)")) +
+                       class_or(texture_, "absent_class<'t'>"), draws_by_pdf_, decodes_images(),
+                       call(*hit_, "shape&>(o)", "low", "high"), scatter, value_of(emitted_, "material&>(m)"),
+                       value_of(value_, "texture&>(t)")) +
            members_of(shape_, "shape") + members_of(material_, "material") + members_of(texture_, "texture") +
            R"(};
-template <class C> std::string described_camera(const C& camera) { return description<names>::of(camera); }
-void take_over(session& s) { s.is_float = ray_traits<names::ray>::is_float(), serve(s, answer<names>); }
+template <class C> void describe_camera(const C& camera, description& to) { teller<names>::tell(camera, to); }
+void take_over() {
+  const program_functions functions = replies<names>::functions();
+  serve(&functions);
+}
 }
 )";
   }

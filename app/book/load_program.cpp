@@ -1,6 +1,5 @@
 #include "app/book/load_program.h"
 
-#include "app/book/reading.h"
 #include "app/text/values.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -91,32 +90,18 @@ ChildPlan plan_of(const ProgramTask& task, const CompiledProgram& program, const
   return guarded(task, plan);
 }
 
-/// Reads what the program tells before it is asked; false: it has ended before it told all.
-bool read_messages(const ProgramTask& task, Reading& reading) {
-  ProgramScene& scene = reading.scene;
-  while (const auto message = reading.program.next_message()) {
-    if (message->kind == 'F') scene.notes.push_back(task.name + ": cannot open " + in_quotes(printable(message->text)));
-    if (message->kind == 'E') throw UsageError(task.name + ": " + printable(message->text));
-    if (message->kind != 'P' || message->text.size() != sizeof reading.picture) continue;
-    std::memcpy(&reading.picture, message->text.data(), sizeof reading.picture);
-    scene.width = static_cast<int>(reading.picture.width), scene.height = static_cast<int>(reading.picture.height);
-    scene.samples = static_cast<int>(reading.picture.samples), scene.short_frame = reading.picture.less != 0;
-    if (reading.picture.is_float != 0) reading.precision = 2e-3;
-    if (reading.picture.world == 0) scene.reason = "its classes are not those of the books";
-    return true;
+/// Reads what the program tells before it is asked; false: it has ended before it told all. found: from its first ray
+/// on.
+bool read_messages(const ProgramTask& task, ProgramScene& scene, const std::function<void()>& found) {
+  while (const auto message = scene.own->next_message()) {
+    const std::string& bytes = message->bytes;
+    if (message->letter == 'F') scene.notes.push_back(task.name + ": cannot open " + in_quotes(printable(bytes)));
+    if (message->letter == 'E') throw UsageError(task.name + ": " + printable(bytes));
+    if (message->letter == 'P' && bytes.size() == sizeof scene.picture)
+      std::memcpy(&scene.picture, bytes.data(), bytes.size()), found();
+    if (message->letter == 'S') return (bytes.starts_with('{') ? scene.json : scene.reason) = bytes, true;
   }
   return false;
-}
-
-/// The scene's text. Throws NotTaken, and IoError where the program has ended.
-std::string read_scene(Reading& reading) {
-  const std::string objects = read_world(reading), camera = read_camera(reading), sky = read_sky(reading);
-  const ProgramScene& scene = reading.scene;
-  return fmt::format(
-      "{{\"tyndall\":1,\"image\":{{\"width\":{},\"height\":{}}},\n{},\n\"background\":{},\n\"render\":{{\"spp\":{},"
-      "\"max_depth\":{}}},\n\"textures\":{{{}}},\n\"materials\":{{{}}},\n\"objects\":[{}]}}\n",
-      scene.width, scene.height, camera, sky, std::max(scene.samples, 1), read_depth(reading), reading.textures,
-      reading.materials, objects);
 }
 
 }  // namespace
@@ -140,28 +125,21 @@ ProgramScene load_program(const ProgramRequest& request) {
   ProgramScene scene;
   for (std::string failed;;) {
     scene = ProgramScene{};
-    scene.files = program.sources, scene.draws_by_pdf = program.draws_by_pdf;
+    scene.files = program.sources;
     const auto remove = [scratch](OwnProgram* own) { delete own; };  // the folder lives as long as the program
-    scene.own = {new OwnProgram(task.name, plan_of(task, program, main), request.seconds, go_on), remove};
-    Reading reading{scene, *scene.own};
-    bool told = read_messages(task, reading);
-    scene.own->let_run(20, go_on);  // for its world
+    ChildPlan plan = plan_of(task, program, main);
+    if (!failed.empty()) plan.environment.push_back("TYNDALL_BOOK_SAMPLES=1");
+    scene.own = {new OwnProgram(task.name, plan, request.seconds, go_on), remove};
+    const bool told = read_messages(task, scene, [&] { scene.own->let_run(20, go_on); });  // for its world
     if (told && !failed.empty()) scene.reason = failed;
-    try {
-      if (told && scene.reason.empty()) scene.json = read_scene(reading);
-    } catch (const NotTaken& why) {
-      scene.reason = why.reason;
-    } catch (const IoError&) {
-      told = false;
-    }
     if (told) break;
     const ChildEnd& end = scene.own->end();
     if (signals.received() != 0) throw ProgramInterrupted(task.name + ": interrupted while it ran", signals.received());
     if (!go_on()) throw ProgramInterrupted(task.name + ": given up while it ran", signal_terminate);
-    if (scene.width == 0 || !failed.empty()) fail(task, end);
+    if (scene.picture.width == 0 || !failed.empty()) fail(task, end);
     failed = end.given_up ? "its world takes more than 20 s to be read" : "it crashes while its world is looked at";
   }
-  if (scene.has_images && !program.decodes_images)
+  if (scene.picture.has_images && !scene.picture.decodes_images)
     scene.notes.push_back(task.name +
                           ": its program takes the numbers of images as they are, Tyndall takes them as sRGB");
   scene.own->let_run(1e9, nullptr);

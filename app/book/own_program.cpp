@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 
+#include <cstring>
 #include <utility>
 
 namespace tyndall {
@@ -35,30 +36,31 @@ void OwnProgram::let_run(double seconds, std::function<bool()> go_on) {
 }
 
 std::optional<OwnProgram::Message> OwnProgram::next_message(int milliseconds) {
-  tyndall_book::question head;
-  constexpr double largest = 300.0 * (1 << 20);  // more than any object's or picture's
+  tyndall_book::message_head head;
+  constexpr double largest = 300.0 * (1 << 20);  // more than any scene's or picture's
   if (!receive(channel_, &head, sizeof head, milliseconds) || !(head.size >= 0 && head.size <= largest)) return {};
   Message message{static_cast<char>(head.letter), std::string(static_cast<std::size_t>(head.size), 0)};
-  if (!receive(channel_, message.text.data(), message.text.size(), milliseconds)) return {};
+  if (!receive(channel_, message.bytes.data(), message.bytes.size(), milliseconds)) return {};
   return message;
 }
 
-void OwnProgram::fail() const {
-  throw IoError(name_ + ": the program has ended, or needs more than 20 s for a sample");
-}
-
-std::string OwnProgram::exchange(const tyndall_book::question& head, const void* questions) {
+std::vector<Vec3d> OwnProgram::samples(const std::vector<tyndall_book::pixel_place>& places) {
   const std::lock_guard lock(mutex_);
+  const std::size_t size = places.size() * sizeof places[0];
+  const tyndall_book::message_head head{0, static_cast<double>(size)};
   std::string bytes(reinterpret_cast<const char*>(&head), sizeof head);
-  bytes.append(static_cast<const char*>(questions), static_cast<std::size_t>(head.size));
+  bytes.append(reinterpret_cast<const char*>(places.data()), size);
   for (std::size_t done = 0; done < bytes.size();)
     if (send_some(channel_, bytes.data(), bytes.size(), done) == Sent::closed)
       throw IoError(name_ + ": the program has ended");
   constexpr int longest = 20000;
-  std::optional<Message> message = next_message(longest);
+  const std::optional<Message> message = next_message(longest);
   stops_ = stops_ || !message;  // it has ended, or hangs
-  if (!message) fail();
-  return std::move(message->text);
+  std::vector<Vec3d> colours(places.size());
+  if (!message || message->bytes.size() != colours.size() * sizeof(Vec3d))
+    throw IoError(name_ + ": the program has ended, or needs more than 20 s for a sample");
+  std::memcpy(colours.data(), message->bytes.data(), message->bytes.size());
+  return colours;
 }
 
 const ChildEnd& OwnProgram::end() {

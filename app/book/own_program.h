@@ -6,7 +6,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <cstring>
 #include <filesystem>
 #include <functional>
 #include <future>
@@ -19,12 +18,12 @@
 namespace tyndall_book {
 using vector = tyndall::Vec3d;
 }
-#include "app/book/tyndall/book/questions.h"
+#include "app/book/tyndall/book/functions.h"
 
 namespace tyndall {
 
-/// A reader's program that has come to its first ray, and from then on answers when it is asked. It runs under guard,
-/// until this is destroyed or it ends by itself. Its functions throw IoError where it has ended.
+/// A reader's program that has come to its first ray, and from then on computes samples when it is asked. It runs under
+/// guard, until this is destroyed or it ends by itself. Its functions throw IoError where it has ended.
 class OwnProgram {
  public:
   /// Starts it. name: what messages call it. For seconds, go_on see let_run().
@@ -36,40 +35,21 @@ class OwnProgram {
   /// It is ended in so many seconds from now on, or if go_on, which is asked now and then, says so; may be empty.
   void let_run(double seconds, std::function<bool()> go_on);
 
-  /// What tyndall/book/hooks.h tells: a letter and a text.
+  /// What it tells: see message_head in tyndall/book/functions.h.
   struct Message {
-    char kind = 0;
-    std::string text;
+    char letter = 0;
+    std::string bytes;
   };
   /// The next message; nothing: it has ended, see end(), or has said nothing for so long; 0: as long as it takes.
   std::optional<Message> next_message(int milliseconds = 0);
 
-  /// What its functions answer, see tyndall/book/questions.h. count: the questions are repeated up to that number; 0:
-  /// they are not. For any number of threads.
-  template <class A, class Q>
-  std::vector<A> ask(char letter, double object, const std::vector<Q>& questions, std::size_t count = 0) {
-    std::vector<A> answers(count > 0 ? count : questions.size());
-    const std::string bytes = exchange(
-        {double(letter), object, static_cast<double>(count), static_cast<double>(questions.size() * sizeof(Q))},
-        questions.data());
-    if (bytes.size() != answers.size() * sizeof(A)) fail();
-    std::memcpy(answers.data(), bytes.data(), bytes.size());
-    return answers;
-  }
-  /// The members of an object, as text.
-  std::string describe(char kind, double object) { return exchange({double(kind), object}, ""); }
-  /// Linear colours of places in the picture.
-  std::vector<Vec3d> samples(const std::vector<tyndall_book::pixel_place>& places) {
-    return ask<Vec3d>('p', 0, places);
-  }
+  /// Linear colours of places in the picture. For any number of threads.
+  std::vector<Vec3d> samples(const std::vector<tyndall_book::pixel_place>& places);
 
   /// How it ended, after something has found that it did.
   const ChildEnd& end();
 
  private:
-  [[noreturn]] void fail() const;
-  std::string exchange(const tyndall_book::question& head, const void* questions);
-
   OpenFile channel_;
   std::string name_;
   std::atomic<bool> stops_ = false;
@@ -84,16 +64,10 @@ class OwnProgram {
 struct ProgramScene {
   std::string json;                          ///< a scene file's text, with size, samples and depth; "": there is none
   std::string reason;                        ///< why there is none, in one sentence
-  int width = 0, height = 0, samples = 0;    ///< of its picture
+  tyndall_book::picture_told picture;        ///< its size, and what it does otherwise than Tyndall
   std::vector<std::string> notes;            ///< what the user should know, a line each
   std::vector<std::filesystem::path> files;  ///< of the reader's, that were read
   std::shared_ptr<OwnProgram> own;           ///< computes what it would
-  bool fuzz_on_sphere = false;               ///< its metals are those of the fourth edition
-  bool matt_in_sphere = false;               ///< its matt surfaces are those of the first edition
-  bool short_frame = false;                  ///< it divides by width - 1 and height - 1
-  bool draws_by_pdf = false;                 ///< it draws directions as the third book does, from mixtures
-  bool has_noise = false;                    ///< it has textures of noise, whose lattice is its own
-  bool has_images = false;                   ///< it has textures of images, which it reads by a curve of its own
 };
 
 }  // namespace tyndall

@@ -54,9 +54,7 @@ ProgramOutline outline_of(const std::string& text, const std::vector<std::filesy
 /// his classes. Nothing else of it changes.
 struct InsertedCalls {
   std::string text;
-  std::string problem;          ///< why there is nothing to be asked; "": there is
-  bool draws_by_pdf = false;    ///< scatter() answers by densities, as the third book's does
-  bool decodes_images = false;  ///< it lets its library decode images
+  std::string problem;  ///< why there is nothing to be asked; "": there is
 };
 
 /// text: preprocessed, its outline; see there. reads_world: whether the reader's world is looked at, which needs to

@@ -229,19 +229,19 @@ Check check_picture(const CheckRequest& request) {
 }
 
 std::string differs_from_own(const Scene& scene, const ProgramScene& program) {
-  if (program.has_noise || program.has_images) return "";
+  if (program.picture.has_noise || program.picture.has_images) return "";
   const Lattice lattice{scene.width, scene.height, std::max(1, scene.width / max_columns)};
   const Regions regions = blocks_of(lattice, block_edge);
   // Samples that are drawn in another way have other bright ones, and the same mean. Rare bright ones decide more
   // blocks there.
-  const float brightest = program.draws_by_pdf ? 1e9f : brightest_sample;
-  const double allowed = program.draws_by_pdf ? 5 * blocks_allowed : blocks_allowed;
+  const float brightest = program.picture.draws_by_pdf ? 1e9f : brightest_sample;
+  const double allowed = program.picture.draws_by_pdf ? 5 * blocks_allowed : blocks_allowed;
   const std::vector<BookSample> samples = own_samples(program, lattice);
   const int count = static_cast<int>(samples.size() / lattice.pixels());
-  const BookRules rules{.diffuse = program.matt_in_sphere ? DiffuseRule::filled_sphere : DiffuseRule::cosine,
-                        .fuzz = program.fuzz_on_sphere ? FuzzRule::sphere : FuzzRule::filled_sphere,
+  const BookRules rules{.diffuse = program.picture.matt_in_sphere ? DiffuseRule::filled_sphere : DiffuseRule::cosine,
+                        .fuzz = program.picture.fuzz_on_sphere ? FuzzRule::sphere : FuzzRule::filled_sphere,
                         .schlick = true,
-                        .short_frame = program.short_frame};
+                        .short_frame = program.picture.less != 0};
   const std::vector<Pairs> own = sums_of(samples, regions, brightest),
                            ours = sums_of(book_samples({scene, rules}, lattice, count), regions, brightest);
   const auto apart = [&](std::size_t cell) {

@@ -49,7 +49,8 @@ LoadedScene load_program_scene(const SceneRequest& request, OwnSamples& own) {
   if (!reason.empty()) {
     loaded = LoadedScene{};
     loaded.name = request.what, loaded.folder = folder, loaded.is_picture = true;
-    loaded.scene.width = made.width, loaded.scene.height = made.height, loaded.scene.render.spp = made.samples;
+    loaded.scene.width = made.picture.width, loaded.scene.height = made.picture.height;
+    loaded.scene.render.spp = made.picture.samples;
     loaded.scene.render.seed = own.take(made.own, request.what + ": " + reason);  // another program, another picture
   }
   loaded.sources = made.files;

@@ -1,15 +1,12 @@
 #pragma once
-#include <cxxabi.h>
-
 #include <cmath>
-#include <cstdint>
-#include <cstdlib>
+#include <initializer_list>
+#include <iterator>
 #include <memory>
-#include <string>
+#include <optional>
 #include <type_traits>
 #include <typeinfo>
 #include <utility>
-#include <vector>
 
 namespace tyndall_book {
 struct vector {
@@ -21,7 +18,7 @@ inline vector operator*(double s, vector a) { return {s * a.x, s * a.y, s * a.z}
 inline double dot(vector a, vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline double length(vector a) { return std::sqrt(dot(a, a)); }
 }  // namespace tyndall_book
-#include "questions.h"
+#include "functions.h"
 
 /// Reading of objects whose classes are the reader's: this file is compiled before his code, as C++17.
 namespace tyndall_book {
@@ -96,14 +93,8 @@ T make_vector(vector a) {
   else
     return T{decltype(T().x)(a.x), decltype(T().x)(a.y), decltype(T().x)(a.z)};
 }
-/// An address as a number, which is exact.
-inline double number_of(const void* address) { return double(reinterpret_cast<std::uintptr_t>(address)); }
-inline const void* address_of(double number) {
-  return reinterpret_cast<const void*>(static_cast<std::uintptr_t>(number));
-}
-
-/// The members of the reader's class T: each(o, f) calls f(name, role, member) for all of them, those of its bases
-/// first. Made behind his code for his classes; others have none. Roles are told by names. Of what is hit: n, the
+/// The members of the reader's class T: each(o, f) calls f(key of its name, role, member) for all of them, those of its
+/// bases first. Made behind his code for his classes; others have none. Roles are told by names. Of what is hit: n, the
 /// normal; f, whether it is in front; u, v. Of cameras: w, h, s, the picture's width, height and samples. 0: none of
 /// these.
 template <class T>
@@ -142,24 +133,27 @@ struct ray_traits {
   using part = std::decay_t<decltype(direction_of(std::declval<const R&>()))>;
   static_assert(is_vector<part>, "a ray has a direction");
 
-  static vector origin(const R& ray) { return to_vector(origin_of(ray)); }
-  static vector direction(const R& ray) { return to_vector(direction_of(ray)); }
-  static double time(const R& ray) {
-    decltype(auto) time = pick(ray, TYNDALL_GET(double(o.time())), TYNDALL_GET(double(o.tm)),
+  static ray_parts parts(const void* ray) {
+    const R& its = *static_cast<const R*>(ray);
+    decltype(auto) time = pick(its, TYNDALL_GET(double(o.time())), TYNDALL_GET(double(o.tm)),
                                TYNDALL_GET(double(o._time)), TYNDALL_GET(double(o.time)));
-    if constexpr (is_absent<decltype(time)>)
-      return 0;
-    else
-      return time;
+    ray_parts made{to_vector(origin_of(its)), to_vector(direction_of(its))};
+    if constexpr (!is_absent<decltype(time)>) made.time = time;
+    return made;
   }
-  static R make(vector from, vector to, double time) {
-    part a = make_vector<part>(from), b = make_vector<part>(to);
+  static R make(const ray_parts& parts) {
+    part a = make_vector<part>(parts.from), b = make_vector<part>(parts.to);
     if constexpr (std::is_constructible<R, part&, part&, double>::value)
-      return R(a, b, time);
+      return R(a, b, parts.time);
     else if constexpr (std::is_constructible<R, part&, part&>::value)
       return R(a, b);
     else
       return R{a, b};
+  }
+  /// The same, which lives until the next call.
+  static const void* kept(const ray_parts& parts) {
+    static std::optional<R> made;
+    return &made.emplace(make(parts));
   }
   static bool is_float() { return to_vector(make_vector<part>({1.0 / 3, 0, 0})).x != 1.0 / 3; }
 };

@@ -1,4 +1,4 @@
-#include "app/book/reading.h"
+#include "app/book/inside/reading.h"
 #include "core/base/math.h"
 
 #include <fmt/core.h>
@@ -23,7 +23,8 @@ double degrees(double opposite, double adjacent) { return 360 / pi * std::atan(o
 
 class CameraReader {
  public:
-  explicit CameraReader(Reading& reading) : r_(reading), picture_(reading.picture), o_(reading.described('k', 1)) {}
+  explicit CameraReader(Reading& reading)
+      : r_(reading), picture_(reading.picture), o_(reading.described('k', nullptr)) {}
 
   std::string text() {
     fit();
@@ -39,21 +40,18 @@ class CameraReader {
   }
 
  private:
-  std::vector<book::ray_answer> rays(const std::vector<book::pixel_place>& places, std::size_t count = 0) {
-    return r_.program.ask<book::ray_answer>('r', 0, places, count);
-  }
   /// By the means of many rays at the corners: jitter and lens move single ones.
   void fit() {
-    const double inset = picture_.less != 0 ? 0 : 0.5, right = picture_.width - 1 + inset,
+    const double inset = picture_.less ? 0 : 0.5, right = picture_.width - 1 + inset,
                  above = inset + picture_.first_row, below = above + picture_.height - 1;
     constexpr std::size_t rounds = 2000;
-    std::vector<book::ray_answer> all;
-    for (const book::pixel_place& corner :
-         {book::pixel_place{inset, above}, {right, above}, {inset, below}, {right, below}})
-      for (const book::ray_answer& ray : rays({corner}, rounds)) all.push_back(ray);
+    std::vector<book::ray_parts> all;
+    for (const double row : {above, below})
+      for (const double column : {inset, right})
+        for (std::size_t k = 0; k < rounds; ++k) all.push_back(book::ray_at(column, row));
     Vec3d forward, from, ends[4];
-    for (const book::ray_answer& ray : all) forward = forward + normalize(ray.to);
-    const bool is_unit = std::all_of(all.begin(), all.end(), [](const book::ray_answer& ray) {
+    for (const book::ray_parts& ray : all) forward = forward + normalize(ray.to);
+    const bool is_unit = std::all_of(all.begin(), all.end(), [](const book::ray_parts& ray) {
       return std::fabs(length(ray.to) - 1) < 1e-3;  // then directions do not end in the plane of focus
     });
     for (std::size_t k = 0; k < all.size(); ++k) {
@@ -92,7 +90,7 @@ class CameraReader {
     const auto take = [&](double& to_set, double allowed, const auto& value) {
       const double measured = to_set;
       double nearest = allowed * measured;
-      for (const double number : o_.all('n'))
+      for (const double number : o_.numbers())
         if (const double one = value(number); std::fabs(one - measured) < nearest)
           nearest = std::fabs(one - measured), to_set = one;
       return to_set != measured;
@@ -113,20 +111,18 @@ class CameraReader {
                  size = height / picture_.height;
     const double lens = camera_.focus_distance * std::tan(camera_.defocus_angle * pi / 360);
     const double rounding = 0.01 * r_.precision * largest(camera_.look_from) / size;
-    const double wide = (picture_.by_pixels != 0 ? 1.01 : picture_.less != 0 ? 1.52 : 0.02) + rounding;
-    std::vector<book::pixel_place> places;
+    const double wide = (picture_.by_pixels ? 1.01 : picture_.less ? 1.52 : 0.02) + rounding;
     RandomNumbers random;
-    for (int k = 0; k < 500; ++k)
-      places.push_back({random.between(0, picture_.width), random.between(0, picture_.height)});
-    const std::vector<book::ray_answer> all = rays(places);
     double widest = 0;
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      const Vec3d from = all[k].from - camera_.look_from, to = all[k].to;
+    for (int k = 0; k < 500; ++k) {
+      const double x = random.between(0, picture_.width), y = random.between(0, picture_.height);
+      const book::ray_parts ray = book::ray_at(x, y);
+      const Vec3d from = ray.from - camera_.look_from, to = ray.to;
       const double forward = -dot(to, w);
       if (!(forward > 0)) return false;
       const Vec3d point = from + ((camera_.focus_distance + dot(from, w)) / forward) * to;
-      const auto place = [&](double at) { return picture_.by_pixels != 0 ? std::floor(at) + 0.5 : at; };
-      const double column = place(places[k].x) - 0.5 * picture_.width, row = 0.5 * picture_.height - place(places[k].y);
+      const auto place = [&](double at) { return picture_.by_pixels ? std::floor(at) + 0.5 : at; };
+      const double column = place(x) - 0.5 * picture_.width, row = 0.5 * picture_.height - place(y);
       if (!(std::fabs(dot(point, u) / size - column) <= wide && std::fabs(dot(point, v) / size - row) <= wide))
         return false;
       widest = std::fmax(widest, length(from));
@@ -137,10 +133,12 @@ class CameraReader {
   /// By the times of 2,000 rays, and two numbers of the members between which they lie.
   std::string shutter() {
     double low = endless, high = -endless;
-    for (const book::ray_answer& ray : rays({{0.5, 0.5}}, 2000))
-      low = std::fmin(low, ray.time), high = std::fmax(high, ray.time);
+    for (int k = 0; k < 2000; ++k) {
+      const double time = book::ray_at(0.5, 0.5).time;
+      low = std::fmin(low, time), high = std::fmax(high, time);
+    }
     if (high - low < 1e-9) return fmt::format("[{},{}]", low, low);
-    const std::vector<double> numbers = o_.all('n');
+    const std::vector<double> numbers = o_.numbers();
     for (std::size_t k = 0; k + 1 < numbers.size(); ++k) {
       const double open = numbers[k], close = numbers[k + 1], span = close - open;
       if (low >= open && high <= close && high - low > 0.98 * span) return fmt::format("[{},{}]", open, close);
@@ -166,66 +164,59 @@ void expect(Vec3d wanted, Vec3d found, double precision, const char* of) {
 std::string read_camera(Reading& reading) { return CameraReader(reading).text(); }
 
 std::string read_sky(Reading& reading) {
-  const auto colours = [&](const std::vector<book::ray_answer>& rays) {
-    return reading.program.ask<Vec3d>('y', 0, rays);
+  const auto colour = [&](const book::ray_parts& ray) {
+    return reading.program.light({nullptr, 0, nullptr, 0, ray.from, ray.to}).colour;
   };
-  const std::vector<Vec3d> ends = colours({{{}, {0, -1, 0}}, {{}, {0, 1, 0}}});
-  const Vec3d bottom = ends[0], top = ends[1];
-  const auto check = [&](const std::vector<book::ray_answer>& rays) {
-    const std::vector<Vec3d> found = colours(rays);
-    for (std::size_t k = 0; k < rays.size(); ++k) {
-      const double a = 0.5 * (normalize(rays[k].to).y + 1);
-      if (!(largest(found[k] - ((1 - a) * bottom + a * top)) <= reading.precision * std::fmax(1, largest(top))))
-        throw NotTaken{"the sky of ray_color() is neither one colour nor a gradient from top to bottom"};
-      if (!(found[k].x >= 0 && found[k].y >= 0 && found[k].z >= 0))
-        throw NotTaken{"the sky of ray_color() is darker than black"};
-    }
+  const Vec3d bottom = colour({{}, {0, -1, 0}}), top = colour({{}, {0, 1, 0}});
+  const auto check = [&](const book::ray_parts& ray) {
+    const double a = 0.5 * (normalize(ray.to).y + 1);
+    const Vec3d found = colour(ray);
+    if (!(largest(found - ((1 - a) * bottom + a * top)) <= reading.precision * std::fmax(1, largest(top))))
+      throw NotTaken{"the sky of ray_color() is neither one colour nor a gradient from top to bottom"};
+    if (!(found.x >= 0 && found.y >= 0 && found.z >= 0)) throw NotTaken{"the sky of ray_color() is darker than black"};
   };
   RandomNumbers random;
-  std::vector<book::pixel_place> places;
-  for (int k = 0; k < 20000; ++k)  // what the camera sees
-    places.push_back({random.between(0, reading.picture.width), random.between(0, reading.picture.height)});
-  std::vector<book::ray_answer> rays = reading.program.ask<book::ray_answer>('r', 0, places);
-  check(rays);
-  const Vec3d eye = rays[0].from;
+  Vec3d eye;
+  for (int k = 0; k < 20000; ++k) {  // what the camera sees
+    const double x = random.between(0, reading.picture.width), y = random.between(0, reading.picture.height);
+    const book::ray_parts ray = book::ray_at(x, y);
+    check(ray), eye = ray.from;
+  }
   constexpr int rows = 1024, columns = 2048;
-  for (int row = 0; row < rows; ++row) {
-    rays.clear();
+  for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) {
       const double y = 1 - 2 * (row + 0.5) / rows, angle = 2 * pi * (column + 0.5) / columns, r = std::sqrt(1 - y * y);
-      rays.push_back({column % 2 ? eye : Vec3d{30.0 * row, -40, 7.0 * column},
-                      (1.0 + column % 3) * Vec3d{r * std::cos(angle), y, r * std::sin(angle)}});
+      check({column % 2 ? eye : Vec3d{30.0 * row, -40, 7.0 * column},
+             (1.0 + column % 3) * Vec3d{r * std::cos(angle), y, r * std::sin(angle)}});
     }
-    check(rays);
-  }
   return is_near(top, bottom, 1e-9)
              ? triple(top)
              : "{\"type\":\"gradient\",\"bottom\":" + triple(bottom) + ",\"top\":" + triple(top) + "}";
 }
 
 int read_depth(Reading& reading) {
-  const int told = std::max(static_cast<int>(reading.picture.depth) - 1, 0);
-  const double matt = reading.matt, shining = reading.shining, matts = matt != 0 ? 1 : 0, lights = shining != 0 ? 1 : 0;
-  const auto its = reading.program.ask<book::light_answer>(
-      'c', 0, std::vector<book::light_question>{{}, {shining, lights}, {matt, matts}, {matt, matts, shining, lights}});
-  if (its[0].high == 0 || (matt == 0 && shining == 0)) return told;  // its world cannot be replaced, or has neither
-  if (its[0].low <= 0)
+  const int told = std::max(reading.picture.depth - 1, 0);
+  const void *matt = reading.matt, *shining = reading.shining;
+  const book::light_answer sky = reading.program.light({});
+  if (sky.high == 0 || !(matt || shining)) return told;  // its world cannot be replaced, or has neither
+  if (sky.low <= 0)
     throw NotTaken{"ray_color() takes hits at t = 0, so that half of the light meets the surface that it leaves"};
-  if (!(its[0].low <= 0.05 && its[0].high >= 1e4))
-    throw NotTaken{fmt::format("ray_color() looks for hits at t from {} to {} only", its[0].low, its[0].high)};
-  if (shining != 0) expect(reading.light, its[1].colour, reading.precision, "a light");
-  if (matt == 0) return told;
-  if (!reading.scene.draws_by_pdf) {
-    const Vec3d sky = reading.program.ask<Vec3d>('y', 0, std::vector{book::ray_answer{{}, its[2].second}})[0];
-    expect(reading.albedo * sky, its[2].colour, reading.precision, "one hit");
-    if (shining != 0) expect(reading.albedo * reading.light, its[3].colour, reading.precision, "a hit and a light");
+  if (!(sky.low <= 0.05 && sky.high >= 1e4))
+    throw NotTaken{fmt::format("ray_color() looks for hits at t from {} to {} only", sky.low, sky.high)};
+  if (shining) expect(reading.light, reading.program.light({shining, 1}).colour, reading.precision, "a light");
+  if (!matt) return told;
+  if (!reading.picture.draws_by_pdf) {
+    const book::light_answer hit = reading.program.light({matt, 1});
+    const Vec3d behind = reading.program.light({nullptr, 0, nullptr, 0, {}, hit.second}).colour;
+    expect(reading.albedo * behind, hit.colour, reading.precision, "one hit");
+    if (shining)
+      expect(reading.albedo * reading.light, reading.program.light({matt, 1, shining, 1}).colour, reading.precision,
+             "a hit and a light");
   }
-  constexpr double limit = 3000;
-  double hits = 0;
-  for (const book::light_answer& one :
-       reading.program.ask<book::light_answer>('c', 0, std::vector<book::light_question>{{matt, limit}}, 10))
-    hits = std::fmax(hits, one.hits);
-  return hits >= limit ? 100000 : static_cast<int>(hits) - 1;
+  constexpr int limit = 3000;
+  int hits = 0;
+  for (int k = 0; k < 10; ++k) hits = std::max(hits, reading.program.light({matt, limit}).hits);
+  return hits >= limit ? 100000 : hits - 1;
 }
 
 }  // namespace tyndall

@@ -1,4 +1,4 @@
-#include "app/book/reading.h"
+#include "app/book/inside/reading.h"
 #include "core/base/math.h"
 #include "core/base/text.h"
 #include "core/materials/dielectric.h"
@@ -10,7 +10,7 @@
 namespace tyndall {
 namespace {
 
-constexpr book::surface_point slanted{}, behind{slanted.p, slanted.u, slanted.v, {0.8, 0.6, 0}, 0};
+constexpr book::surface_point slanted{}, behind{slanted.p, slanted.u, slanted.v, {0.8, 0.6, 0}, false};
 
 Vec3d mirror(Vec3d to) { return {to.x, -to.y, to.z}; }
 Vec3d mean_of(const std::vector<Vec3d>& all) {
@@ -30,38 +30,48 @@ std::vector<book::surface_point> some_points(int count, double far) {
   return points;
 }
 
+template <class F>
+std::vector<Vec3d> values_at(const std::vector<book::surface_point>& points, const F& of) {
+  std::vector<Vec3d> values;
+  for (const book::surface_point& at : points) values.push_back(of(at));
+  return values;
+}
+
 class MaterialReader {
  public:
-  MaterialReader(Reading& reading, double material) : r_(reading), m_(material), o_(reading.described('m', material)) {}
+  MaterialReader(Reading& reading, const void* material)
+      : r_(reading), m_(material), o_(reading.described('m', material)) {}
 
-  std::vector<Vec3d> emitted(const std::vector<book::surface_point>& points) {
-    return r_.program.ask<Vec3d>('e', m_, points);
-  }
   std::string text() {
-    const std::vector<Vec3d> light = emitted({slanted, behind});
-    const bool shines = largest(light[0]) > 0 || largest(light[1]) > 0;
-    if (shines && scatter({slanted})[0].does != 0) o_.refuse("it shines and scatters: Tyndall's lights do one of both");
+    const Vec3d light = emitted(slanted), back = emitted(behind);
+    const bool shines = largest(light) > 0 || largest(back) > 0;
+    if (shines && scatter(slanted).does) o_.refuse("it shines and scatters: Tyndall's lights do one of both");
     if (shines) {
-      const std::string colour = colour_of([&](const auto& points) { return emitted(points); });
-      if (colour[0] == '[') r_.shining = m_, r_.light = light[0];
-      if (!(largest(light[1]) > 0)) r_.one_sided.insert(m_);
+      const std::string colour = colour_of([&](const book::surface_point& at) { return emitted(at); });
+      if (colour[0] == '[') r_.shining = m_, r_.light = light;
+      if (!(largest(back) > 0)) r_.one_sided.insert(m_);
       return "{\"type\":\"light\",\"radiance\":" + colour + "}";
     }
-    const std::string made = scattering(scatter({slanted}, 2000));
-    return made.empty() ? scattering(scatter({slanted}, many)) : made;
+    const std::string made = scattering(scatter(slanted, 2000));
+    return made.empty() ? scattering(scatter(slanted, many)) : made;
   }
   std::string medium_albedo() {
     std::vector<Vec3d> to;
-    for (const book::scatter_answer& one : scatter({slanted}, 2000)) to.push_back(normalize(one.to));
+    for (const book::scatter_answer& one : scatter(slanted, 2000)) to.push_back(normalize(one.to));
     if (!(length(mean_of(to)) < 0.06)) o_.refuse("its fog does not scatter to all sides alike");
     return albedo();
   }
 
  private:
-  std::vector<book::scatter_answer> scatter(const std::vector<book::surface_point>& points, std::size_t count = 0) {
-    std::vector<book::scatter_answer> all = r_.program.ask<book::scatter_answer>('x', m_, points, count);
-    for (book::scatter_answer& one : all)
-      if (one.does != 0 && !(length(one.to) > 0)) one.to = {0, 1, 0};
+  Vec3d emitted(const book::surface_point& at) { return r_.program.emitted(m_, at); }
+  book::scatter_answer scatter(const book::surface_point& at) {
+    book::scatter_answer one = r_.program.scatter(m_, at);
+    if (one.does && !(length(one.to) > 0)) one.to = {0, 1, 0};
+    return one;
+  }
+  std::vector<book::scatter_answer> scatter(const book::surface_point& at, std::size_t count) {
+    std::vector<book::scatter_answer> all(count);
+    for (book::scatter_answer& one : all) one = scatter(at);
     return all;
   }
 
@@ -69,11 +79,11 @@ class MaterialReader {
   std::string scattering(const std::vector<book::scatter_answer>& all) {
     std::vector<Vec3d> to;
     for (const book::scatter_answer& one : all)
-      if (one.does != 0) to.push_back(normalize(one.to));
+      if (one.does) to.push_back(normalize(one.to));
     book::surface_point steep = slanted;
     steep.to = {0.28, -0.96, 0};
     std::vector<Vec3d> through;
-    for (const book::scatter_answer& one : scatter({steep}, 200))
+    for (const book::scatter_answer& one : scatter(steep, 200))
       if (one.to.y < 0) through.push_back(normalize(one.to));
     if (through.size() > 100 && to.size() == all.size()) return glass(steep.to, through[0]);
     if (to.empty()) return "{\"type\":\"lambertian\",\"albedo\":[0,0,0]}";
@@ -85,15 +95,15 @@ class MaterialReader {
     for (const double cosine : {2.0 / 3, 0.8}) {
       if (to.size() != all.size() || !above || std::fabs(mean.y - cosine) > 0.02 || std::hypot(mean.x, mean.z) > 0.06)
         continue;
-      r_.scene.matt_in_sphere = r_.scene.matt_in_sphere || cosine == 0.8;
+      r_.picture.matt_in_sphere = r_.picture.matt_in_sphere || cosine == 0.8;
       const std::string part = albedo();
       if (part[0] == '[' && largest(all[0].part) > 0) r_.matt = m_, r_.albedo = all[0].part;
       return "{\"type\":\"lambertian\",\"albedo\":" + part + "}";
     }
-    for (const double fuzz : o_.all('n'))
+    for (const double fuzz : o_.numbers())
       for (const bool on_sphere : {false, true}) {
         if (fuzz < 0 || !is_fuzzy(to, all.size(), fuzz, on_sphere)) continue;
-        r_.scene.fuzz_on_sphere = r_.scene.fuzz_on_sphere || on_sphere;
+        r_.picture.fuzz_on_sphere = r_.picture.fuzz_on_sphere || on_sphere;
         return metal(fuzz);
       }
     if (all.size() < many) return "";
@@ -120,26 +130,24 @@ class MaterialReader {
   template <class F>
   std::string colour_of(const F& of) {
     const std::vector<book::surface_point> points = some_points(40, 30);
-    const std::vector<Vec3d> values = of(points);
+    const std::vector<Vec3d> values = values_at(points, of);
     if (are_near(values, std::vector(values.size(), values[0]), 1e-6)) return triple(values[0]);
-    for (const double texture : o_.all('t'))
-      if (texture != 0 && are_near(values, r_.program.ask<Vec3d>('v', texture, points), 1e-6))
+    for (const void* texture : o_.objects('t'))
+      if (are_near(values, values_at(points, [&](const auto& at) { return r_.program.value(texture, at); }), 1e-6))
         return texture_name(r_, texture);
     o_.refuse("its colour is neither one colour nor one of its textures");
   }
   std::string albedo() {
-    return colour_of([&](const auto& points) {
-      std::vector<Vec3d> parts(points.size());
-      const std::vector<book::scatter_answer> all = scatter(points, 12 * points.size());  // some rays are lost
-      for (std::size_t k = 0; k < all.size(); ++k)
-        if (all[k].does != 0) parts[k % points.size()] = all[k].part;
-      return parts;
+    return colour_of([&](const book::surface_point& at) {
+      for (int k = 0; k < 12; ++k)  // some rays are lost
+        if (const book::scatter_answer one = scatter(at); one.does) return one.part;
+      return Vec3d{};
     });
   }
   std::string metal(double fuzz) {
     book::surface_point above = slanted;
     above.to = {0, -2, 0};
-    if (!is_near(normalize(scatter({above})[0].to), Vec3d{0, 1, 0}, fuzz > 0 ? 2 : 1e-3))
+    if (!is_near(normalize(scatter(above).to), Vec3d{0, 1, 0}, fuzz > 0 ? 2 : 1e-3))
       o_.refuse("it is no mirror from everywhere");
     const std::string part = albedo();
     if (part[0] != '[') o_.refuse("its colour is a texture: Tyndall's metals have one colour");
@@ -148,22 +156,20 @@ class MaterialReader {
   /// to, through: a direction from above, and where it goes in the glass.
   std::string glass(Vec3d to, Vec3d through) {
     double index = to.x / std::sqrt(through.x * through.x + through.z * through.z);
-    for (const double member : o_.all('n'))
+    for (const double member : o_.numbers())
       if (is_near(member, index, 1e-4)) index = member;
-    for (const double front : {1, 0})
+    for (const bool front : {true, false})
       for (const double cosine : {0.95, 0.6, 0.3, 0.15}) check_glass(index, front, cosine);
     return fmt::format("{{\"type\":\"dielectric\",\"refractive_index\":{}}}", index);
   }
-  void check_glass(double index, double front, double cosine) {
-    const double sine = std::sqrt(1 - cosine * cosine), side = front != 0 ? -1 : 1,
-                 eta = front != 0 ? index : 1 / index;
+  void check_glass(double index, bool front, double cosine) {
+    const double sine = std::sqrt(1 - cosine * cosine), side = front ? -1 : 1, eta = front ? index : 1 / index;
     constexpr std::size_t rounds = 1500;
     int reflected = 0;
     for (const book::scatter_answer& one :
-         scatter({{slanted.p, slanted.u, slanted.v, {sine, side * cosine, 0}, front}}, rounds)) {
+         scatter({slanted.p, slanted.u, slanted.v, {sine, side * cosine, 0}, front}, rounds)) {
       const Vec3d to = normalize(one.to);
-      if (one.does == 0 || !is_near(one.part, {1, 1, 1}, 1e-3))
-        o_.refuse("its glass takes light away: Tyndall's is clear");
+      if (!one.does || !is_near(one.part, {1, 1, 1}, 1e-3)) o_.refuse("its glass takes light away: Tyndall's is clear");
       const bool back = to.y * side < 0;
       reflected += back ? 1 : 0;
       if (!(std::fabs(to.x - (back ? 1 : 1 / eta) * sine) <= 0.01))
@@ -178,13 +184,14 @@ class MaterialReader {
 
   static constexpr std::size_t many = 40000;  ///< rays
   Reading& r_;
-  double m_;
+  const void* m_;
   const Described& o_;
 };
 
 class TextureReader {
  public:
-  TextureReader(Reading& reading, double texture) : r_(reading), t_(texture), o_(reading.described('t', texture)) {}
+  TextureReader(Reading& reading, const void* texture)
+      : r_(reading), t_(texture), o_(reading.described('t', texture)) {}
 
   std::string text() {
     std::vector<book::surface_point> points = some_points(60, 40);
@@ -194,14 +201,13 @@ class TextureReader {
     const bool is_flat = are_near(values, value(points), 1e-9);
     if (is_flat && o_.file.empty()) o_.refuse("no such texture in Tyndall");
     if (is_flat) {
-      r_.scene.has_images = true;
+      r_.picture.has_images = true;
       return "{\"type\":\"image\",\"file\":" + in_quotes(o_.file) + "}";
     }
-    for (const double texture : o_.all('t'))
-      if (texture != 0 && texture_name(r_, texture)[0] != '[')
-        o_.refuse("Tyndall's checker takes two colours, not textures");
+    for (const void* texture : o_.objects('t'))
+      if (texture_name(r_, texture)[0] != '[') o_.refuse("Tyndall's checker takes two colours, not textures");
     std::vector<double> scales{pi / 10};  // of the sines of editions 1 to 3
-    for (const double number : o_.all('n'))
+    for (const double number : o_.numbers())
       if (number > 0) scales.insert(scales.end(), {1 / number, number});
     for (const double scale : scales)
       if (std::string made = checker(scale); !made.empty()) return made;
@@ -210,7 +216,7 @@ class TextureReader {
 
  private:
   std::vector<Vec3d> value(const std::vector<book::surface_point>& points) {
-    return r_.program.ask<Vec3d>('v', t_, points);
+    return values_at(points, [&](const auto& at) { return r_.program.value(t_, at); });
   }
   /// "": its squares are not those of the books.
   std::string checker(double scale) {
@@ -248,26 +254,26 @@ class TextureReader {
     const bool is_marble = spread > 0.27 && spread<0.39, is_plain = spread> 0.06 && spread < 0.2;
     if (!is_grey || !(std::fabs(mean - 0.5) <= 0.06) || !(is_marble || is_plain))
       o_.refuse("no such texture in Tyndall");
-    r_.scene.has_noise = true;
+    r_.picture.has_noise = true;
     return fmt::format("{{\"type\":\"noise\",\"style\":\"{}\",\"scale\":{}}}", is_marble ? "marble" : "perlin", scale);
   }
 
   Reading& r_;
-  double t_;
+  const void* t_;
   const Described& o_;
   RandomNumbers random_;
 };
 
 }  // namespace
 
-std::string material_name(Reading& reading, double material) {
+std::string material_name(Reading& reading, const void* material) {
   return reading.name_of(material, reading.described('m', material).class_name, reading.materials,
                          [&] { return MaterialReader(reading, material).text(); });
 }
-std::string medium_colour(Reading& reading, double material) {
+std::string medium_colour(Reading& reading, const void* material) {
   return MaterialReader(reading, material).medium_albedo();
 }
-std::string texture_name(Reading& reading, double texture) {
+std::string texture_name(Reading& reading, const void* texture) {
   return reading.name_of(texture, reading.described('t', texture).class_name, reading.textures,
                          [&] { return TextureReader(reading, texture).text(); });
 }

@@ -1,4 +1,4 @@
-#include "app/book/shape_candidates.h"
+#include "app/book/inside/shape_candidates.h"
 
 #include <fmt/core.h>
 
@@ -21,18 +21,18 @@ std::string Candidate::text() const {
 
 book::shot Candidate::shot_at(double a, double b) const {
   const Vec3d away = (length(u) + length(v)) * normalize(normal());
-  return {place(a, b) + away, -1.0 * away};
+  return {{place(a, b) + away, -1.0 * away}};
 }
 book::shot Candidate::aim(RandomNumbers& random, double time) const {
   if (is_sphere()) {
     const Vec3d from = place(time, 0) + (size() * random.between(0, 3)) * random.on_sphere();
-    return {from, place(time, 0) + (size() * random.between(0, 1.4)) * random.on_sphere() - from, time};
+    return {{from, place(time, 0) + (size() * random.between(0, 1.4)) * random.on_sphere() - from, time}};
   }
   const double low = is_disk() ? -1.6 * radius : -0.6, high = 1.6 * radius;
   const Vec3d target = place(random.between(low, high), random.between(low, high));
   const double distance = random.between(0.5, 3) * (length(u) + length(v));
   const Vec3d from = target + distance * random.on_sphere();
-  return {from, target - from};
+  return {{from, target - from}};
 }
 
 std::optional<std::vector<Crossing>> Candidate::crossings(const book::shot& shot, double precision) const {
@@ -70,7 +70,7 @@ std::vector<Candidate> spheres_of(const Described& o) {
       for (const Vec3d& motion : {points[b] - points[a], points[b]})
         add(points[a] + (-start * rate) * motion, rate * motion);
   for (const Vec3d& one : points) add(one, {});
-  for (const double radius : o.all('n'))
+  for (const double radius : o.numbers())
     for (Candidate& one : middles) one.radius = radius, all.push_back(one);
   return all;
 }

@@ -1,5 +1,5 @@
 #pragma once
-#include "app/book/reading.h"
+#include "app/book/inside/reading.h"
 
 #include <optional>
 #include <string>

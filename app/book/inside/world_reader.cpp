@@ -1,4 +1,4 @@
-#include "app/book/shape_candidates.h"
+#include "app/book/inside/shape_candidates.h"
 #include "core/base/math.h"
 #include "core/base/text.h"
 
@@ -30,7 +30,7 @@ struct Move {
   Vec3d by{};
   double sine = 0, cosine = 1;
   Vec3d out(Vec3d a) const { return {cosine * a.x + sine * a.z, a.y, cosine * a.z - sine * a.x}; }
-  book::shot out(const book::shot& a) const { return {out(a.from) + by, out(a.to), a.time}; }
+  book::shot out(const book::shot& a) const { return {{out(a.from) + by, out(a.to), a.time}}; }
   std::string text() const {
     if (sine != 0 || cosine != 1) return fmt::format("{{\"rotate_y\":{}}}", std::atan2(sine, cosine) * 180 / pi);
     return length(by) > 0 ? "{\"translate\":" + triple(by) + "}" : "";
@@ -40,7 +40,7 @@ struct Move {
 std::vector<Move> moves_of(const Described& o) {
   std::vector<Move> moves;
   for (const Vec3d& by : o.vectors()) moves.push_back({by});
-  const std::vector<double> numbers = o.all('n');
+  const std::vector<double> numbers = o.numbers();
   for (std::size_t k = 0; k + 1 < numbers.size(); ++k) {
     const double a = numbers[k], b = numbers[k + 1];
     if (std::fabs(a * a + b * b - 1) > 1e-6) continue;
@@ -58,15 +58,15 @@ class WorldReader {
   explicit WorldReader(Reading& reading) : r_(reading) {}
 
   std::string text() {
-    add(r_.picture.world);
+    add(book::loop().world);
     std::vector<std::string> all;
     for (const Piece& one : pieces_) all.push_back(one.text());
     return joined(all, ",\n");
   }
 
  private:
-  void add(double shape) {
-    if (shape == 0) throw NotTaken{"a null pointer in place of an object"};
+  void add(const void* shape) {
+    if (!shape) throw NotTaken{"a null pointer in place of an object"};
     const Described& o = r_.described('s', shape);
     if (++depth_ > 200) o.refuse("holds itself");
     reason_ = "no such shape in Tyndall";
@@ -74,16 +74,14 @@ class WorldReader {
     --depth_;
   }
 
-  std::vector<book::shot_answer> shoot(double shape, std::vector<book::shot> shots, std::size_t count = 0) {
-    for (book::shot& shot : shots) shot.shape = shape;
-    return r_.program.ask<book::shot_answer>('h', 0, shots, count);
-  }
   /// Whether hit() answers 300 shots from all sides, in different intervals of t, as the candidate would; then it is
   /// taken over, and met_ is one of the hits, in front if its normal is.
-  bool take(double shape, const Described& o, const Candidate& candidate) {
+  bool take(const void* shape, const Described& o, const Candidate& candidate) {
     RandomNumbers random;
-    std::vector<book::shot> shots;
-    std::vector<Crossing> expected;
+    met_ = {};
+    const char* wrong = nullptr;
+    bool outward = true, against = true;
+    const double place = std::fmax(candidate.size(), largest(candidate.middle()));
     for (int k = 0; k < 300; ++k) {
       book::shot shot = candidate.aim(random, k % 4 == 0 ? 1 : k % 4 == 1 ? 0 : random.next());
       const auto all = candidate.crossings(shot, r_.precision);
@@ -97,33 +95,26 @@ class WorldReader {
       if (std::any_of(all->begin(), all->end(), is_at_end)) continue;
       const auto first = std::find_if(all->begin(), all->end(),
                                       [&](const Crossing& one) { return one.t > shot.low && one.t < shot.high; });
-      shots.push_back(shot), expected.push_back(first == all->end() ? Crossing{endless, {}} : *first);
-    }
-    const std::vector<book::shot_answer> answers = shoot(shape, shots);
-    met_ = {};
-    const char* wrong = nullptr;
-    bool outward = true, against = true;
-    const double place = std::fmax(candidate.size(), largest(candidate.middle()));
-    for (std::size_t k = 0; k < shots.size(); ++k) {
-      const book::shot& shot = shots[k];
-      const auto& [t, normal] = expected[k];
-      const book::shot_answer& its = answers[k];
-      const double allowed = 10 * r_.precision * std::fmax(place / length(shot.to), t);
-      if ((its.found != 0) != (t < endless) || (t < endless && !(std::fabs(its.t - t) <= allowed))) {
+      const bool is_met = first != all->end();
+      const book::hit_answer its = r_.program.hit(shape, shot);
+      const auto is_there = [&] {
+        return std::fabs(its.t - first->t) <= 10 * r_.precision * std::fmax(place / length(shot.to), first->t);
+      };
+      if (its.found != is_met || (is_met && !is_there())) {
         if (shot.low == book::shot().low && shot.high == endless) return false;
         wrong = "its hit() does not keep the interval of t";
       }
-      if (its.found == 0 || wrong) continue;
-      const double cosine = dot(its.normal, normal), facing = dot(shot.to, normal);
+      if (!its.found || wrong) continue;
+      const double cosine = dot(its.normal, first->normal), facing = dot(shot.to, first->normal);
       if (!(std::fabs(std::fabs(cosine) - 1) <= 0.02)) wrong = "its normals are not those of the books";
       outward = outward && cosine > 0;
-      against = against && cosine * facing < 0 && (its.front != 0) == (facing < 0);
-      if (met_.found != 0 && met_.material != its.material) return false;
-      if (met_.found == 0) met_ = its, met_.front = (its.front != 0) == (facing < 0);
+      against = against && cosine * facing < 0 && its.front == (facing < 0);
+      if (met_.found && met_.material != its.material) return false;
+      if (!met_.found) met_ = its, met_.front = its.front == (facing < 0);
     }
     if (wrong) return reason_ = wrong, false;
-    if (met_.found == 0 || (candidate.is_sphere() && !outward && !against)) return false;
-    if (!is_boundary_ && met_.material == 0) o.refuse("it has no material: there is no light to trace in this chapter");
+    if (!met_.found || (candidate.is_sphere() && !outward && !against)) return false;
+    if (!is_boundary_ && !met_.material) o.refuse("it has no material: there is no light to trace in this chapter");
     Piece made{candidate.text()};
     if (!is_boundary_) made.material = ",\"material\":" + material_name(r_, met_.material);
     made.centre = candidate.middle(), made.size = candidate.size(), made.is_solid = candidate.is_sphere();
@@ -131,7 +122,7 @@ class WorldReader {
     pieces_.push_back(made);
     return true;
   }
-  bool sphere(double shape, const Described& o) {
+  bool sphere(const void* shape, const Described& o) {
     const std::vector<Candidate> candidates = spheres_of(o);
     const double radius = o.named("radius", NAN);
     if (radius == 0 && o.vectors().size() + o.all('r').size() > 0) return true;
@@ -144,44 +135,37 @@ class WorldReader {
     return false;
   }
 
-  bool flat(double shape, const Described& o) {
+  bool flat(const void* shape, const Described& o) {
     for (Candidate& one : planes_of(o))
       for (const char* type : {"quad", "triangle", "disk"}) {
         one.type = type;
         if ((one.is_disk() && !measure(shape, one)) || !take(shape, o, one)) continue;
-        if (!is_boundary_ && r_.one_sided.contains(met_.material)) add_back(one, met_.front != 0);
+        if (!is_boundary_ && r_.one_sided.contains(met_.material)) add_back(one, met_.front);
         return true;
       }
     return false;
   }
-  std::vector<bool> meets(double shape, const Candidate& plane, const std::vector<double>& along_u, double along_v) {
-    std::vector<book::shot> shots;
-    for (const double place : along_u) shots.push_back(plane.shot_at(place, along_v));
-    const double allowed = 10 * r_.precision * std::fmax(1, largest(plane.at) / length(shots[0].to));
-    std::vector<bool> all;
-    for (const book::shot_answer& its : shoot(shape, shots))
-      all.push_back(its.found != 0 && std::fabs(its.t - 1) < allowed);
-    return all;
+  bool meets(const void* shape, const Candidate& plane, double along_u, double along_v) {
+    const book::shot shot = plane.shot_at(along_u, along_v);
+    const book::hit_answer its = r_.program.hit(shape, shot);
+    return its.found && std::fabs(its.t - 1) < 10 * r_.precision * std::fmax(1, largest(plane.at) / length(shot.to));
   }
   /// Measures the radii of a disk or ring; false: its plane is not met, or everywhere.
-  bool measure(double shape, Candidate& disk) {
-    std::vector<double> radii{100};
-    for (int k = 0; k < 150; ++k) radii.push_back(0.01 * k + 0.005);
-    const std::vector<bool> met = meets(shape, disk, radii, 1e-3);
-    const auto first = std::find(met.begin() + 1, met.end(), true);
-    if (first == met.end()) return false;
+  bool measure(const void* shape, Candidate& disk) {
+    double begin = 0.005;
+    while (begin < 1.5 && !meets(shape, disk, begin, 1e-3)) begin += 0.01;
+    if (begin > 1.5) return false;
     reason_ = "its hit() is not that of a quad, a triangle, a disk or a ring";
     const auto edge = [&](double low, double high) {
-      const bool beyond = meets(shape, disk, {high}, 0)[0];
+      const bool beyond = meets(shape, disk, high, 0);
       for (int k = 0; k < 40; ++k) {
         const double middle = 0.5 * (low + high);
-        (meets(shape, disk, {middle}, 0)[0] == beyond ? high : low) = middle;
+        (meets(shape, disk, middle, 0) == beyond ? high : low) = middle;
       }
       return std::round(1e6 * high) / 1e6;
     };
-    const double begin = radii[static_cast<std::size_t>(first - met.begin())];
     disk.inner = begin > 0.01 ? edge(begin - 0.01, begin) : 0, disk.radius = edge(begin, 100);
-    return !met[0];
+    return !meets(shape, disk, 100, 1e-3);
   }
   /// Black, close behind a light: Tyndall's lights shine on both sides, those of the third book on one.
   void add_back(const Candidate& light, bool is_front) {
@@ -190,18 +174,18 @@ class WorldReader {
     below.at = light.at - away, above.at = light.at + away;
     if (!is_front) std::swap(below, above);
     const std::string black =
-        r_.name_of(-1, "black", r_.materials, [] { return "{\"type\":\"lambertian\",\"albedo\":[0,0,0]}"; });
+        r_.name_of(nullptr, "black", r_.materials, [] { return "{\"type\":\"lambertian\",\"albedo\":[0,0,0]}"; });
     pieces_.push_back({below.text(), ",\"material\":" + black, "", "", above.text()});
   }
 
   /// Lists, trees, and what moves or turns another object: the nearest of its parts is hit.
-  bool group(double shape, const Described& o) {
-    if (std::none_of(o.members.begin(), o.members.end(), [](const auto& one) { return one.kind == 's'; })) return false;
-    std::vector<double> parts;
-    for (const double part : o.all('s'))
-      if (part != 0 && std::find(parts.begin(), parts.end(), part) == parts.end()) parts.push_back(part);
+  bool group(const void* shape, const Described& o) {
+    if (!o.has('s')) return false;
+    std::vector<const void*> parts;
+    for (const void* part : o.objects('s'))
+      if (std::find(parts.begin(), parts.end(), part) == parts.end()) parts.push_back(part);
     const std::size_t begin = pieces_.size();
-    for (const double part : parts) add(part);
+    for (const void* part : parts) add(part);
     join_box(begin);
     for (const Move& move : parts.size() == 1 ? moves_of(o) : std::vector<Move>(1))
       if (const std::optional<bool> flips = flips_nearest(shape, parts, move, begin)) {
@@ -220,33 +204,28 @@ class WorldReader {
   }
   /// Whether it turns the sides of all that is hit, as the third edition's flip_face does; nothing: its hit() is not
   /// that of the nearest part.
-  std::optional<bool> flips_nearest(double shape, const std::vector<double>& parts, const Move& move,
+  std::optional<bool> flips_nearest(const void* shape, const std::vector<const void*>& parts, const Move& move,
                                     std::size_t begin) {
     for (std::size_t k = begin; k < pieces_.size(); ++k)
       if (pieces_[k].is_medium) return false;  // whose hits are random
-    std::vector<book::shot> shots;
+    bool is_same = false, is_flipped = false;
     for (int k = 0; k < 60; ++k) {
       const book::shot inside = aimed(begin);
-      shots.push_back(move.out(inside)), shots.back().shape = shape;
-      for (const double part : parts) shots.push_back(inside), shots.back().shape = part;
-    }
-    const std::vector<book::shot_answer> all = r_.program.ask<book::shot_answer>('h', 0, shots);
-    bool is_same = false, is_flipped = false;
-    for (auto its = all.begin(), end = its; its != all.end(); its = end) {
-      end = its + static_cast<std::ptrdiff_t>(parts.size()) + 1;
-      const auto nearest = std::min_element(its + 1, end, [](const book::shot_answer& a, const book::shot_answer& b) {
-        return (a.found != 0 ? a.t : endless) < (b.found != 0 ? b.t : endless);
-      });
-      const book::shot_answer expected = nearest != end ? *nearest : book::shot_answer{};
-      if (its->found != expected.found || (its->found != 0 && !is_near(its->t, expected.t, 0.01))) return {};
-      if (its->found != 0) (its->front == expected.front ? is_same : is_flipped) = true;
+      const book::hit_answer its = r_.program.hit(shape, move.out(inside));
+      book::hit_answer nearest;
+      for (const void* part : parts)
+        if (const book::hit_answer one = r_.program.hit(part, inside);
+            one.found && !(nearest.found && nearest.t <= one.t))
+          nearest = one;
+      if (its.found != nearest.found || (its.found && !is_near(its.t, nearest.t, 0.01))) return {};
+      if (its.found) (its.front == nearest.front ? is_same : is_flipped) = true;
     }
     return is_flipped && !is_same;
   }
 
   /// Fog has a boundary, a phase function, and a density.
-  bool medium(double shape, const Described& o) {
-    const std::vector<double> boundary = o.all('s'), phase = o.all('m');
+  bool medium(const void* shape, const Described& o) {
+    const std::vector<const void*> boundary = o.objects('s'), phase = o.objects('m');
     const double inverse = o.named("dens", NAN);
     if (boundary.size() != 1 || phase.size() != 1 || std::isnan(inverse)) return false;
     if (std::exchange(is_boundary_, true)) o.refuse("fog within fog");
@@ -263,14 +242,17 @@ class WorldReader {
     return true;
   }
   /// Counts how often rays pass the fog.
-  void check_passing(double shape, const Described& o, double boundary, double extinction, book::shot shot) {
-    shot.to = normalize(shot.to);
-    const book::shot_answer in = shoot(boundary, {{shot.from, shot.to, 0, -1e9}})[0],
-                            out = shoot(boundary, {{shot.from, shot.to, 0, in.t + 1e-4}})[0];
-    if (in.found == 0 || out.found == 0) return;
+  void check_passing(const void* shape, const Described& o, const void* boundary, double extinction, book::shot shot) {
+    shot.to = normalize(shot.to), shot.time = 0;
+    book::shot whole = shot;
+    whole.low = -1e9;
+    const book::hit_answer in = r_.program.hit(boundary, whole);
+    whole.low = in.t + 1e-4;
+    const book::hit_answer out = r_.program.hit(boundary, whole);
+    if (!in.found || !out.found) return;
     constexpr int rounds = 4000;
     int passed = 0;
-    for (const book::shot_answer& one : shoot(shape, {{shot.from, shot.to}}, rounds)) passed += one.found != 0 ? 0 : 1;
+    for (int k = 0; k < rounds; ++k) passed += r_.program.hit(shape, shot).found ? 0 : 1;
     const double expected = rounds * std::exp(-extinction * (out.t - in.t));
     if (std::fabs(passed - expected) > 5 * std::sqrt(expected + 1) + 3)
       o.refuse("it is denser or thinner than the books' fog");
@@ -282,7 +264,7 @@ class WorldReader {
     const Piece one = count > 0 ? pieces_[begin + static_cast<std::size_t>(random_.between(0, count))] : Piece{};
     const Vec3d at = one.centre + (random_.between(0, 0.7) * one.size) * random_.on_sphere();
     const Vec3d from = one.centre + (random_.between(1.5, 6) * one.size) * random_.on_sphere();
-    return {from, at - from, 0.5};
+    return {{from, at - from, 0.5}};
   }
 
   /// Six rectangles that enclose a box are one, as the books' box() makes them: each is one of its sides.
@@ -313,7 +295,7 @@ class WorldReader {
   Reading& r_;
   std::vector<Piece> pieces_;
   RandomNumbers random_;
-  book::shot_answer met_;
+  book::hit_answer met_;
   std::string reason_;
   int depth_ = 0;
   bool is_boundary_ = false;  ///< of a medium: it is written without a material
