@@ -42,15 +42,15 @@ std::string read_text(const fs::path& file) {
 }
 
 /// The folder of our headers, and of the library that is linked to readers' programs: lib/tyndall/book of the
-/// installation, or book beside the program.
+/// installation, or beside the program.
 fs::path book_folder() {
   std::error_code error;
   const fs::path program = own_file().parent_path();
-  for (const fs::path& folder : {program.parent_path() / "lib" / "tyndall" / "book", program / "book"})
-    if (fs::is_regular_file(folder / library_name, error)) return fs::canonical(folder);
-  throw IoError(
-      "what readers' programs are compiled with was not found: neither lib/tyndall/book of the installation nor " +
-      (program / "book").string() + " has " + library_name);
+  for (const fs::path& place : {program.parent_path(), program})
+    if (const fs::path folder = place / "lib/tyndall/book"; fs::is_regular_file(folder / library_name, error))
+      return fs::canonical(folder);
+  throw IoError((program / "lib/tyndall/book").string() + ": " + library_name +
+                ", which readers' programs are linked to, was found neither there nor in the installation");
 }
 
 /// What the user names as the compiler, with arguments; "": nothing.
