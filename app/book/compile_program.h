@@ -27,6 +27,7 @@ struct ProgramTask {
   std::function<bool()> go_on;   ///< asked now and then; false gives up; may be empty
   bool watch_signals = true;     ///< SIGINT, SIGTERM and SIGHUP end it; false where a window watches them
   bool trusted = false;          ///< it is also run where the system has no guard
+  double seconds = 20;           ///< that it may run before its first ray
   std::string name{};            ///< what messages call it
   std::filesystem::path folder;  ///< of temporary files, that exists; a whole path without links
 };

@@ -23,6 +23,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr double seconds_for_world = 20;
+
 /// An empty folder among the temporary files ($TMPDIR, else /tmp), only for this user; removed with all that is in it.
 std::shared_ptr<const fs::path> scratch_folder() {
   int problem = 0;
@@ -47,7 +49,7 @@ std::string last_line(std::string text) {
 }
 
 /// Why the program has ended before its first ray.
-[[noreturn]] void fail(const ProgramRequest& task, const ChildEnd& end) {
+[[noreturn]] void fail(const ProgramTask& task, const ChildEnd& end) {
   const std::string& name = task.name;
   if (end.start_error == EACCES)
     throw IoError(printable(task.folder.parent_path().string()) +
@@ -90,15 +92,15 @@ ChildPlan plan_of(const ProgramTask& task, const CompiledProgram& program, const
   return guarded(task, plan);
 }
 
-/// Reads what the program tells before it is asked; false: it has ended before it told all. found: from its first ray
-/// on.
-bool read_messages(const ProgramTask& task, ProgramScene& scene, const std::function<void()>& found) {
-  while (const auto message = scene.own->next_message()) {
+/// Reads what the program tells before it is asked; false: it has ended before it told all, or takes too long.
+bool read_messages(const ProgramTask& task, ProgramScene& scene) {
+  const auto seconds = [&] { return scene.picture.width == 0 ? task.seconds : seconds_for_world; };
+  while (const auto message = scene.own->next_message(seconds())) {
     const std::string& bytes = message->bytes;
     if (message->letter == 'F') scene.notes.push_back(task.name + ": cannot open " + in_quotes(printable(bytes)));
     if (message->letter == 'E') throw UsageError(task.name + ": " + printable(bytes));
     if (message->letter == 'P' && bytes.size() == sizeof scene.picture)
-      std::memcpy(&scene.picture, bytes.data(), bytes.size()), found();
+      std::memcpy(&scene.picture, bytes.data(), bytes.size());
     if (message->letter == 'S') return (bytes.starts_with('{') ? scene.json : scene.reason) = bytes, true;
   }
   return false;
@@ -111,13 +113,13 @@ bool is_program(const std::string& name) {
   return ending == ".cc" || ending == ".cpp" || ending == ".cxx";
 }
 
-ProgramScene load_program(const ProgramRequest& request) {
+ProgramScene load_program(const ProgramTask& request) {
   const fs::path& main = request.sources.files.front();
   if (!runs_children())
     throw UsageError(printable(main.string()) +
                      ": is not run: builds for Windows run no programs, which need a compiler");
   const auto scratch = scratch_folder();
-  ProgramRequest task = request;
+  ProgramTask task = request;
   task.name = printable(main.string()), task.folder = *scratch;
   const CompiledProgram program = compile_program(task);
   const SignalWatch signals(request.watch_signals ? WatchedSignals::end : WatchedSignals::none);
@@ -129,8 +131,8 @@ ProgramScene load_program(const ProgramRequest& request) {
     const auto remove = [scratch](OwnProgram* own) { delete own; };  // the folder lives as long as the program
     ChildPlan plan = plan_of(task, program, main);
     if (!failed.empty()) plan.environment.push_back("TYNDALL_BOOK_SAMPLES=1");
-    scene.own = {new OwnProgram(task.name, plan, request.seconds, go_on), remove};
-    const bool told = read_messages(task, scene, [&] { scene.own->let_run(20, go_on); });  // for its world
+    scene.own = {new OwnProgram(task.name, plan, go_on), remove};
+    const bool told = read_messages(task, scene);
     if (told && !failed.empty()) scene.reason = failed;
     if (told) break;
     const ChildEnd& end = scene.own->end();
@@ -142,7 +144,7 @@ ProgramScene load_program(const ProgramRequest& request) {
   if (scene.picture.has_images && !scene.picture.decodes_images)
     scene.notes.push_back(task.name +
                           ": its program takes the numbers of images as they are, Tyndall takes them as sRGB");
-  scene.own->let_run(1e9, nullptr);
+  scene.own->leave_alone();
   return scene;
 }
 

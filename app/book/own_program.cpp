@@ -7,18 +7,17 @@
 
 namespace tyndall {
 
-OwnProgram::OwnProgram(std::string name, ChildPlan plan, double seconds, std::function<bool()> go_on)
-    : name_(std::move(name)) {
+OwnProgram::OwnProgram(std::string name, ChildPlan plan, std::function<bool()> go_on)
+    : name_(std::move(name)), go_on_(std::move(go_on)) {
   auto [mine, its] = connected_pair();
   if (!mine) throw IoError(name_ + ": cannot be run: too many files are open");
   channel_ = std::move(mine);
-  let_run(seconds, std::move(go_on));
   plan.channel = its.descriptor();
   plan.environment.push_back("TYNDALL_BOOK_CHANNEL=" + std::to_string(plan.channel));
   plan.seconds = 1e9;
   plan.go_on = [this] {
     const std::lock_guard lock(wanted_mutex_);
-    return !stops_ && std::chrono::steady_clock::now() < deadline_ && (!go_on_ || go_on_());
+    return !stops_ && (!go_on_ || go_on_());
   };
   end_ = std::async(std::launch::async, [plan = std::move(plan), its = std::move(its)]() mutable {
     ChildEnd end = run_child(plan);
@@ -29,13 +28,13 @@ OwnProgram::OwnProgram(std::string name, ChildPlan plan, double seconds, std::fu
 
 OwnProgram::~OwnProgram() { end(); }
 
-void OwnProgram::let_run(double seconds, std::function<bool()> go_on) {
+void OwnProgram::leave_alone() {
   const std::lock_guard lock(wanted_mutex_);
-  deadline_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(static_cast<long>(1000 * seconds));
-  go_on_ = std::move(go_on);
+  go_on_ = nullptr;
 }
 
-std::optional<OwnProgram::Message> OwnProgram::next_message(int milliseconds) {
+std::optional<OwnProgram::Message> OwnProgram::next_message(double seconds) {
+  const int milliseconds = static_cast<int>(1000 * seconds);
   tyndall_book::message_head head;
   constexpr double largest = 300.0 * (1 << 20);  // more than any scene's or picture's
   if (!receive(channel_, &head, sizeof head, milliseconds) || !(head.size >= 0 && head.size <= largest)) return {};
@@ -53,8 +52,7 @@ std::vector<Vec3d> OwnProgram::samples(const std::vector<tyndall_book::pixel_pla
   for (std::size_t done = 0; done < bytes.size();)
     if (send_some(channel_, bytes.data(), bytes.size(), done) == Sent::closed)
       throw IoError(name_ + ": the program has ended");
-  constexpr int longest = 20000;
-  const std::optional<Message> message = next_message(longest);
+  const std::optional<Message> message = next_message(20);
   stops_ = stops_ || !message;  // it has ended, or hangs
   std::vector<Vec3d> colours(places.size());
   if (!message || message->bytes.size() != colours.size() * sizeof(Vec3d))

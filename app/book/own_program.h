@@ -5,7 +5,6 @@
 #include "core/system/locks.h"
 
 #include <atomic>
-#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <future>
@@ -26,27 +25,27 @@ namespace tyndall {
 /// guard, until this is destroyed or it ends by itself. Its functions throw IoError where it has ended.
 class OwnProgram {
  public:
-  /// Starts it. name: what messages call it. For seconds, go_on see let_run().
-  OwnProgram(std::string name, ChildPlan plan, double seconds, std::function<bool()> go_on);
+  /// Starts it. name: what messages call it. go_on: asked now and then; false ends it; may be empty.
+  OwnProgram(std::string name, ChildPlan plan, std::function<bool()> go_on);
   ~OwnProgram();
   OwnProgram(const OwnProgram&) = delete;
   OwnProgram& operator=(const OwnProgram&) = delete;
 
-  /// It is ended in so many seconds from now on, or if go_on, which is asked now and then, says so; may be empty.
-  void let_run(double seconds, std::function<bool()> go_on);
+  /// go_on is not asked any more.
+  void leave_alone();
 
   /// What it tells: see message_head in tyndall/book/functions.h.
   struct Message {
     char letter = 0;
     std::string bytes;
   };
-  /// The next message; nothing: it has ended, see end(), or has said nothing for so long; 0: as long as it takes.
-  std::optional<Message> next_message(int milliseconds = 0);
+  /// The next message; nothing: it has ended, or has said nothing for so long.
+  std::optional<Message> next_message(double seconds);
 
   /// Linear colours of places in the picture. For any number of threads.
   std::vector<Vec3d> samples(const std::vector<tyndall_book::pixel_place>& places);
 
-  /// How it ended, after something has found that it did.
+  /// How it ended, or ends now.
   const ChildEnd& end();
 
  private:
@@ -54,7 +53,6 @@ class OwnProgram {
   std::string name_;
   std::atomic<bool> stops_ = false;
   Mutex wanted_mutex_;
-  std::chrono::steady_clock::time_point deadline_;
   std::function<bool()> go_on_;
   Mutex mutex_;  ///< one question at a time
   std::shared_future<ChildEnd> end_;

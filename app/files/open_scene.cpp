@@ -33,7 +33,7 @@ LoadedScene load_program_scene(const SceneRequest& request, OwnSamples& own) {
         "a scene file or an image; a program is compiled and run only where it is named on the command line");
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw SceneError(request.what, "no such file", "a C++ source file");
-  ProgramRequest parts = request.program;
+  ProgramTask parts = request.program;
   parts.sources.files.insert(parts.sources.files.begin(), file);
   parts.watch_signals = !parts.go_on;
   const ProgramScene made = load_program(parts);

@@ -49,7 +49,7 @@ void apply(const Changes<Settings>& changes, Settings& settings) {
 
 /// What belongs to a program whose scene is wanted, see app/book.
 /// Its sources are those beside the file with main(); without go_on, which a window has, it watches signals.
-struct ProgramParts : ProgramRequest {
+struct ProgramParts : ProgramTask {
   /// Whether a C++ source file may be compiled and run at all: only one that the user has named for that.
   bool allowed = false;
   bool told = false;  ///< what is to be told of it was told before

@@ -43,14 +43,12 @@ std::vector<const void*> Described::objects(char kind) const {
 bool Described::has(char kind) const {
   return std::any_of(members_.begin(), members_.end(), [&](const Member& one) { return one.kind == kind; });
 }
-void Described::take_class(const char* mangled, const void* whole) {
-  class_name = printable(book::class_name(mangled)), file = book::file_of(whole);
-}
 void Described::take_numbers(char kind, const char* key, const double* numbers, int count) {
   members_.push_back({kind, key, {numbers, numbers + count}});
 }
 void Described::take_object(char kind, const char* key, const void* object) {
   members_.push_back({kind, key, {}, object});
+  if (kind == 'c') class_name = printable(book::class_name(key)), file = book::file_of(object);
 }
 
 const Described& Reading::described(char kind, const void* object) {

@@ -58,7 +58,6 @@ class Described : public book::description {
   bool has(char kind) const;
   [[noreturn]] void refuse(const std::string& why) const { throw NotTaken{class_name + ": " + why}; }
 
-  void take_class(const char* mangled, const void* whole) override;
   void take_numbers(char kind, const char* key, const double* numbers, int count) override;
   void take_object(char kind, const char* key, const void* object) override;
 

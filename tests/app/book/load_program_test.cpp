@@ -38,7 +38,7 @@ TEST_CASE("a program without end is ended; one that is not wanted any more is gi
   const fs::path main = scratch_folder("load_program") / "main.cc";
   const fs::path headers = tests_folder().parent_path() / "assets/examples/book/tracer";
   write_text(main, "#include \"rtweekend.h\"\nint main() { for (volatile int i = 0;;) i = 1; }\n");
-  ProgramRequest request;
+  ProgramTask request;
   request.sources = {{main}, {headers}};
   request.trusted = true;
   request.seconds = 0.5;

@@ -103,7 +103,7 @@ class replies {
   }
   template <class O>
   static void describe_all_of(const O& object, description& to) {
-    to.take_class(typeid(object).name(), dynamic_cast<const void*>(&object));
+    to.take_object('c', typeid(object).name(), dynamic_cast<const void*>(&object));
     N::describe(object, to);
   }
   static hit_answer hit(const void* of, const shot& one) {
