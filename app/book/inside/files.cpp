@@ -46,7 +46,7 @@ FILE* open_to_read(const char* function, const std::string& name, const char* mo
   FILE* file = open_file(function, name.c_str(), mode);
   std::istringstream folders(from_environment("TYNDALL_BOOK_FOLDERS"));  // each with a line end
   for (std::string folder; !file && name[0] != '/' && std::getline(folders, folder);) {
-    tried = folder + "/" + name;
+    tried = folder.append("/").append(name);
     file = open_file(function, tried.c_str(), mode);
   }
   std::erase_if(files().missing, [&](const fs::path& other) { return other.filename() == fs::path(name).filename(); });
@@ -102,7 +102,7 @@ std::vector<std::string> missing_files() { return files().missing; }
 std::string class_name(const char* mangled) {
   int failed = 0;
   char* name = abi::__cxa_demangle(mangled, nullptr, nullptr, &failed);
-  const std::string text = name ? name : mangled;
+  std::string text = name ? name : mangled;
   std::free(name);
   return text;
 }

@@ -78,14 +78,15 @@ class Watcher {
     if (seen_.back().first > seen_[seen_.size() - 2].first - (picture.by_pixels ? 2 : 0.5)) return false;
     const std::size_t row = seen_.size() - 1;
     for (std::size_t samples = 1; samples <= row; ++samples) {
-      const double columns = static_cast<double>(row / samples), width = picture.by_pixels ? 1 : columns - picture.less;
+      const int columns = static_cast<int>(row / samples), width = picture.by_pixels ? 1 : columns - picture.less;
       bool fits = row % samples == 0;
       for (std::size_t k = 0; fits && k < row; ++k) {
-        const double column = seen_[k].first * width - static_cast<double>(k / samples);
+        const auto wanted = static_cast<int>(k / samples);
+        const double column = seen_[k].first * width - wanted;
         fits = column > -0.01 && column < 1.01;  // as far as floats can tell
       }
       if (!fits) continue;
-      picture.width = static_cast<int>(columns), picture.samples = static_cast<int>(samples);
+      picture.width = columns, picture.samples = static_cast<int>(samples);
       const double aspect = length(side(1, 0)) / length(side(0, 1));
       if (picture.height == 0) picture.height = static_cast<int>(columns / aspect + 0.02);
       return picture.height > 0;
