@@ -70,12 +70,10 @@ std::vector<CellDifference> rough_differences(const PictureNumbers& picture, con
     expected.light.push_back(number.mean - (picture.coded ? number.excess : 0));
   expected.variance.resize(expected.light.size());
   const Regions regions = blocks_of(lattice, edge_of_blocks(lattice));
-  std::vector<CellDifference> best;
-  for (const Reading& reading : readings_of(picture.coded, true)) {
-    auto found = differences_of(read_pixels(picture, lattice, reading), expected, regions);
-    if (best.empty() || amount_of(found, found) < amount_of(best, best)) best = std::move(found);
-  }
-  return best;
+  std::vector<std::vector<CellDifference>> found;
+  for (const Reading& reading : readings_of(picture.coded, true))
+    found.push_back(differences_of(read_pixels(picture, lattice, reading), expected, regions));
+  return *std::ranges::min_element(found, {}, [](const auto& cells) { return amount_of(cells, cells); });
 }
 
 /// Programs place balls at random, and where depends on the order in which a compiler computes arguments. If the
