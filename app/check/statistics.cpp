@@ -140,10 +140,9 @@ LatticeLight read_pixels(const PictureNumbers& picture, const Lattice& lattice, 
     for (int x = 0; x < picture.width; x += lattice.step) {
       const int column = reading.mirrored ? picture.width - 1 - x : x;
       const int row = reading.upside_down ? picture.height - 1 - y : y;
-      const auto at = 3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.width) +
-                           static_cast<std::size_t>(column));
-      for (std::size_t c = 0; c < 3; ++c) {
-        const float number = picture.numbers[at + (reading.swapped ? 2 - c : c)];
+      const float* numbers = picture.numbers.data() + 3 * (std::ptrdiff_t{row} * picture.width + column);
+      for (int c = 0; c < 3; ++c) {
+        const float number = numbers[reading.swapped ? 2 - c : c];
         pixels.light.push_back(static_cast<double>(light_of(reading.curve, number)));
         pixels.tolerance.push_back(static_cast<double>(tolerance_of(reading.curve, number, picture.step)));
       }
@@ -238,9 +237,7 @@ Misfit misfit_of(std::span<const CellDifference> differences) {
     const auto block = differences.first(3);
     if (block[0].pixels == 0) continue;
     ++misfit.blocks;
-    misfit.different += std::any_of(block.begin(), block.end(), [](const CellDifference& cell) {
-      return cell.beyond(noise_limit, cell.error) > 0;
-    });
+    misfit.different += std::ranges::any_of(block, [](auto& cell) { return cell.beyond(noise_limit, cell.error) > 0; });
   }
   return misfit;
 }

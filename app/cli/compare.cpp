@@ -118,10 +118,10 @@ int compare_with_baseline(const CommandRequest& command) {
   check_outputs(outputs, inputs);
   check_can_write(outputs);
   if (command.update) {
-    const BaselineUpdate update = update_baseline(command.baseline);
+    const NamedPictures kept = update_baseline(command.baseline);
     std::string text;
-    for (const std::string& name : update.names) text += all_printable(name) + "  kept\n";
-    for (const std::string& note : update.notes) complain(note);
+    for (const auto& [name, file] : kept.files) text += all_printable(name) + "  kept\n";
+    for (const std::string& note : kept.notes) complain(note);
     write_standard_output(text);
     return 0;
   }
