@@ -201,13 +201,13 @@ class Search {
   }
 
   Fit fit(const std::shared_ptr<const Model>& model, const Reading& reading) {
-    LatticeLight& pixels = read_[reading];
+    LatticeLight wrong;  // such a reading is tried once
+    LatticeLight& pixels = reading.is_right() ? read_[reading.curve] : wrong;
     if (pixels.light.empty()) pixels = read_pixels(picture_, lattice_, reading);
     const auto differ = [&](const Regions& regions) { return differences_of(pixels, model->expected, regions); };
     Fit found{model, reading, differ(small_), differ(large_), differ(findings_.seen.regions), differ(whole_)};
     for (const auto* part : {&found.small, &found.large, &found.objects})
       found.all.insert(found.all.end(), part->begin(), part->end());
-    if (!reading.is_right()) read_.erase(reading);  // those are tried once
     return found;
   }
 
@@ -355,10 +355,10 @@ class Search {
   const std::function<bool()>& go_on_;
   std::vector<Reading> right_readings_;
   Regions small_, large_, whole_;
-  int count_ = 0;                         ///< samples that were taken of each pixel
-  std::vector<BookSample> samples_;       ///< of the program that renders the scene as it is
-  std::vector<SampleStatistics> single_;  ///< of these, as if the picture had one
-  std::map<Reading, LatticeLight> read_;  ///< the picture, as the right readings take it
+  int count_ = 0;                               ///< samples that were taken of each pixel
+  std::vector<BookSample> samples_;             ///< of the program that renders the scene as it is
+  std::vector<SampleStatistics> single_;        ///< of these, as if the picture had one
+  std::map<TransferCurve, LatticeLight> read_;  ///< the picture, as the right readings take it
   Findings findings_;
   std::map<std::string, std::shared_ptr<const Model>> known_;  ///< by the names of choices
 };

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <functional>
 #include <map>
 #include <span>
@@ -30,7 +29,6 @@ struct Reading {
   bool swapped = false;                        ///< red and blue have changed places
   /// Whether it holds no mistake.
   bool is_right() const { return curve < TransferCurve::none && !upside_down && !mirrored && !swapped; }
-  auto operator<=>(const Reading&) const = default;  // NOLINT(modernize-use-nullptr): means the comparison with 0
 };
 
 /// The readings that are tried for a picture, the right ones or those with mistakes.

@@ -26,7 +26,6 @@ std::optional<Check> check_against_scene(const CommandRequest& command) {
     const ProgramSources& sources = command.scene.program.sources;
     const bool of_scene = command.seconds || !command.scene.overrides.empty() || !sources.include_folders.empty() ||
                           !sources.files.empty();
-    check_names_picture(command.reference.string());
     if (of_scene) refuse("--time, --set, -I and further files need a scene in place of REFERENCE");
     return {};
   }

@@ -33,10 +33,6 @@ std::optional<double> seconds_to(const ErrorCurve& curve, double rel_mse) {
   return value_between(a.seconds, b.seconds, part_between(a.rel_mse, b.rel_mse, rel_mse));
 }
 
-double seconds_left(double target, const ErrorPoint& known, double seconds) {
-  return std::max(0.0, known.seconds * known.rel_mse / (target * target) - seconds);
-}
-
 std::optional<double> speed_against(const ErrorCurve& first, const ErrorCurve& curve) {
   if (first.points.empty() || curve.points.empty()) return {};
   const double error = std::max(first.points.back().rel_mse, curve.points.back().rel_mse);
@@ -44,8 +40,6 @@ std::optional<double> speed_against(const ErrorCurve& first, const ErrorCurve& c
   if (!(error > 0) || !slow || !fast) return {};
   return *slow / *fast;
 }
-
-double min_measurable(double reference_noise) { return 4 * reference_noise; }
 
 std::optional<double> bias_of(const ErrorCurve& curve, double reference_noise) {
   if (curve.points.size() < 4) return {};
