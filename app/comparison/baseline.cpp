@@ -69,8 +69,7 @@ Tolerance read_limits(const fs::path& file, const std::string& picture, const Js
   Tolerance limits;
   if (!json.is_object()) refuse(file, "no object for " + in_quotes(picture), "{\"max_flip\": 0.02}");
   for (const auto& [key, value] : json.items()) {
-    const auto* known = std::find_if(std::begin(tolerance_keys), std::end(tolerance_keys),
-                                     [&k = key](const auto& e) { return k == e.first; });
+    const auto* known = std::ranges::find_if(tolerance_keys, [&k = key](const auto& e) { return k == e.first; });
     if (known == std::end(tolerance_keys)) refuse(file, in_quotes(key), "max_rmse, max_relmse, max_flip or max_z");
     if (!value.is_number() || !(value.get<double>() >= 0)) refuse(file, value.dump() + " for " + key, "a number >= 0");
     limits.*known->second = value.get<double>();

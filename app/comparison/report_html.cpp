@@ -91,7 +91,7 @@ std::string commands_of(const CheckedPicture& picture) {
 
 std::string pictures_of(const CheckedPicture& picture, PpmCurve ppm) {
   const Comparison& c = *picture.comparison;
-  const LinearImage flip = heat_colours(c.flip_map, c.width, c.height);
+  const LinearImage flip = heat_map(c.flip_map, c.width, c.height, false);
   const PicturePair pair = read_pair(picture.image, picture.reference, ppm);
   return from_template("report_pair.html", {{"baseline", data_of(pair.reference.pixels)},
                                             {"rendered", data_of(pair.image.pixels)},

@@ -54,7 +54,7 @@ std::optional<double> bias_of(const ErrorCurve& curve, double reference_noise) {
   return stays && bias > min_measurable(reference_noise) ? std::optional(bias) : std::nullopt;
 }
 
-std::string method_of(const RenderSettings& settings) {
+std::string method_of(const RenderSettings& settings, const RenderSettings& file) {
   std::string method = std::string(name_of(settings.integrator)) + " · " + name_of(settings.sampler);
   const RenderSettings usual{settings.max_depth, settings.spp, settings.integrator, settings.sampler};
   const auto add = [&]<class T>(const Field<RenderSettings, T>& field) {
@@ -64,11 +64,6 @@ std::string method_of(const RenderSettings& settings) {
     if constexpr (std::is_same_v<T, bool>) method += std::string(value ? " · " : " · no ") + field.name;
   };
   std::apply([&](const auto&... field) { (add(field), ...); }, fields_of<RenderSettings>());
-  return method;
-}
-
-std::string method_of(const RenderSettings& settings, const RenderSettings& file) {
-  std::string method = method_of(settings);
   if (settings.max_depth != file.max_depth) method += " · depth " + std::to_string(settings.max_depth);
   if (settings.seed != file.seed) method += " · seed " + std::to_string(settings.seed);
   return method;

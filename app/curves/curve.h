@@ -73,9 +73,8 @@ inline Decades decades_around(double minimum, double maximum, int count) {
   return {first, std::max(static_cast<int>(std::ceil(std::log10(maximum))), first + count)};
 }
 
-/// "mis · sobol", with "· schlick" where that approximation is on.
-std::string method_of(const RenderSettings& settings);
-/// The same, with depth and seed where they are not those of the file.
+/// "mis · sobol", with "· schlick" where that approximation is on, and depth and seed where they are not those of the
+/// file.
 std::string method_of(const RenderSettings& settings, const RenderSettings& file);
 
 /// The curve of the newest edit while it grows, and those of earlier edits that are worth a comparison.
