@@ -28,7 +28,7 @@ APP = [
     ("one file is written twice", "app/files/outputs.cpp", "if («twin != output → false») throw UsageError", "app/files/outputs commands/refusals"),
     ("memory for films that are read beside the sum is not counted", "app/files/memory.cpp", "part = «plan.parts ? film : 0 → 0»;", "app/files/memory"),
 
-    ("the time that is left grows with the error, not its square", "app/curves/curve.cpp",
+    ("the time that is left grows with the error, not its square", "app/curves/curve.h",
      "known.rel_mse / («target * target → target»)", "app/curves/chart app/curves/chart"),
     ("noise of heavy tails passes as bias", "app/curves/curve.cpp", "bias > «0.7 → 0.0» * rest(*before)", "app/curves/chart app/curves/chart"),
     ("how many times slower, not faster", "app/curves/curve.cpp", "return «*slow / *fast → *fast / *slow»;", "app/curves/chart"),
