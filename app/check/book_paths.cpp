@@ -145,11 +145,9 @@ struct BookTracer {
 
   bool meet_medium(BookPath& p, const MediumEvent<float>& event) const {
     if (p.depth >= s.max_depth) return false;
-    Vec3f albedo = event.albedo;
-    if (s.features.textures) albedo = textured<float>(s, albedo, event.texture, true, event.point, nullptr);
     const Pair<float> u = p.sampler.next_2d(dimension::direction);
     const Vec3f out = scatter_in_medium(event.g, p.ray.direction, on_sphere(u), u);
-    p.throughput = p.throughput * albedo;
+    p.throughput = p.throughput * textured<float>(s, event.albedo, event.texture, true, event.point, nullptr);
     p.ray = {event.point, out, rules.time == TimeRule::lost ? 0 : p.ray.time, event.from};
     p.length = 1, p.at_surface = false, p.exact = to_double(event.point);
     return true;
@@ -214,12 +212,6 @@ void follow(const BookTracer& tracer, const Kernels& kernels, std::vector<BookPa
 }
 
 }  // namespace
-
-BookProgram plain_program(const Scene& scene) {
-  BookProgram program{scene, {}};
-  program.rules.schlick = scene.render.fresnel == FresnelKind::schlick;
-  return program;
-}
 
 Lattice lattice_of(int width, int height) {
   Lattice lattice{width, height, 1};

@@ -42,7 +42,9 @@ struct BookProgram {
 };
 
 /// The program that renders a scene as it is.
-BookProgram plain_program(const Scene& scene);
+inline BookProgram plain_program(const Scene& scene) {
+  return {scene, {.schlick = scene.render.fresnel == FresnelKind::schlick}};
+}
 
 /// Every step-th pixel of a picture in both directions, from the upper left one on.
 struct Lattice {

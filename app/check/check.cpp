@@ -38,10 +38,6 @@ constexpr int fewest_samples = 4, most_samples = 200;  // a pixel
 constexpr float brightest_sample = 2;                  // of what a sample counts for: few of them would decide else
 constexpr double noise_allowed = 5, part_allowed = 0.03, darkest_level = 0.01, blocks_allowed = 0.02;
 
-bool is_picture_name(const fs::path& name) {
-  return has_picture_ending(name) || lower_case(name.extension().string()) == ".pnm";
-}
-
 /// What read_picture() would have made of a PPM with PpmCurve::gamma2.
 void read_as_gamma2(LinearImage& image) {
   for (float& value : image.rgb) {
@@ -70,12 +66,10 @@ std::vector<CellDifference> rough_differences(const PictureNumbers& picture, con
     expected.light.push_back(number.mean - (picture.coded ? number.excess : 0));
   expected.variance.resize(expected.light.size());
   const Regions regions = blocks_of(lattice, edge_of_blocks(lattice));
-  std::vector<CellDifference> best;
-  for (const Reading& reading : readings_of(picture.coded, true)) {
-    auto found = differences_of(read_pixels(picture, lattice, reading), expected, regions);
-    if (best.empty() || amount_of(found, found) < amount_of(best, best)) best = std::move(found);
-  }
-  return best;
+  std::vector<std::vector<CellDifference>> found;
+  for (const Reading& reading : readings_of(picture.coded, true))
+    found.push_back(differences_of(read_pixels(picture, lattice, reading), expected, regions));
+  return *std::ranges::min_element(found, {}, [](const auto& cells) { return amount_of(cells, cells); });
 }
 
 /// Programs place balls at random, and where depends on the order in which a compiler computes arguments. If the
@@ -153,20 +147,16 @@ bool names_scene(const std::string& name) {
   if (is_program(name)) return true;
   if (std::ranges::any_of(built_in_scenes(), [&](const BuiltIn& scene) { return scene.name == name; })) return true;
   const fs::path file = picture_name(name).file;
+  const std::string ending = lower_case(file.extension().string());
   std::error_code error;
-  if (!fs::exists(file, error)) return lower_case(file.extension().string()) == ".json";
-  if (is_picture_name(file) || !fs::is_regular_file(file, error)) return false;
-  return image_kind(read_bytes(file, kind_size)) == ImageKind::unknown;
-}
-
-void check_names_picture(const std::string& name) {
-  const fs::path file = picture_name(name).file;
-  std::error_code error;
-  const bool folder = fs::is_directory(file, error);
-  if (!folder && (fs::exists(file, error) || is_picture_name(file))) return;
-  throw UsageError((name.empty() ? "REFERENCE" : printable(name)) + ": found " +
-                   (folder ? "a folder" : "no such file") +
-                   ", expected a picture, or a scene: its file, its name (\"tyndall scenes\" lists them) or a MAIN.cc");
+  const bool is_there = fs::exists(file, error), folder = fs::is_directory(file, error);
+  if (!is_there && ending == ".json") return true;
+  const bool picture = has_picture_ending(file) || ending == ".pnm";
+  if (folder || (!is_there && !picture))
+    throw UsageError(
+        (name.empty() ? "REFERENCE" : printable(name)) + ": found " + (folder ? "a folder" : "no such file") +
+        ", expected a picture, or a scene: its file, its name (\"tyndall scenes\" lists them) or a MAIN.cc");
+  return !picture && fs::is_regular_file(file, error) && image_kind(read_bytes(file, kind_size)) == ImageKind::unknown;
 }
 
 NoisyImage render_reference(Scene scene, const LinearImage& picture, double seconds, std::uint32_t spp,

@@ -91,12 +91,10 @@ std::string verdict_text(const Findings& verdict);
 nlohmann::ordered_json verdict_json(const Findings& verdict);
 
 /// Whether a name stands for a scene to compare with, and not for a picture: a built-in scene, a C++ source file, or a
-/// file that is no picture. PNG and EXR are pictures, also those that carry a scene.
+/// file that is no picture. PNG and EXR are pictures, also those that carry a scene. Throws UsageError for a name that
+/// cannot be a picture's either: of nothing, or of a folder. A file that is called like a picture and is not there is
+/// left to those who read it.
 bool names_scene(const std::string& name);
-
-/// Throws UsageError for a name that is not a scene's and cannot be a picture's: of nothing, or of a folder. A file
-/// that is called like a picture and is not there is left to those who read it.
-void check_names_picture(const std::string& name);
 
 struct CheckRequest {
   std::filesystem::path image;

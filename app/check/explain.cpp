@@ -17,24 +17,68 @@ constexpr double min_comparable = 0.5;     // of the blocks must be comparable f
 constexpr double max_unseen = 0.3;         // of the light, by which a picture that agrees may be off unseen
 constexpr std::size_t max_looked_at = 3;   // mistakes that are looked at closely
 
-/// A program that may have made the picture: the scene's, with choices of editions and then with a mistake.
-struct Suspect {
-  std::vector<Difference> choices;
-  std::optional<Difference> mistake;
-};
-
-/// What is expected of its pictures.
+/// A program that may have made the picture, which is the scene's with choices of editions and then with a mistake, and
+/// what is expected of its pictures.
 struct Model {
-  Suspect suspect;
+  std::vector<Difference> choices{};
+  std::optional<Difference> mistake{};
   double samples = 0;  ///< a pixel, that the user's picture has if it is one of them; 0: not known
-  LatticeLight expected;
+  LatticeLight expected{};
 };
 
-/// A way in which the picture may have been made, and how far the picture is from that.
+/// A way in which the picture may have been made, and how the means of the picture differ from what is expected then.
 struct Fit {
   std::shared_ptr<const Model> model;
   Reading reading;
-  Differences differences;
+  std::vector<CellDifference> small, large, objects;  ///< of small blocks, of large ones, of the objects seen
+  std::vector<CellDifference> whole;                  ///< of the picture
+  std::vector<CellDifference> all{};                  ///< the first three, one behind the other
+
+  double amount() const { return amount_of(all, all); }
+
+  /// Whether the small blocks differ by noise alone. The noise of few samples is no normal distribution: so now and
+  /// then one of them is beyond noise_limit.
+  bool agrees_in_blocks() const {
+    constexpr double max_different = 1 / 150.0;
+    const Misfit misfit = misfit_of(small);
+    return misfit.different <= max_different * misfit.blocks;
+  }
+
+  /// Whether all of them do.
+  bool agrees() const {
+    return agrees_in_blocks() && misfit_of(large).different == 0 && misfit_of(objects).different == 0 &&
+           misfit_of(whole).different == 0;
+  }
+
+  /// How much of the differences is left with `now` in place of these, as far as the two differ at all.
+  double left_by(const Fit& now) const {
+    double before = 0, after = 0;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const CellDifference &a = all[k], &b = now.all[k];
+      const double error = std::max(a.error, b.error);
+      if (a.pixels == 0 || std::abs(a.difference - b.difference) <= a.tolerance + 2 * error) continue;
+      const double weight = a.pixels / a.tolerance;
+      before += weight * std::max(0.0, std::abs(a.difference) - 2 * error);
+      after += weight * std::max(0.0, std::abs(b.difference) - 2 * error);
+    }
+    return before > 0 ? after / before : 1;
+  }
+
+  /// How much of the differences is gone; nothing, if `after` is so noisy that little of them could be seen beside its
+  /// noise.
+  double gone(const Fit& after) const {
+    constexpr double min_seen = 0.25;
+    const double seen = amount_of(all, after.all);
+    return seen > min_seen * amount() ? 1 - amount_of(after.all, all) / seen : 0;
+  }
+
+  /// Fraction of the light by which the whole may be off without that it is seen.
+  double unseen_light() const {
+    double light = 0, unseen = 0;
+    for (const CellDifference& channel : whole)
+      light += channel.expected, unseen += channel.tolerance + noise_limit * channel.error;
+    return light > 0 ? unseen / light : 0;
+  }
 };
 
 /// The search for what explains a picture.
@@ -78,7 +122,7 @@ class Search {
     for (const int depth : likely_depths(right)) try_mistake(right, shorter_paths(depth), false);
     for (const Difference& mistake : usual_mistakes()) try_mistake(right, mistake, true);
     std::ranges::stable_sort(findings_.tried, std::greater{}, &Difference::explained);
-    if (!right.differences.agree_in_blocks()) name_mistake(right);
+    if (!right.agrees_in_blocks()) name_mistake(right);
     return std::move(findings_);
   }
 
@@ -120,7 +164,7 @@ class Search {
 
   /// Samples of what a suspect renders; empty: there is nothing that its choices or its mistake would change, or there
   /// is no time left. in_time: whether that matters.
-  std::vector<BookSample> samples_of(const Suspect& suspect, bool in_time) const {
+  std::vector<BookSample> samples_of(const Model& suspect, bool in_time) const {
     if (suspect.choices.empty() && !suspect.mistake) return samples_;
     BookProgram program = start_;
     for (const Difference& choice : suspect.choices)
@@ -129,17 +173,16 @@ class Search {
     return book_samples(program, lattice_, count_, in_time ? go_on_ : std::function<bool()>());
   }
 
-  /// What is expected of a suspect of whose program these samples were taken. count: samples a pixel that the picture
-  /// has; 0: not known.
-  std::shared_ptr<const Model> model_of(const Suspect& suspect, const std::vector<BookSample>& samples,
-                                        double count) const {
+  /// Adds what is expected of a suspect of whose program these samples were taken. count: samples a pixel that the
+  /// picture has; 0: not known.
+  std::shared_ptr<const Model> model_of(Model suspect, const std::vector<BookSample>& samples, double count) const {
     const int group = count > 0 ? std::clamp(static_cast<int>(std::lround(count)), 1, count_) : count_;
     const auto now = statistics_of(samples, count_, {group, white()}, &samples_);
     const Numbers common = means_of(large_, now, &SampleStatistics::common),
                   variance = means_of(large_, single_, &SampleStatistics::variance);
     Numbers ratios;
     if (picture_.coded && count > count_ * 1.2) ratios = excess_ratios(samples, count_, count, large_);
-    const auto model = std::make_shared<Model>(Model{suspect, count, {}});
+    suspect.samples = count;
     for (std::size_t at = 0; at < now.size(); ++at) {
       const std::size_t cell = large_.cell_of(at);
       const bool known = cell != Regions::no_cell;
@@ -150,46 +193,41 @@ class Search {
       double excess = now[at].excess;
       if (known && !ratios.empty())  // means of few samples are too noisy; no pixel is brighter than white
         excess = std::max(excess * std::min(1.0, ratios[cell]), now[at].mean + missed - 1);
-      model->expected.light.push_back(now[at].mean - excess + missed);
+      suspect.expected.light.push_back(now[at].mean - excess + missed);
       // A picture of unknown samples shows by itself alone how noisy it is.
-      model->expected.variance.push_back(count > 0 ? now[at].noise * group / count : 0);
+      suspect.expected.variance.push_back(count > 0 ? now[at].noise * group / count : 0);
     }
-    return model;
+    return std::make_shared<const Model>(std::move(suspect));
   }
 
   Fit fit(const std::shared_ptr<const Model>& model, const Reading& reading) {
-    LatticeLight& pixels = read_[reading];
+    LatticeLight wrong;  // such a reading is tried once
+    LatticeLight& pixels = reading.is_right() ? read_[reading.curve] : wrong;
     if (pixels.light.empty()) pixels = read_pixels(picture_, lattice_, reading);
     const auto differ = [&](const Regions& regions) { return differences_of(pixels, model->expected, regions); };
-    Differences found{differ(small_), differ(large_), differ(findings_.seen.regions), {}, differ(whole_)};
+    Fit found{model, reading, differ(small_), differ(large_), differ(findings_.seen.regions), differ(whole_)};
     for (const auto* part : {&found.small, &found.large, &found.objects})
       found.all.insert(found.all.end(), part->begin(), part->end());
-    if (!reading.is_right()) read_.erase(reading);  // those are tried once
-    return {model, reading, std::move(found)};
+    return found;
   }
 
   Fit closest_reading(const std::shared_ptr<const Model>& model, const std::vector<Reading>& readings) {
-    Fit best = fit(model, readings.front());
-    for (const Reading& reading : readings) {
-      Fit other = fit(model, reading);
-      if (other.differences.amount() < best.differences.amount()) best = std::move(other);
-    }
-    return best;
+    std::vector<Fit> fits;
+    for (const Reading& reading : readings) fits.push_back(fit(model, reading));
+    return *std::ranges::min_element(fits, {}, &Fit::amount);
   }
 
   /// The fit that is closest over the numbers of samples that the picture's noise may stand for.
-  Fit closest(const Suspect& suspect, const std::vector<Reading>& readings, const std::vector<BookSample>& taken) {
+  Fit closest(const Model& suspect, const std::vector<Reading>& readings, const std::vector<BookSample>& taken) {
     const Reading rough = closest_reading(model_of(suspect, taken, 0), readings).reading;
     std::optional<Fit> best;
     const LatticeLight read = read_pixels(picture_, lattice_, rough);
-    for (const double samples : likely_counts(read, reference_, taken, count_, small_, white())) {
+    for (const auto& [off, samples] : likely_counts(read, reference_, taken, count_, small_, white())) {
       Fit found = closest_reading(model_of(suspect, taken, samples), readings);
-      const auto clearly_closer = [](const std::vector<CellDifference>& a, const std::vector<CellDifference>& b) {
-        return amount_of(a, b) < clear_improvement * amount_of(b, a);  // where both have the same noise
-      };
-      if (!best || found.differences.agree() || clearly_closer(found.differences.all, best->differences.all))
+      const auto amount = [](const Fit& a, const Fit& b) { return amount_of(a.all, b.all); };  // with the same noise
+      if (!best || found.agrees() || amount(found, *best) < clear_improvement * amount(*best, found))
         best = std::move(found);
-      if (best->differences.agree() || !white_matters()) break;
+      if (best->agrees() || !white_matters()) break;
     }
     return *best;
   }
@@ -199,69 +237,63 @@ class Search {
   Fit with_choices(Fit best) {
     for (int round = 0; round < 2; ++round)  // a small one may show after a large one
       for (const Difference& choice : usual_choices()) {
-        if (best.differences.agree()) return best;
-        Suspect suspect = best.model->suspect;
+        if (best.agrees()) return best;
+        Model suspect{best.model->choices, best.model->mistake, best.model->samples};
         suspect.choices.push_back(choice);
-        const std::shared_ptr<const Model> model = known_model_of(suspect, best.model->samples);
+        const std::shared_ptr<const Model> model = known_model_of(suspect);
         if (!model) continue;
         Fit other = fit(model, best.reading);
-        if (other.differences.agree() || best.differences.left_by(other.differences) <= clear_improvement)
-          best = std::move(other);
+        if (other.agrees() || best.left_by(other) <= clear_improvement) best = std::move(other);
       }
     return best;
   }
 
   /// Of choices with or without a mistake; null: see samples_of(). Kept for other readings.
-  std::shared_ptr<const Model> known_model_of(const Suspect& suspect, double samples) {
+  std::shared_ptr<const Model> known_model_of(const Model& suspect) {
     std::string names;
     for (const Difference& choice : suspect.choices) names += " " + choice.name;
     const auto [known, is_new] = known_.try_emplace(names);
     if (is_new)
       if (const auto taken = samples_of(suspect, suspect.mistake.has_value()); !taken.empty())
-        known->second = model_of(suspect, taken, samples);
+        known->second = model_of(suspect, taken, suspect.samples);
     return known->second;
   }
 
   /// The program without mistakes that is closest to the picture.
   Fit best_right() {
     const Fit start = closest({}, right_readings_, samples_);
-    std::optional<Fit> best;
-    const auto rank = [](const Fit& fit) { return std::pair(!fit.differences.agree(), fit.differences.amount()); };
-    for (const Reading& reading : right_readings_) {
-      Fit found = with_choices(fit(start.model, reading));
-      if (!best || rank(found) < rank(*best)) best = std::move(found);
-    }
-    return *best;
+    std::vector<Fit> fits;
+    for (const Reading& reading : right_readings_) fits.push_back(with_choices(fit(start.model, reading)));
+    return *std::ranges::min_element(fits, {}, [](const Fit& fit) { return std::pair(!fit.agrees(), fit.amount()); });
   }
 
   /// What the findings say of the picture without mistakes.
   void describe(const Fit& right) {
-    const Misfit small = misfit_of(right.differences.small);
+    const Misfit small = misfit_of(right.small);
     findings_.blocks = small.blocks, findings_.different = small.different;
     findings_.curve = right.reading.curve, findings_.samples = right.model->samples;
-    findings_.choices = right.model->suspect.choices;
-    const bool agree = !findings_.unknown && right.differences.agree();
-    findings_.unseen = right.differences.unseen_light();
+    findings_.choices = right.model->choices;
+    const bool agree = !findings_.unknown && right.agrees();
+    findings_.unseen = right.unseen_light();
     findings_.too_few = agree && findings_.unseen > max_unseen;
     findings_.agrees = agree && !findings_.too_few;
     const double times = findings_.unseen / max_unseen;
     findings_.enough = std::ceil(findings_.samples * times * times);
-    findings_.objects = differing_objects(findings_.seen, right.differences.objects);
+    findings_.objects = differing_objects(findings_.seen, right.objects);
   }
 
   /// A wrong reading must be clearly better than the best right one.
   void try_readings(const Fit& right) {
     const Fit best = closest_reading(right.model, readings_of(picture_.coded, false));
-    if (best.differences.amount() >= clear_improvement * right.differences.amount()) return;
+    if (best.amount() >= clear_improvement * right.amount()) return;
     findings_.tried.push_back(mistake_of(best.reading));
-    findings_.tried.back().explained = right.differences.gone(best.differences);
+    findings_.tried.back().explained = right.gone(best);
   }
 
   /// The two lengths of paths by which the scene would be about as dark as the picture.
   std::vector<int> likely_depths(const Fit& right) const {
     double light = 0, expected = 0;
-    for (const CellDifference& cell : right.differences.whole)
-      light += cell.expected + cell.difference, expected += cell.expected;
+    for (const CellDifference& cell : right.whole) light += cell.expected + cell.difference, expected += cell.expected;
     const Numbers by_depth = light_by_depth(samples_);
     const int max_depth = std::min(static_cast<int>(by_depth.size()), start_.scene.render.max_depth);
     int above = 0;
@@ -274,7 +306,7 @@ class Search {
 
   /// Which right curve the picture has may only be seen together with the mistake: the best one counts.
   void try_mistake(const Fit& right, Difference mistake, bool in_time) {
-    const Suspect suspect{right.model->suspect.choices, mistake};
+    const Model suspect{right.model->choices, mistake};
     if (BookProgram program = start_; !mistake.apply(program)) return;
     const std::vector<BookSample> taken = samples_of(suspect, in_time);
     if (taken.empty()) {
@@ -283,10 +315,10 @@ class Search {
     }
     const auto model = model_of(suspect, taken, right.model->samples);
     mistake.reading = right.reading;
-    mistake.explained = right.differences.gone(fit(model, right.reading).differences);
+    mistake.explained = right.gone(fit(model, right.reading));
     for (const Reading& reading : right_readings_) {
       if (mistake.explained < promising) break;
-      const double part = right.differences.gone(fit(model, reading).differences);
+      const double part = right.gone(fit(model, reading));
       if (part > mistake.explained) mistake.explained = part, mistake.reading = reading;
     }
     findings_.tried.push_back(std::move(mistake));
@@ -298,7 +330,7 @@ class Search {
     for (std::size_t k = 0; k < std::min(max_looked_at, findings_.tried.size()); ++k) {
       Difference mistake = findings_.tried[k];
       if (findings_.untried > 0 || mistake.explained < promising) return;
-      const Suspect suspect{{}, mistake};
+      const Model suspect{{}, mistake};
       const std::vector<BookSample> taken = samples_of(suspect, true);
       if (taken.empty()) {
         ++findings_.untried;
@@ -306,9 +338,9 @@ class Search {
       }
       known_.clear();
       const Fit found = with_choices(closest(suspect, {mistake.reading}, taken));
-      mistake.explained = right.differences.gone(found.differences);
-      if (!found.differences.agree() || mistake.explained < promising) continue;
-      const Suspect innocent{found.model->suspect.choices, {}};
+      mistake.explained = right.gone(found);
+      if (!found.agrees() || mistake.explained < promising) continue;
+      const Model innocent{found.model->choices};
       const auto model = model_of(innocent, samples_of(innocent, false), found.model->samples);
       describe(fit(model, found.reading.is_right() ? found.reading : right.reading));
       if (!findings_.agrees && !findings_.too_few) findings_.mistake = mistake;
@@ -323,10 +355,10 @@ class Search {
   const std::function<bool()>& go_on_;
   std::vector<Reading> right_readings_;
   Regions small_, large_, whole_;
-  int count_ = 0;                         ///< samples that were taken of each pixel
-  std::vector<BookSample> samples_;       ///< of the program that renders the scene as it is
-  std::vector<SampleStatistics> single_;  ///< of these, as if the picture had one
-  std::map<Reading, LatticeLight> read_;  ///< the picture, as the right readings take it
+  int count_ = 0;                               ///< samples that were taken of each pixel
+  std::vector<BookSample> samples_;             ///< of the program that renders the scene as it is
+  std::vector<SampleStatistics> single_;        ///< of these, as if the picture had one
+  std::map<TransferCurve, LatticeLight> read_;  ///< the picture, as the right readings take it
   Findings findings_;
   std::map<std::string, std::shared_ptr<const Model>> known_;  ///< by the names of choices
 };

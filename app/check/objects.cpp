@@ -78,10 +78,9 @@ SeenObjects seen_objects(const Scene& scene, const Lattice& lattice) {
   const Kernels kernels = *choose_kernels("");
   SeenObjects seen{{{"the sky", "sky"}}, {}, {}};  // the media follow, and the others as they are seen
   for (const std::vector<int>& path : media_of(scene)) seen.objects.push_back(describe(scene, path));
-  std::map<std::int32_t, int> numbers;
+  std::map<std::int32_t, int> numbers{{-1, 0}};
   const auto number_of = [&](std::int32_t element) {
-    if (element < 0) return 0;
-    const std::int32_t object = view.elements.object[element];
+    const std::int32_t object = element < 0 ? -1 : view.elements.object[element];
     const auto [place, is_new] = numbers.try_emplace(object, static_cast<int>(seen.objects.size()));
     if (is_new) seen.objects.push_back(describe(scene, view.objects.path(object)));
     return place->second;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 namespace tyndall {
 namespace {
@@ -157,19 +158,16 @@ std::vector<Difference> usual_choices() {
 }
 
 Difference mistake_of(const Reading& r) {
-  struct Part {
-    bool wrong;
-    const char *name, *words;
-  };
-  const Part parts[] = {{r.upside_down && !r.mirrored, "upside-down", "the picture is upside down"},
-                        {!r.upside_down && r.mirrored, "mirrored", "the picture is mirrored, left and right"},
-                        {r.upside_down && r.mirrored, "upside-down+mirrored", "the picture is turned by 180 degrees"},
-                        {r.swapped, "red-blue", "red and blue have changed places"},
-                        {r.curve == TransferCurve::none, "no-gamma", "light is written without gamma"},
-                        {r.curve == TransferCurve::gamma2_twice, "gamma-twice", "gamma is applied twice"}};
+  const std::tuple<bool, const char*, const char*> parts[] = {
+      {r.upside_down && !r.mirrored, "upside-down", "the picture is upside down"},
+      {!r.upside_down && r.mirrored, "mirrored", "the picture is mirrored, left and right"},
+      {r.upside_down && r.mirrored, "upside-down+mirrored", "the picture is turned by 180 degrees"},
+      {r.swapped, "red-blue", "red and blue have changed places"},
+      {r.curve == TransferCurve::none, "no-gamma", "light is written without gamma"},
+      {r.curve == TransferCurve::gamma2_twice, "gamma-twice", "gamma is applied twice"}};
   std::vector<std::string> names, words;
-  for (const Part& part : parts)
-    if (part.wrong) names.emplace_back(part.name), words.emplace_back(part.words);
+  for (const auto& [wrong, name, said] : parts)
+    if (wrong) names.emplace_back(name), words.emplace_back(said);
   return {joined(names, "+"), joined(words, ", and "), [](BookProgram&) { return true; }, 0, r};
 }
 

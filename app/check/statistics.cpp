@@ -2,8 +2,6 @@
 
 #include "core/image/tonemap.h"
 
-#include <utility>
-
 namespace tyndall {
 namespace {
 
@@ -142,10 +140,9 @@ LatticeLight read_pixels(const PictureNumbers& picture, const Lattice& lattice, 
     for (int x = 0; x < picture.width; x += lattice.step) {
       const int column = reading.mirrored ? picture.width - 1 - x : x;
       const int row = reading.upside_down ? picture.height - 1 - y : y;
-      const auto at = 3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.width) +
-                           static_cast<std::size_t>(column));
-      for (std::size_t c = 0; c < 3; ++c) {
-        const float number = picture.numbers[at + (reading.swapped ? 2 - c : c)];
+      const float* numbers = picture.numbers.data() + 3 * (std::ptrdiff_t{row} * picture.width + column);
+      for (int c = 0; c < 3; ++c) {
+        const float number = numbers[reading.swapped ? 2 - c : c];
         pixels.light.push_back(static_cast<double>(light_of(reading.curve, number)));
         pixels.tolerance.push_back(static_cast<double>(tolerance_of(reading.curve, number, picture.step)));
       }
@@ -240,9 +237,7 @@ Misfit misfit_of(std::span<const CellDifference> differences) {
     const auto block = differences.first(3);
     if (block[0].pixels == 0) continue;
     ++misfit.blocks;
-    misfit.different += std::any_of(block.begin(), block.end(), [](const CellDifference& cell) {
-      return cell.beyond(noise_limit, cell.error) > 0;
-    });
+    misfit.different += std::ranges::any_of(block, [](auto& cell) { return cell.beyond(noise_limit, cell.error) > 0; });
   }
   return misfit;
 }
@@ -255,14 +250,14 @@ double amount_of(std::span<const CellDifference> differences, std::span<const Ce
   return amount;
 }
 
-std::vector<double> likely_counts(const LatticeLight& picture, const LatticeLight& reference,
-                                  const std::vector<BookSample>& samples, int count, const Regions& regions,
-                                  double white) {
+std::multimap<double, double> likely_counts(const LatticeLight& picture, const LatticeLight& reference,
+                                            const std::vector<BookSample>& samples, int count, const Regions& regions,
+                                            double white) {
   const Numbers noise = noise_of(picture, reference, regions, white);
   double black = 0;
   for (std::size_t at = 0; at < picture.light.size(); ++at)
     black += picture.light[at] <= std::max(max_black, picture.tolerance[at]) ? 1 : 0;
-  std::vector<std::pair<double, double>> likely;  // how far off the noise is, and samples
+  std::multimap<double, double> likely;
   for (int group = 1; 2 * group <= count; ++group) {
     const auto few = statistics_of(samples, count, {group, white});
     const double ratio = noise_ratio(means_of(regions, few, &SampleStatistics::noise), noise);
@@ -270,18 +265,15 @@ std::vector<double> likely_counts(const LatticeLight& picture, const LatticeLigh
     for (const SampleStatistics& number : few) more_black += number.black;
     if (ratio > 1 / noise_factor && ratio < noise_factor &&
         std::abs(more_black) < max_black_off * static_cast<double>(few.size()))
-      likely.emplace_back(std::abs(std::log(ratio)), group);
+      likely.emplace(std::abs(std::log(ratio)), group);
   }
   const auto many = statistics_of(samples, count, {count, white});
   const double told = median_noise_ratio(means_of(regions, many, &SampleStatistics::variance),
                                          means_of(regions, many, &SampleStatistics::excess), noise);
   for (const double factor : {1.0, 1 / 1.1, 1.1, 1 / 1.25, 1.25, 1 / 1.4, 1.4, 1 / 1.7, 1.7, 0.5, 2.0})
-    if (2 * factor * told > count) likely.emplace_back(std::abs(std::log(factor)), factor * told);
-  std::stable_sort(likely.begin(), likely.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<double> counts;
-  for (const auto& [off, of_picture] : likely) counts.push_back(of_picture);
-  if (counts.empty()) counts = {0};
-  return counts;
+    if (2 * factor * told > count) likely.emplace(std::abs(std::log(factor)), factor * told);
+  if (likely.empty()) likely = {{0, 0}};
+  return likely;
 }
 
 }  // namespace tyndall

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,7 +29,6 @@ struct Reading {
   bool swapped = false;                        ///< red and blue have changed places
   /// Whether it holds no mistake.
   bool is_right() const { return curve < TransferCurve::none && !upside_down && !mirrored && !swapped; }
-  auto operator<=>(const Reading&) const = default;  // NOLINT(modernize-use-nullptr): means the comparison with 0
 };
 
 /// The readings that are tried for a picture, the right ones or those with mistakes.
@@ -175,64 +174,11 @@ Misfit misfit_of(std::span<const CellDifference> differences);
 /// noisier.
 double amount_of(std::span<const CellDifference> differences, std::span<const CellDifference> other);
 
-/// How the means of a picture differ from what is expected.
-struct Differences {
-  std::vector<CellDifference> small, large, objects;  ///< of small blocks, of large ones, of the objects seen
-  std::vector<CellDifference> all;                    ///< these three, one behind the other
-  std::vector<CellDifference> whole;                  ///< of the picture
-
-  double amount() const { return amount_of(all, all); }
-
-  /// Whether the small blocks differ by noise alone. The noise of few samples is no normal distribution: so now and
-  /// then one of them is beyond noise_limit.
-  bool agree_in_blocks() const {
-    constexpr double max_different = 1 / 150.0;
-    const Misfit misfit = misfit_of(small);
-    return misfit.different <= max_different * misfit.blocks;
-  }
-
-  /// Whether all of them do.
-  bool agree() const {
-    return agree_in_blocks() && misfit_of(large).different == 0 && misfit_of(objects).different == 0 &&
-           misfit_of(whole).different == 0;
-  }
-
-  /// How much of the differences is left with `now` in place of these, as far as the two differ at all.
-  double left_by(const Differences& now) const {
-    double before = 0, after = 0;
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      const CellDifference &a = all[k], &b = now.all[k];
-      const double error = std::max(a.error, b.error);
-      if (a.pixels == 0 || std::abs(a.difference - b.difference) <= a.tolerance + 2 * error) continue;
-      const double weight = a.pixels / a.tolerance;
-      before += weight * std::max(0.0, std::abs(a.difference) - 2 * error);
-      after += weight * std::max(0.0, std::abs(b.difference) - 2 * error);
-    }
-    return before > 0 ? after / before : 1;
-  }
-
-  /// How much of the differences is gone; nothing, if `after` is so noisy that little of them could be seen beside its
-  /// noise.
-  double gone(const Differences& after) const {
-    constexpr double min_seen = 0.25;
-    const double seen = amount_of(all, after.all);
-    return seen > min_seen * amount() ? 1 - amount_of(after.all, all) / seen : 0;
-  }
-
-  /// Fraction of the light by which the whole may be off without that it is seen.
-  double unseen_light() const {
-    double light = 0, unseen = 0;
-    for (const CellDifference& channel : whole)
-      light += channel.expected, unseen += channel.tolerance + noise_limit * channel.error;
-    return light > 0 ? unseen / light : 0;
-  }
-};
-
 /// The numbers of samples a pixel that a picture's noise may stand for if a program with these samples, `count` of each
-/// pixel, has made it, the likeliest first; 0: not known. White makes few samples show as little noise as many, so that
-/// there may be several. reference: the picture without noise, and the variance of that.
-std::vector<double> likely_counts(const LatticeLight& picture, const LatticeLight& reference,
-                                  const std::vector<BookSample>& samples, int count, const Regions& regions,
-                                  double white);
+/// pixel, has made it, by how far off the noise is; 0: not known. White makes few samples show as little noise as many,
+/// so that there may be several. reference: the picture without noise, and the variance of that.
+std::multimap<double, double> likely_counts(const LatticeLight& picture, const LatticeLight& reference,
+                                            const std::vector<BookSample>& samples, int count, const Regions& regions,
+                                            double white);
 
 }  // namespace tyndall

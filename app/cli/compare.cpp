@@ -26,7 +26,6 @@ std::optional<Check> check_against_scene(const CommandRequest& command) {
     const ProgramSources& sources = command.scene.program.sources;
     const bool of_scene = command.seconds || !command.scene.overrides.empty() || !sources.include_folders.empty() ||
                           !sources.files.empty();
-    check_names_picture(command.reference.string());
     if (of_scene) refuse("--time, --set, -I and further files need a scene in place of REFERENCE");
     return {};
   }
@@ -118,10 +117,10 @@ int compare_with_baseline(const CommandRequest& command) {
   check_outputs(outputs, inputs);
   check_can_write(outputs);
   if (command.update) {
-    const BaselineUpdate update = update_baseline(command.baseline);
+    const NamedPictures kept = update_baseline(command.baseline);
     std::string text;
-    for (const std::string& name : update.names) text += all_printable(name) + "  kept\n";
-    for (const std::string& note : update.notes) complain(note);
+    for (const auto& [name, file] : kept.files) text += all_printable(name) + "  kept\n";
+    for (const std::string& note : kept.notes) complain(note);
     write_standard_output(text);
     return 0;
   }

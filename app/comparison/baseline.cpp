@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <map>
 
 namespace tyndall {
 namespace {
@@ -24,20 +23,12 @@ using Json = nlohmann::ordered_json;
 /// The endings of pictures' names, for messages.
 constexpr const char* picture_endings = ".png .exr .pfm .hdr .ppm .pgm .jpg .jpeg .bmp .tga";
 
-/// Pictures by name, with what is to be said of the folders that they are in, a line each.
-struct Pictures {
-  /// Names from the folder on, with "/" between them: "box.png", "fog/thin.exr". Those in the baseline that should be
-  /// there and are not have an empty path.
-  std::map<std::string, fs::path> files;
-  std::vector<std::string> notes;
-};
-
 constexpr char tolerances_name[] = "tolerances.json";
 
 /// The pictures in a folder, those in folders within it included. Links are followed, but for those that lead back to a
 /// folder around them. without: folders that are not gone into. Throws IoError for a folder that cannot be read.
-Pictures pictures_in(const fs::path& folder, const std::vector<fs::path>& without) {
-  Pictures found;
+NamedPictures pictures_in(const fs::path& folder, const std::vector<fs::path>& without) {
+  NamedPictures found;
   std::vector<std::string> others, loops;  // others: no pictures by their names; those that begin with "." go untold
   fs::path at = folder;
   std::error_code error, ignored;  // what cannot be looked at is no folder, and as a picture it fails
@@ -78,8 +69,7 @@ Tolerance read_limits(const fs::path& file, const std::string& picture, const Js
   Tolerance limits;
   if (!json.is_object()) refuse(file, "no object for " + in_quotes(picture), "{\"max_flip\": 0.02}");
   for (const auto& [key, value] : json.items()) {
-    const auto* known = std::find_if(std::begin(tolerance_keys), std::end(tolerance_keys),
-                                     [&k = key](const auto& e) { return k == e.first; });
+    const auto* known = std::ranges::find_if(tolerance_keys, [&k = key](const auto& e) { return k == e.first; });
     if (known == std::end(tolerance_keys)) refuse(file, in_quotes(key), "max_rmse, max_relmse, max_flip or max_z");
     if (!value.is_number() || !(value.get<double>() >= 0)) refuse(file, value.dump() + " for " + key, "a number >= 0");
     limits.*known->second = value.get<double>();
@@ -111,8 +101,8 @@ void write_tolerances(const fs::path& folder, const std::map<std::string, Tolera
   write_text_file(folder / tolerances_name, json.dump(2) + "\n");
 }
 
-Pictures pictures_of(const BaselineRequest& request) {
-  Pictures pictures;
+NamedPictures pictures_of(const BaselineRequest& request) {
+  NamedPictures pictures;
   const auto add = [&files = pictures.files](const std::string& name, const fs::path& file) {
     const auto [at, fresh] = files.emplace(name, file);
     if (!fresh) refuse(file, "another picture of the name of " + at->second.string(), "each name once");
@@ -127,7 +117,7 @@ Pictures pictures_of(const BaselineRequest& request) {
       continue;
     }
     whole = true;
-    const Pictures found = pictures_in(image, {request.folder});
+    const NamedPictures found = pictures_in(image, {request.folder});
     for (const auto& [name, file] : found.files) add(name, file);
     pictures.notes.insert(pictures.notes.end(), found.notes.begin(), found.notes.end());
   }
@@ -218,7 +208,7 @@ BaselineCheck check_baseline(const BaselineRequest& request) {
   if (!fs::is_directory(request.folder, error))
     refuse(request.folder, "no such folder", "a baseline; --update makes one");
   const auto tolerances = read_tolerances(request.folder);
-  const Pictures found = pictures_of(request);
+  const NamedPictures found = pictures_of(request);
   BaselineCheck result{{}, found.notes};
   bool has_ppm = false;
   for (const auto& [name, image] : found.files) {
@@ -236,11 +226,10 @@ BaselineCheck check_baseline(const BaselineRequest& request) {
   return result;
 }
 
-BaselineUpdate update_baseline(const BaselineRequest& request) {
-  Pictures found = pictures_of(request);
-  BaselineUpdate update{{}, found.notes};
+NamedPictures update_baseline(const BaselineRequest& request) {
+  NamedPictures found = pictures_of(request);
   for (const auto& [name, image] : found.files)
-    if (image.empty()) update.notes.push_back(name + ": not rendered this time; the baseline keeps what it has");
+    if (image.empty()) found.notes.push_back(name + ": not rendered this time; the baseline keeps what it has");
   std::erase_if(found.files, [](const auto& picture) { return picture.second.empty(); });
   if (found.files.empty())
     refuse(request.images.front(), "no picture",
@@ -254,13 +243,12 @@ BaselineUpdate update_baseline(const BaselineRequest& request) {
     if (request.limits.z) read_noisy_image(image, {0, 0, picture.image.width, picture.image.height});
     has_ppm = has_ppm || picture.kind == ImageKind::ppm;
     tolerances[key_of(name)] = chosen(request.limits, tolerances, name);
-    update.names.push_back(name);
   }
   check_gamma2(request.ppm, has_ppm);
   const auto copies = copies_of(found.files, request.folder);
   write_tolerances(request.folder, tolerances);
   copy_all(copies);
-  return update;
+  return found;
 }
 
 }  // namespace tyndall

@@ -1,6 +1,8 @@
 #pragma once
 #include "app/comparison/comparison.h"
 
+#include <map>
+
 /// A folder of pictures that renders should go on looking like, for other people's tests: each with its tolerances.
 ///
 /// The folder holds the pictures by name and the file tolerances.json:
@@ -35,6 +37,14 @@ struct BaselineRequest {
   PpmCurve ppm = PpmCurve::srgb;  ///< how PPM files are read
 };
 
+/// Pictures by name, with what is to be said of the folders that they are in, a line each.
+struct NamedPictures {
+  /// Names from the folder on, with "/" between them: "box.png", "fog/thin.exr". Those in the baseline that should be
+  /// there and are not have an empty path.
+  std::map<std::string, std::filesystem::path> files;
+  std::vector<std::string> notes;
+};
+
 struct BaselineCheck {
   std::vector<CheckedPicture> pictures;  ///< never empty: where there is nothing to compare, that is a failure
   std::vector<std::string> notes;        ///< what was left out of folders and why, a line each
@@ -45,15 +55,11 @@ struct BaselineCheck {
 /// without a PPM.
 BaselineCheck check_baseline(const BaselineRequest& request);
 
-struct BaselineUpdate {
-  std::vector<std::string> names;  ///< of the pictures that are kept now
-  std::vector<std::string> notes;  ///< what was left out, and what the baseline keeps from before, a line each
-};
-
 /// Copies the pictures into the folder and keeps the limits as their tolerances; where none are given, those that are
 /// kept stay. Looks at all pictures first: where one cannot be read, or has values that are not finite, or no noise
-/// though a limit asks for it, or there is none, nothing is changed. Throws UsageError, IoError, ImageFileError.
-BaselineUpdate update_baseline(const BaselineRequest& request);
+/// though a limit asks for it, or there is none, nothing is changed. Returns the pictures that are kept now, and what
+/// the baseline keeps from before among the notes. Throws UsageError, IoError, ImageFileError.
+NamedPictures update_baseline(const BaselineRequest& request);
 
 /// One page with everything in it: numbers, both pictures behind a slider, the map of FLIP; and beside it the numbers
 /// for programs, in a file of the same name that ends in .json. ppm: how PPM files are read. Throws ImageFileError.

@@ -196,8 +196,7 @@ Comparison compare_images(const Path& image, const Path& reference, PpmCurve ppm
 }
 
 std::string noise_text(const NoiseScores& s) {
-  std::string text =
-      fmt::format("means {:.3g}, blocks {:.3g}", *std::max_element(s.mean_z.begin(), s.mean_z.end()), s.block_z);
+  std::string text = fmt::format("means {:.3g}, blocks {:.3g}", std::ranges::max(s.mean_z), s.block_z);
   if (s.compares_outliers) text += fmt::format(", outliers {:.3g}", s.outlier_z);
   text += fmt::format(" standard errors, corrected for {} blocks", s.blocks);
   if (s.unclear_blocks > 0)

@@ -50,7 +50,7 @@ std::vector<Row> rows_of(const CheckedPicture& picture) {
   const Tolerance& limits = picture.limits;
   std::vector<Row> rows;
   if (c.noise) {
-    rows = {{"mean_z", "z of the means", *std::max_element(c.noise->mean_z.begin(), c.noise->mean_z.end()), limits.z},
+    rows = {{"mean_z", "z of the means", std::ranges::max(c.noise->mean_z), limits.z},
             {"block_z", "z of the blocks", c.noise->block_z, limits.z}};
     if (c.noise->compares_outliers) rows.push_back({"outlier_z", "z of outliers", c.noise->outlier_z, limits.z});
   }
@@ -91,7 +91,7 @@ std::string commands_of(const CheckedPicture& picture) {
 
 std::string pictures_of(const CheckedPicture& picture, PpmCurve ppm) {
   const Comparison& c = *picture.comparison;
-  const LinearImage flip = heat_colours(c.flip_map, c.width, c.height);
+  const LinearImage flip = heat_map(c.flip_map, c.width, c.height, false);
   const PicturePair pair = read_pair(picture.image, picture.reference, ppm);
   return from_template("report_pair.html", {{"baseline", data_of(pair.reference.pixels)},
                                             {"rendered", data_of(pair.image.pixels)},
@@ -189,15 +189,12 @@ std::string junit_report(const std::vector<CheckedPicture>& pictures) {
   double seconds = 0;
   std::string cases;
   for (const CheckedPicture& picture : pictures) {
-    seconds += picture.seconds;
+    const bool good = picture.failures.empty();
+    failed += good ? 0 : 1, seconds += picture.seconds;
     cases += fmt::format("  <testcase classname=\"pictures\" name=\"{}\" time=\"{:.3f}\"", in_xml(picture.name),
                          picture.seconds);
-    if (picture.failures.empty()) {
-      cases += "/>\n";
-      continue;
-    }
-    ++failed;
-    cases += ">\n    <failure message=\"" + in_xml(joined(picture.failures, "; ")) + "\"/>\n  </testcase>\n";
+    cases +=
+        good ? "/>\n" : ">\n    <failure message=\"" + in_xml(joined(picture.failures, "; ")) + "\"/>\n  </testcase>\n";
   }
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"tyndall compare\" tests=\"{}\" failures=\"{}\" "

@@ -152,8 +152,6 @@ std::string chart_table(const Chart& chart) {
   return out;
 }
 
-std::filesystem::path csv_beside(std::filesystem::path svg) { return svg.replace_extension(".csv"); }
-
 void write_chart(const Chart& chart, const std::filesystem::path& svg) {
   std::string problem;
   for (const auto& [file, text] : {std::pair(csv_beside(svg), chart_csv(chart)), std::pair(svg, chart_svg(chart))})

@@ -66,7 +66,7 @@ std::string chart_table(const Chart& chart);
 std::string chart_svg(const Chart& chart);
 
 /// The table that is written beside a chart: the same name, ending in .csv.
-std::filesystem::path csv_beside(std::filesystem::path svg);
+inline std::filesystem::path csv_beside(std::filesystem::path svg) { return svg.replace_extension(".csv"); }
 
 /// Writes the table and the drawing. svg: name of the drawing. Throws ImageFileError if one of them cannot be written.
 void write_chart(const Chart& chart, const std::filesystem::path& svg);

@@ -33,10 +33,6 @@ std::optional<double> seconds_to(const ErrorCurve& curve, double rel_mse) {
   return value_between(a.seconds, b.seconds, part_between(a.rel_mse, b.rel_mse, rel_mse));
 }
 
-double seconds_left(double target, const ErrorPoint& known, double seconds) {
-  return std::max(0.0, known.seconds * known.rel_mse / (target * target) - seconds);
-}
-
 std::optional<double> speed_against(const ErrorCurve& first, const ErrorCurve& curve) {
   if (first.points.empty() || curve.points.empty()) return {};
   const double error = std::max(first.points.back().rel_mse, curve.points.back().rel_mse);
@@ -44,8 +40,6 @@ std::optional<double> speed_against(const ErrorCurve& first, const ErrorCurve& c
   if (!(error > 0) || !slow || !fast) return {};
   return *slow / *fast;
 }
-
-double min_measurable(double reference_noise) { return 4 * reference_noise; }
 
 std::optional<double> bias_of(const ErrorCurve& curve, double reference_noise) {
   if (curve.points.size() < 4) return {};
@@ -60,7 +54,7 @@ std::optional<double> bias_of(const ErrorCurve& curve, double reference_noise) {
   return stays && bias > min_measurable(reference_noise) ? std::optional(bias) : std::nullopt;
 }
 
-std::string method_of(const RenderSettings& settings) {
+std::string method_of(const RenderSettings& settings, const RenderSettings& file) {
   std::string method = std::string(name_of(settings.integrator)) + " · " + name_of(settings.sampler);
   const RenderSettings usual{settings.max_depth, settings.spp, settings.integrator, settings.sampler};
   const auto add = [&]<class T>(const Field<RenderSettings, T>& field) {
@@ -70,11 +64,6 @@ std::string method_of(const RenderSettings& settings) {
     if constexpr (std::is_same_v<T, bool>) method += std::string(value ? " · " : " · no ") + field.name;
   };
   std::apply([&](const auto&... field) { (add(field), ...); }, fields_of<RenderSettings>());
-  return method;
-}
-
-std::string method_of(const RenderSettings& settings, const RenderSettings& file) {
-  std::string method = method_of(settings);
   if (settings.max_depth != file.max_depth) method += " · depth " + std::to_string(settings.max_depth);
   if (settings.seed != file.seed) method += " · seed " + std::to_string(settings.seed);
   return method;

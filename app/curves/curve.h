@@ -38,7 +38,9 @@ std::optional<double> seconds_to(const ErrorCurve& curve, double rel_mse);
 
 /// How many seconds more to render, `seconds` having passed, until the relative error (the root of relMSE) is `target`,
 /// if relMSE goes on falling as 1/time from a known point. 0 when it should be there already.
-double seconds_left(double target, const ErrorPoint& known, double seconds);
+inline double seconds_left(double target, const ErrorPoint& known, double seconds) {
+  return std::max(0.0, known.seconds * known.rel_mse / (target * target) - seconds);
+}
 
 /// How many times less time a curve takes than the first one to reach the lowest error that both reach; nothing if
 /// there is no such error. Another error can give another answer: for example, Sobol' points gain more on random
@@ -47,7 +49,7 @@ std::optional<double> speed_against(const ErrorCurve& first, const ErrorCurve& c
 
 /// Errors below this one would be mostly the reference's own noise. reference_noise: relMSE of the reference; 0: not
 /// known.
-double min_measurable(double reference_noise);
+inline double min_measurable(double reference_noise) { return 4 * reference_noise; }
 
 /// The error that stays although the samples double: what noise does not explain in the last points. Nothing where it
 /// cannot be told from noise, the picture's or the reference's.
@@ -71,9 +73,8 @@ inline Decades decades_around(double minimum, double maximum, int count) {
   return {first, std::max(static_cast<int>(std::ceil(std::log10(maximum))), first + count)};
 }
 
-/// "mis · sobol", with "· schlick" where that approximation is on.
-std::string method_of(const RenderSettings& settings);
-/// The same, with depth and seed where they are not those of the file.
+/// "mis · sobol", with "· schlick" where that approximation is on, and depth and seed where they are not those of the
+/// file.
 std::string method_of(const RenderSettings& settings, const RenderSettings& file);
 
 /// The curve of the newest edit while it grows, and those of earlier edits that are worth a comparison.

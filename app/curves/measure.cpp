@@ -55,20 +55,13 @@ ErrorCurve measure_curve(Scene scene, const ChartMethod& method, const ChartRefe
   GrowingPicture picture{method.splits ? prepare(scene) : prepare_without_splitting(scene), run};
   picture.options.isa = method.isa, picture.options.clean = method.clean;
   ErrorCurve curve{method.name, {}};
-  const auto add = [&](double at, std::uint32_t spp, const std::vector<float>& rgb, double relative_error) {
-    curve.points.push_back(
-        {at, relative_mse(rgb, reference.image.rgb) - reference.noise, spp, squared(relative_error)});
-  };
   for (std::uint32_t spp = 1; spp < (1u << 22) && picture.grow(spp); spp *= 2) {
     const std::optional<CleanPicture>& clean = picture.result.clean;
     if (method.clean && !clean) continue;
-    if (clean) {
-      add(picture.seconds + picture.result.seconds_clean, spp, clean->rgb, clean->relative_error);
-    } else {
-      const FinishedPicture now = finished_picture(*picture.scene, picture.result);
-      add(picture.seconds, spp, now.image.rgb, now.estimate.relative_error);
-    }
-    const double measured = curve.points.back().rel_mse + reference.noise;
+    const FinishedPicture now = finished_picture(*picture.scene, picture.result);
+    const double measured = relative_mse(clean ? clean->rgb : now.image.rgb, reference.image.rgb);
+    curve.points.push_back({picture.seconds + picture.result.seconds_clean, measured - reference.noise, spp,
+                            squared(clean ? clean->relative_error : now.estimate.relative_error)});
     if (measured < min_measurable(reference.noise) || 2 * picture.seconds > seconds * 1.4) break;
   }
   return curve;

@@ -165,12 +165,9 @@ std::string find_font(const std::string& file) {
 
 Size sheet_cell(int width, int height, int columns) {
   const int max_width = std::max(1, max_sheet_width / columns);
-  if (width >= min_cell_width || max_width < 2 * width) {
-    const int cell = std::min(width, max_width);
-    return {cell, std::max(1, static_cast<int>(std::lround(static_cast<double>(height) * cell / width)))};
-  }
-  const int factor = std::min((min_cell_width + width - 1) / width, max_width / width);
-  return {width * factor, height * factor};
+  const int factor = std::max(1, std::min((min_cell_width + width - 1) / width, max_width / width));
+  const int cell = std::min(width * factor, max_width);
+  return {cell, std::max(1, static_cast<int>(std::lround(static_cast<double>(height) * cell / width)))};
 }
 
 int sheet_columns(int width, int height, int count) {

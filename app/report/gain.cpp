@@ -47,8 +47,7 @@ double sum_of(Vec3f v) { return static_cast<double>(v.x) + static_cast<double>(v
 }  // namespace
 
 KernelGain measure_kernel_gain(const PreparedScene& scene, const Kernels& kernels) {
-  KernelGain result;
-  result.isa = kernels.isa;
+  KernelGain result{kernels.isa};
   if (kernels.set_for(scene.view()) == KernelSet::everything) return result;
   RenderScene columns = scene.columns();
   columns.kernel = KernelSet::everything;
@@ -100,12 +99,8 @@ FilmDifference film_difference(const Film& film, const Film& reference) {
   };
   for (const double group : group_sums(film, film.region, deviation)) group_noise += group * group;
   const double values = 3.0 * static_cast<double>(film.pixels.size());
-  FilmDifference difference;
-  difference.mean = sum / values;
-  difference.rms = std::sqrt(std::max(0.0, squares / values));
-  if (!whole) return difference;
-  difference.mean_error = std::sqrt(group_noise) / values;
-  difference.rms_error = std::sqrt(noise / values);
+  FilmDifference difference{.mean = sum / values, .rms = std::sqrt(std::max(0.0, squares / values))};
+  if (whole) difference.mean_error = std::sqrt(group_noise) / values, difference.rms_error = std::sqrt(noise / values);
   return difference;
 }
 

@@ -45,17 +45,13 @@ void draw_scale(LinearImage& image, int top) {
 
 }  // namespace
 
-LinearImage heat_colours(const std::vector<float>& values, int width, int height) {
+LinearImage heat_map(const std::vector<float>& values, int width, int height, bool with_scale) {
   LinearImage image{width, height, {}};
   for (const float value : values) {
     const auto colour = heat(value);
     image.rgb.insert(image.rgb.end(), colour.begin(), colour.end());
   }
-  return image;
-}
-
-LinearImage heat_map(const std::vector<float>& values, int width, int height) {
-  LinearImage image = heat_colours(values, width, height);
+  if (!with_scale) return image;
   image.height += heat_scale_rows;
   image.rgb.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(image.height));
   draw_scale(image, height);

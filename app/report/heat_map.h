@@ -10,11 +10,9 @@ namespace tyndall {
 /// Rows beneath a heat map for its scale.
 inline constexpr int heat_scale_rows = 26;
 
-/// The values in colour, and beneath them the scale from 0 to 1, marked at 0, 0.5 and 1. values: width x height, top
-/// row first.
-LinearImage heat_map(const std::vector<float>& values, int width, int height);
-/// The same without the scale.
-LinearImage heat_colours(const std::vector<float>& values, int width, int height);
+/// The values in colour, and beneath them the scale from 0 to 1, marked at 0, 0.5 and 1, if it is wanted. values: width
+/// x height, top row first.
+LinearImage heat_map(const std::vector<float>& values, int width, int height, bool with_scale = true);
 
 /// Black, violet, red, orange, white, linear RGB: brighter all the way, so that it also reads in grey. value in [0, 1],
 /// clipped; green for what is not a number.

@@ -115,15 +115,11 @@ NoisyPath find_noisy_path(const SceneView& scene, int x, int y, std::uint32_t sa
 std::vector<PathStop> stops_of(const Scene& scene, const RenderScene& compiled, const PathReplay& path) {
   std::vector<PathStop> stops;
   for (const PathVertex& v : path.vertices) {
-    PathStop stop;
-    stop.before = v.before;
-    stop.away = v.met == Met::nothing;
-    stop.point = stop.away ? to_double(v.direction) : to_double(v.point) + compiled.origin;
-    const bool continues = v.before >= 0 && !v.branch;
+    const bool away = v.met == Met::nothing, continues = v.before >= 0 && !v.branch;
     const Vec3f gained =
         v.radiance - (continues ? path.vertices[static_cast<std::size_t>(v.before)].radiance : Vec3f{});
-    stop.light = luminance(gained) > 0;
-    stop.text = branch_text(v) + vertex_text(scene, compiled, v);
+    PathStop stop{away ? to_double(v.direction) : to_double(v.point) + compiled.origin, v.before, away,
+                  branch_text(v) + vertex_text(scene, compiled, v), luminance(gained) > 0};
     if (stop.light)
       stop.text += fmt::format(", light {:.3g} {:.3g} {:.3g}", static_cast<double>(gained.x),
                                static_cast<double>(gained.y), static_cast<double>(gained.z));

@@ -102,7 +102,7 @@ std::vector<StatusCell> status_cells(const Context& context, const Scene& scene)
     if (frame->cut_throughput > notable_cut) cells.push_back({"cut off", percent(frame->cut_throughput), 1, true});
   }
   if (context.has_scene)
-    cells.push_back({"", method_of(scene.render), 4, scene.render.fresnel == FresnelKind::schlick});
+    cells.push_back({"", method_of(scene.render, scene.render), 4, scene.render.fresnel == FresnelKind::schlick});
   cells.push_back({context.origin->title, context.has_scene && context.edited ? "edited" : "", 2});
   return cells;
 }

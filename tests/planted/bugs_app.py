@@ -28,7 +28,7 @@ APP = [
     ("one file is written twice", "app/files/outputs.cpp", "if («twin != output → false») throw UsageError", "app/files/outputs commands/refusals"),
     ("memory for films that are read beside the sum is not counted", "app/files/memory.cpp", "part = «plan.parts ? film : 0 → 0»;", "app/files/memory"),
 
-    ("the time that is left grows with the error, not its square", "app/curves/curve.cpp",
+    ("the time that is left grows with the error, not its square", "app/curves/curve.h",
      "known.rel_mse / («target * target → target»)", "app/curves/chart app/curves/chart"),
     ("noise of heavy tails passes as bias", "app/curves/curve.cpp", "bias > «0.7 → 0.0» * rest(*before)", "app/curves/chart app/curves/chart"),
     ("how many times slower, not faster", "app/curves/curve.cpp", "return «*slow / *fast → *fast / *slow»;", "app/curves/chart"),
@@ -199,9 +199,9 @@ APP = [
      "«if (options.spp > max_samples) refuse(fmt::format(\"spp: found {}, expected at most {}\", options.spp, max_samples)); → »", "commands/installed"),
     ("options of an older header are read behind their end", "app/watch/watch.cpp", "std::memcpy(&options, given, «std::min(given->size, sizeof options) → sizeof options»);", "commands/installed"),
 
-    ("swapped red and blue are not tried", "app/check/statistics.cpp", "picture.numbers[at + («reading.swapped ? 2 - c : c → c»)];", "app/check/explain"),
+    ("swapped red and blue are not tried", "app/check/statistics.cpp", "numbers[«reading.swapped ? 2 - c : c → c»];", "app/check/explain"),
     ("a mean product in place of a covariance", "app/check/statistics.h", "(products - «a * b / count → 0.0») / (count - 1)", "app/check/explain"),
-    ("what a mistake explains is what it adds", "app/check/statistics.h",
+    ("what a mistake explains is what it adds", "app/check/explain.cpp",
      "return seen > min_seen * amount() ? 1 - «amount_of(after.all, all) → amount_of(all, after.all)» / seen : 0;", "app/check/explain"),
     ("a picture of too few samples agrees", "app/check/explain.cpp", "findings_.too_few = agree && «findings_.unseen > max_unseen → false»;", "app/check/explain"),
     ("light of a depth alone, not up to it", "app/check/statistics.cpp", "for (std::size_t k = 1; k < light.size(); ++k) «light[k] += light[k - 1]; → »",

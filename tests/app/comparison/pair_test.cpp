@@ -136,7 +136,7 @@ TEST_CASE("baseline: layers of EXR files, and parts of pictures") {
       folder / "a.exr", exr_header(display, {3, 2, 9, 6}),
       constant_channels({{"R", 1}, {"G", 1}, {"B", 1}, {"x.Combined.R", 2}, {"x.Combined.G", 2}, {"x.Combined.B", 2}}));
   BaselineRequest request{folder / "base", {folder / "a.exr:x.Combined"}, {}};
-  CHECK(update_baseline(request).names == std::vector<std::string>{"a.exr:x.Combined"});
+  CHECK(update_baseline(request).files == std::map<std::string, fs::path>{{"a.exr:x.Combined", request.images[0]}});
   CHECK(fs::exists(folder / "base" / "a.exr"));
   const auto checked = check_baseline(request).pictures;
   REQUIRE(checked.size() == 1);
