@@ -81,17 +81,17 @@ struct ViewerStream::Shared {
   Clock::time_point taken = Clock::now();  ///< when the viewer last took something
   std::string problem{};
 
-  bool connect();
-  bool send(Packet packet);
-  bool send_frame(const ViewerFrame& frame);
-  bool goes_on(Sent sent);
+  // These throw an IoError where the viewer fails, or the caller has asked for the end.
+  void connect();
+  void send(Packet packet);
+  void send_frame(const ViewerFrame& frame);
+
   /// The end, of which the caller is told unless it has asked for it.
-  bool fail(const std::string& why) {
+  void fail(const std::string& why) {
     const std::lock_guard lock(mutex);
     if (!stop) problem = text_of(address) + ": " + why;
     state = State::ended;
     changed.notify_all();
-    return false;
   }
   void set(State now) {
     const std::lock_guard lock(mutex);
@@ -100,57 +100,50 @@ struct ViewerStream::Shared {
   }
 };
 
-/// Whether to send further.
-bool ViewerStream::Shared::goes_on(Sent sent) {
-  std::unique_lock lock(mutex);
-  if (stop) return false;
-  if (sent == Sent::some) taken = Clock::now();
-  const bool silent = Clock::now() - taken > silence;
-  lock.unlock();
-  if (sent == Sent::closed) return fail(closed);
-  return !silent || fail("the viewer has taken nothing for 10 s");
-}
-
-bool ViewerStream::Shared::send(Packet packet) {
+void ViewerStream::Shared::send(Packet packet) {
   const std::string& bytes = packet.finished();
-  for (std::size_t done = 0; done < bytes.size();)
-    if (!goes_on(send_some(viewer, bytes.data(), bytes.size(), done))) return false;
-  return true;
+  for (std::size_t done = 0; done < bytes.size();) {
+    const Sent sent = send_some(viewer, bytes.data(), bytes.size(), done);
+    const std::lock_guard lock(mutex);
+    if (sent == Sent::closed) throw IoError(closed);
+    if (sent == Sent::some) taken = Clock::now();
+    if (stop || Clock::now() - taken > silence) throw IoError("the viewer has taken nothing for 10 s");
+  }
 }
 
-bool ViewerStream::Shared::connect() {
+void ViewerStream::Shared::connect() {
   std::string why;
   const auto waits = [this] {
     const std::lock_guard lock(mutex);
     return !stop;
   };
   viewer = connect_to(address.host, address.port, waits, why);
-  if (!viewer) return !why.empty() && fail(why);
+  if (!viewer) throw IoError(why);
   set(State::sending);
   Packet create(PacketType::create_image, name);
   create.add(width, height);
   create.add_channels();
-  return send(std::move(create));
+  send(std::move(create));
 }
 
-bool ViewerStream::Shared::send_frame(const ViewerFrame& frame) {
+void ViewerStream::Shared::send_frame(const ViewerFrame& frame) {
   const auto row_bytes = viewer_channel_count * sizeof(float) * static_cast<std::size_t>(frame.region.width());
   const int rows = std::max(1, static_cast<int>(band_bytes / row_bytes));
   for (int y = frame.region.y0; y < frame.region.y1; y += rows) {
     Packet packet(PacketType::update_image_v3, name);
     packet.add_channels();
     packet.add_rows(frame, y, std::min(y + rows, frame.region.y1));
-    if (!send(std::move(packet))) return false;
+    send(std::move(packet));
   }
-  return true;
 }
 
-/// Does a piece of work on a thread that nobody waits for; false: it has failed.
-void ViewerStream::start(std::function<bool(Shared&)> work) {
+/// Does a piece of work on a thread that nobody waits for.
+void ViewerStream::start(std::function<void(Shared&)> work) {
   try {
     std::thread([shared = shared_, work = std::move(work)] {
       try {
-        if (work(*shared)) shared->set(Shared::State::idle);
+        work(*shared);
+        shared->set(Shared::State::idle);
       } catch (const std::exception& error) {
         shared->fail(error.what());
       }
@@ -162,7 +155,7 @@ void ViewerStream::start(std::function<bool(Shared&)> work) {
 
 ViewerStream::ViewerStream(const ViewerAddress& address, const std::string& name, int width, int height)
     : shared_(new Shared{address, all_printable(name), width, height, {}, {}}) {
-  start([](Shared& its) { return its.connect(); });
+  start([](Shared& its) { its.connect(); });
 }
 
 ViewerStream::~ViewerStream() {
@@ -175,12 +168,14 @@ bool ViewerStream::ready() const {
     const std::lock_guard lock(shared_->mutex);
     if (shared_->state != Shared::State::idle) return false;
   }
-  return !is_closed_by_other(shared_->viewer) || shared_->fail(closed);
+  const bool gone = is_closed_by_other(shared_->viewer);
+  if (gone) shared_->fail(closed);
+  return !gone;
 }
 
 void ViewerStream::send(ViewerFrame frame) {
   shared_->set(Shared::State::sending);
-  start([frame = std::move(frame)](Shared& its) { return its.send_frame(frame); });
+  start([frame = std::move(frame)](Shared& its) { its.send_frame(frame); });
 }
 
 void ViewerStream::finish(double patience) {

@@ -76,7 +76,7 @@ std::vector<std::string> names_in_folder(const fs::path& folder) {
   const auto close = [](void* search) { FindClose(search); };
   const std::unique_ptr<void, decltype(close)> search(FindFirstFileW((folder / L"*").c_str(), &found), close);
   if (search.get() == INVALID_HANDLE_VALUE) return names;
-  do names.push_back(utf8_of(found.cFileName));
+  do names.push_back(fs::path(found.cFileName).string());
   while (FindNextFileW(search.get(), &found));
   return names;
 }

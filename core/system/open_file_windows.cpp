@@ -57,14 +57,15 @@ int last_error_number(DWORD error) {
   return std::system_category().default_error_condition(static_cast<int>(error)).value();
 }
 
-int open_for_all(const std::filesystem::path& file, DWORD access, DWORD disposition, DWORD attributes, int flags,
-                 int& error) {
+/// A file as a descriptor of the C library, or -1 and why.
+static int open_file(const std::filesystem::path& file, const HowToOpen& how, int& error) {
   error = EINVAL;
   if (file.native().find(L'\0') != std::wstring::npos) return -1;
-  const HANDLE handle = CreateFileW(file.c_str(), access, all_may, nullptr, disposition, attributes, nullptr);
+  const HANDLE handle =
+      CreateFileW(file.c_str(), how.access, all_may, nullptr, how.disposition, how.attributes, nullptr);
   error = handle == INVALID_HANDLE_VALUE ? last_error_number() : 0;
   if (error != 0) return -1;
-  const int number = _open_osfhandle(reinterpret_cast<std::intptr_t>(handle), flags | _O_BINARY | _O_NOINHERIT);
+  const int number = _open_osfhandle(reinterpret_cast<std::intptr_t>(handle), how.flags | _O_BINARY | _O_NOINHERIT);
   if (number < 0) error = EMFILE, CloseHandle(handle);
   return number;
 }
@@ -75,15 +76,15 @@ std::string error_text(int number) {
 }
 
 OpenFile::OpenFile(const std::filesystem::path& file, OpenFor purpose, unsigned) {
-  const HowToOpen how = how_to_open(purpose);
-  descriptor_ = open_for_all(file, how.access, how.disposition, how.attributes, how.flags, error_);
+  descriptor_ = open_file(file, how_to_open(purpose), error_);
 }
 
 OpenFile OpenFile::unnamed() {
   OpenFile file;
-  file.descriptor_ =
-      open_for_all(temporary_folder() / (L"tyndall-" + unique_word()), GENERIC_READ | GENERIC_WRITE | DELETE,
-                   CREATE_NEW, FILE_ATTRIBUTE_TEMPORARY | FILE_FLAG_DELETE_ON_CLOSE, 0, file.error_);
+  file.descriptor_ = open_file(
+      temporary_folder() / (L"tyndall-" + unique_word()),
+      {GENERIC_READ | GENERIC_WRITE | DELETE, CREATE_NEW, FILE_ATTRIBUTE_TEMPORARY | FILE_FLAG_DELETE_ON_CLOSE, 0},
+      file.error_);
   return file;
 }
 

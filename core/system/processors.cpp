@@ -64,17 +64,6 @@ std::string unescaped(const std::string& text) {
   return out;
 }
 
-std::optional<Mount> mount_of(const std::string& line) {
-  Mount mount;
-  std::istringstream words(line);
-  std::string word;
-  words >> word >> word >> word >> mount.root >> mount.point;
-  while (words >> word && word != "-") continue;  // optional fields
-  words >> mount.type >> word >> mount.options;
-  mount.root = unescaped(mount.root), mount.point = unescaped(mount.point);
-  return mount.options.empty() || !mount.point.starts_with('/') ? std::nullopt : std::optional(mount);
-}
-
 bool names(const std::string& list, const std::string& word) {
   return ("," + list + ",").find("," + word + ",") != std::string::npos;
 }
@@ -100,8 +89,15 @@ std::string below(const std::string& group, const std::string& root) {
 std::vector<Mount> mounts(const fs::path& root) {
   std::vector<Mount> found;
   std::ifstream in(root / "proc/self/mountinfo");
-  for (std::string line; std::getline(in, line);)
-    if (const auto mount = mount_of(line)) found.push_back(*mount);
+  for (std::string line, word; std::getline(in, line);) {
+    Mount mount;
+    std::istringstream words(line);
+    words >> word >> word >> word >> mount.root >> mount.point;
+    while (words >> word && word != "-") continue;  // optional fields
+    words >> mount.type >> word >> mount.options;
+    mount.root = unescaped(mount.root), mount.point = unescaped(mount.point);
+    if (!mount.options.empty() && mount.point.starts_with('/')) found.push_back(mount);
+  }
   return found;
 }
 
