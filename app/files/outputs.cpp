@@ -5,12 +5,10 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/film/film.h"
-#include "core/image/whole_file.h"
 #include "core/system/files.h"
 #include "core/system/process.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <span>
 
 namespace tyndall {

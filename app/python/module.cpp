@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <exception>
-#include <initializer_list>
 #include <optional>
 #include <string>
 
@@ -24,25 +23,18 @@ auto unlocked(const F& f) {
   return f();
 }
 
-/// Floats of a picture, as an array that cannot be written to. owner: keeps them alive.
-py::array_t<float> look_into(const std::vector<float>& values, std::initializer_list<py::ssize_t> shape,
-                             const py::object& owner) {
-  py::array_t<float> array(shape, values.data(), owner);
-  array.attr("setflags")(py::arg("write") = false);
-  return array;
-}
-
-using Values = const std::vector<float>& (tyndall::Picture::*)() const;
-
-template <Values values, py::ssize_t channels>
+/// Floats of a picture, which it keeps alive, as an array that cannot be written to.
+template <auto values>
 py::array_t<float> array_of(const py::object& self) {
   const auto& picture = self.cast<const tyndall::Picture&>();
   const std::vector<float>& found = *unlocked([&] { return &(picture.*values)(); });
-  const py::ssize_t height = picture.height(), width = picture.width();
-  if constexpr (channels == 1)
-    return look_into(found, {height, width}, self);
-  else
-    return look_into(found, {height, width, channels}, self);
+  const std::size_t height = static_cast<std::size_t>(picture.height()),
+                    width = static_cast<std::size_t>(picture.width());
+  std::vector<std::size_t> shape{height, width};
+  if (found.size() > height * width) shape.push_back(found.size() / (height * width));
+  py::array_t<float> array(shape, found.data(), self);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
 }
 
 /// Renders without the interpreter's lock. Between passes it looks whether Ctrl-C was pressed, and calls `progress`.
@@ -130,15 +122,15 @@ void add_picture(py::module_& module) {
       .def_readonly("mrays_per_s", &tyndall::Progress::mrays_per_s);
   py::class_<Picture>(module, "Picture")
       .def_property_readonly(
-          "array", &array_of<&Picture::rgb, 3>,
+          "array", &array_of<&Picture::rgb>,
           "height x width x 3, float32, linear radiance, top row first; a view that cannot be written to.")
-      .def_property_readonly("error_map", &array_of<&Picture::error_map, 1>,
+      .def_property_readonly("error_map", &array_of<&Picture::error_map>,
                              "height x width: the estimated relative error around each pixel.")
-      .def_property_readonly("clean", &array_of<&Picture::clean, 3>,
+      .def_property_readonly("clean", &array_of<&Picture::clean>,
                              "height x width x 3: the clean view, if render(clean=True) made one.")
-      .def_property_readonly("_albedo", &array_of<&Picture::albedo, 3>)
-      .def_property_readonly("_normal", &array_of<&Picture::normal, 3>)
-      .def_property_readonly("_depth", &array_of<&Picture::depth, 1>)
+      .def_property_readonly("_albedo", &array_of<&Picture::albedo>)
+      .def_property_readonly("_normal", &array_of<&Picture::normal>)
+      .def_property_readonly("_depth", &array_of<&Picture::depth>)
       .def_property_readonly("width", &Picture::width, "Pixels.")
       .def_property_readonly("height", &Picture::height, "Pixels.")
       .def_property_readonly("error", &Picture::error,
@@ -165,10 +157,8 @@ void add_picture(py::module_& module) {
 
 void add_render(py::module_& module) {
   using tyndall::Region;
-  py::class_<Region>(module, "Region").def(py::init([](int x0, int y0, int x1, int y1) {
-    return Region{x0, y0, x1, y1};
-  }));
   // In the order of the members.
+  py::class_<Region>(module, "Region").def(py::init<int, int, int, int>());
   py::class_<tyndall::RenderOptions>(module, "RenderOptions")
       .def(py::init<std::uint32_t, double, double, bool, int, std::string, std::optional<Region>, std::uint32_t,
                     std::optional<tyndall::Film>>());

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <chrono>
 #include <clocale>
-#include <cstdlib>
 
 namespace tyndall {
 namespace {

@@ -5,7 +5,6 @@
 #endif
 
 #include <algorithm>
-#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
