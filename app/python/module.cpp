@@ -87,7 +87,6 @@ void add_scene(py::module_& module) {
       .def(py::init<const Scene&>())
       .def_static("_load", &Scene::load, WithoutLock())
       .def_static("_parse", &Scene::parse, WithoutLock())
-      .def_static("_built_in", &Scene::built_in, WithoutLock())
       .def("_set_json", &Scene::set_json, WithoutLock())
       .def("_get_json", &Scene::get_json, WithoutLock())
       .def("_remove", &Scene::remove, WithoutLock())
@@ -149,7 +148,7 @@ void add_picture(py::module_& module) {
       .def_property_readonly("film", &Picture::film, "The samples, to save, merge or go on with.")
       .def_property_readonly("scene", &Picture::scene, "The scene that it shows.")
       .def("_save", &Picture::save, WithoutLock())
-      .def("_png", [](const Picture& picture) {
+      .def("_repr_png_", [](const Picture& picture) {
         const std::vector<unsigned char> bytes = unlocked([&] { return picture.png(); });
         return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
       });
@@ -193,5 +192,6 @@ PYBIND11_MODULE(_tyndall, module) {
   add_picture(module);
   add_render(module);
   add_compare(module);
-  module.def("version", &tyndall::version);
+  module.def("built_in", &tyndall::Scene::built_in, WithoutLock(), "Names of the built-in scenes.");
+  module.attr("__version__") = tyndall::version();
 }

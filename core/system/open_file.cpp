@@ -99,10 +99,11 @@ int OpenFile::reserve([[maybe_unused]] std::uint64_t size) const {
   return 0;
 }
 
-int OpenFile::try_lock() const { return result(flock(descriptor_, LOCK_EX | LOCK_NB)); }
-
-void OpenFile::wait_for_lock() const {
-  while (flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) continue;
+int OpenFile::lock(bool waits) const {
+  int error = 0;
+  do error = result(flock(descriptor_, waits ? LOCK_EX : LOCK_EX | LOCK_NB));
+  while (error == EINTR);
+  return error;
 }
 
 bool OpenFile::has_name() const {

@@ -41,13 +41,6 @@ int result(long long value) { return value < 0 ? errno : 0; }
 
 unsigned at_once(std::size_t size) { return static_cast<unsigned>(std::min<std::size_t>(size, 1u << 30)); }
 
-/// Far beyond the end of any file: here locks keep others from reading and writing what is locked.
-OVERLAPPED lock_place() {
-  OVERLAPPED place{};
-  place.Offset = 0xfffffffe, place.OffsetHigh = 0x7fffffff;
-  return place;
-}
-
 }  // namespace
 
 int last_error_number(DWORD error) {
@@ -128,17 +121,14 @@ int OpenFile::synchronise() const {
 
 int OpenFile::reserve(std::uint64_t) const { return 0; }
 
-int OpenFile::try_lock() const {
-  OVERLAPPED place = lock_place();
-  const DWORD flags = LOCKFILE_EXCLUSIVE_LOCK | LOCKFILE_FAIL_IMMEDIATELY;
+/// Far beyond the end of any file: here locks keep others from reading and writing what is locked.
+int OpenFile::lock(bool waits) const {
+  OVERLAPPED place{};
+  place.Offset = 0xfffffffe, place.OffsetHigh = 0x7fffffff;
+  const DWORD flags = LOCKFILE_EXCLUSIVE_LOCK | (waits ? 0 : LOCKFILE_FAIL_IMMEDIATELY);
   if (LockFileEx(handle_of(descriptor_), flags, 0, 1, 0, &place)) return 0;
   const DWORD error = GetLastError();
   return error == ERROR_LOCK_VIOLATION || error == ERROR_IO_PENDING ? EWOULDBLOCK : last_error_number(error);
-}
-
-void OpenFile::wait_for_lock() const {
-  OVERLAPPED place = lock_place();
-  LockFileEx(handle_of(descriptor_), LOCKFILE_EXCLUSIVE_LOCK, 0, 1, 0, &place);
 }
 
 bool OpenFile::has_name() const {
