@@ -26,10 +26,6 @@ std::string property(const char* type, const char* name, const std::string& valu
 std::string number(const char* name, double value) { return property("float", name, number_text(value)); }
 std::string whole(const char* name, int value) { return property("integer", name, std::to_string(value)); }
 std::string rgb(const char* name, Vec3d c) { return property("rgb", name, numbers_of(c, ", ")); }
-std::string point(const char* name, Vec3d p) {
-  return fmt::format("<point name=\"{}\" x=\"{}\" y=\"{}\" z=\"{}\"/>", name, number_text(p.x), number_text(p.y),
-                     number_text(p.z));
-}
 
 /// Where their rows lie, of 1: the first one straight above, the last one straight below.
 double place_of_row(int row, int rows) { return static_cast<double>(row) / (rows - 1); }
@@ -102,8 +98,10 @@ double half_gap(double size, Vec3d middle) { return 1e-6 * (size + length(middle
 /// A light shines on both sides: two spheres of one side each.
 std::string sphere(const ForeignSphere& s, bool light, const std::string& inner) {
   const auto one = [&](double radius, bool inward) {
-    return "  <shape type=\"sphere\">" + point("center", s.center) + number("radius", radius) +
-           (inward ? "<boolean name=\"flip_normals\" value=\"true\"/>" : "") + inner + "</shape>\n";
+    return fmt::format("  <shape type=\"sphere\"><point name=\"center\" x=\"{}\" y=\"{}\" z=\"{}\"/>{}{}{}</shape>\n",
+                       number_text(s.center.x), number_text(s.center.y), number_text(s.center.z),
+                       number("radius", radius), inward ? "<boolean name=\"flip_normals\" value=\"true\"/>" : "",
+                       inner);
   };
   if (!light) return one(s.radius, s.inward);
   const double half = half_gap(s.radius, s.center);

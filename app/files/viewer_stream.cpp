@@ -175,7 +175,8 @@ void ViewerStream::finish(double patience) {
   const auto start = Clock::now(), latest = start + longest_finish;
   const auto patient = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(patience));
   std::unique_lock lock(its.mutex);
-  while (its.state == State::connecting || its.state == State::sending) {
+  const auto ended = [&its] { return its.state == State::idle || its.state == State::ended; };
+  while (!ended()) {
     const bool connected = its.state == State::sending;
     const auto until = std::min(latest, (connected ? std::max(start, its.taken) : start) + patient);
     if (Clock::now() >= until) {
@@ -184,7 +185,7 @@ void ViewerStream::finish(double patience) {
       its.stop = true;
       return;
     }
-    its.changed.wait_until(lock, std::min(until, Clock::now() + look_interval));
+    its.changed.wait_for(lock, std::min<Clock::duration>(until - Clock::now(), look_interval), ended);
   }
 }
 
