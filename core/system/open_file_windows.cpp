@@ -22,20 +22,17 @@ struct HowToOpen {
   int flags;
 };
 
-HowToOpen how_to_open(OpenFor purpose) {
-  constexpr DWORD all = GENERIC_READ | GENERIC_WRITE, append = FILE_APPEND_DATA | SYNCHRONIZE;
-  constexpr HowToOpen table[] = {
-      {GENERIC_READ, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, 0},                          // reading
-      {GENERIC_WRITE | FILE_READ_ATTRIBUTES, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, 0},  // writing
-      {append, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, _O_APPEND},                        // appending
-      {append, OPEN_ALWAYS, FILE_ATTRIBUTE_NORMAL, _O_APPEND},                          // adding
-      {all, OPEN_ALWAYS, FILE_ATTRIBUTE_NORMAL, 0},                                     // changing
-      {all, CREATE_NEW, FILE_ATTRIBUTE_NORMAL, 0},                                      // creating
-      {all, OPEN_EXISTING, FILE_FLAG_OPEN_REPARSE_POINT, 0},                            // looking
-      {GENERIC_READ, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, 0},                     // folder
-  };
-  return table[static_cast<int>(purpose)];
-}
+constexpr DWORD all = GENERIC_READ | GENERIC_WRITE, append = FILE_APPEND_DATA | SYNCHRONIZE;
+constexpr HowToOpen how_to_open[] = {
+    {GENERIC_READ, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, 0},                          // reading
+    {GENERIC_WRITE | FILE_READ_ATTRIBUTES, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, 0},  // writing
+    {append, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, _O_APPEND},                        // appending
+    {append, OPEN_ALWAYS, FILE_ATTRIBUTE_NORMAL, _O_APPEND},                          // adding
+    {all, OPEN_ALWAYS, FILE_ATTRIBUTE_NORMAL, 0},                                     // changing
+    {all, CREATE_NEW, FILE_ATTRIBUTE_NORMAL, 0},                                      // creating
+    {all, OPEN_EXISTING, FILE_FLAG_OPEN_REPARSE_POINT, 0},                            // looking
+    {GENERIC_READ, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, 0},                     // folder
+};
 
 int result(long long value) { return value < 0 ? errno : 0; }
 
@@ -69,15 +66,14 @@ std::string error_text(int number) {
 }
 
 OpenFile::OpenFile(const std::filesystem::path& file, OpenFor purpose, unsigned) {
-  descriptor_ = open_file(file, how_to_open(purpose), error_);
+  descriptor_ = open_file(file, how_to_open[static_cast<int>(purpose)], error_);
 }
 
 OpenFile OpenFile::unnamed() {
   OpenFile file;
-  file.descriptor_ = open_file(
-      temporary_folder() / (L"tyndall-" + unique_word()),
-      {GENERIC_READ | GENERIC_WRITE | DELETE, CREATE_NEW, FILE_ATTRIBUTE_TEMPORARY | FILE_FLAG_DELETE_ON_CLOSE, 0},
-      file.error_);
+  file.descriptor_ =
+      open_file(temporary_folder() / (L"tyndall-" + unique_word()),
+                {all | DELETE, CREATE_NEW, FILE_ATTRIBUTE_TEMPORARY | FILE_FLAG_DELETE_ON_CLOSE, 0}, file.error_);
   return file;
 }
 
