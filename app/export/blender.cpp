@@ -62,17 +62,18 @@ static void to_json(Json& json, const Material& m) {
   else
     json["texture"] = std::get<TextureIndex>(m.colour).index;
 }
-static void to_json(Json& json, const ForeignMedium& m) {
-  json = {{"sigma_t", m.sigma_t}, {"g", m.g}, {"albedo", m.albedo}};
+static void to_json(Json& json, const PlacedVolume& v) {
+  json = {{"sigma_t", v.medium.density}, {"g", v.medium.g}, {"albedo", std::get<Vec3d>(v.albedo)}};
 }
-static void to_json(Json& json, const ForeignShape& s) {
-  json = {{"material", s.material}, {"medium", s.medium}};
+static Json shape_values(const ForeignShape& s, const Scene& scene) {
+  Json json{{"material", s.material ? s.material - scene.materials.data() : -1}, {"medium", s.medium}};
   if (s.sphere) {
     json["center"] = s.sphere->center, json["center_end"] = s.sphere->center_end;
     json["radius"] = s.sphere->radius, json["inward"] = s.sphere->inward, json["degrees"] = s.sphere->degrees;
   }
   constexpr const char* keys[] = {"quads", "triangles", "disks"};
   for (const ForeignFlat& f : s.flats) json[keys[static_cast<int>(f.kind)]].push_back({f.origin, f.u, f.v, f.inner});
+  return json;
 }
 
 ForeignFile blender_file(const Scene& scene, const std::string& name, const std::string& file) {
@@ -90,7 +91,8 @@ ForeignFile blender_file(const Scene& scene, const std::string& name, const std:
             {"textures", Json::array()},
             {"materials", scene.materials},
             {"media", foreign.media},
-            {"shapes", foreign.shapes}};
+            {"shapes", Json::array()}};
+  for (const ForeignShape& s : foreign.shapes) json["shapes"].push_back(shape_values(s, scene));
   ForeignFile out;
   const auto write = [&](Json& user, const std::string& picture, LinearImage pixels) {
     user["file"] = picture;

@@ -63,23 +63,18 @@ ForeignSphere sphere_of(const Sphere<>& sphere, const Placement& placement, cons
   return out;
 }
 
-ForeignShape shape_of(const auto& shape, const Placement& at, const Camera& camera) {
+ForeignShape shape_of(const PlacedShape& placed, const Camera& camera) {
   ForeignShape out;
   using enum ForeignFlat::Kind;
-  const auto add = [&](ForeignFlat::Kind kind, Vec3d origin, Vec3d u, Vec3d v, double inner = 0) {
-    out.flats.push_back({kind, place(at, origin), rotate(at, u), rotate(at, v), inner});
-  };
-  std::visit(Overloaded{[&](const Sphere<>& s) { out.sphere = sphere_of(s, at, camera); },
-                        [&](const Quad<>& q) { add(quad, q.corner, q.u, q.v); },
-                        [&](const Box<>& b) {
-                          for (int i = 0; i < 6; ++i) {
-                            const BoxFace face = box_face_edges(b, i);
-                            add(quad, face.corner, face.u, face.v);
-                          }
-                        },
-                        [&](const Triangle<>& t) { add(triangle, t.corner, t.u, t.v); },
-                        [&](const Disk<>& d) { add(disk, d.center, d.u, d.v, d.inner); }},
-             shape);
+  const Placement& at = placed.placement;
+  if (const auto* s = std::get_if<Sphere<>>(&placed.shape)) {
+    out.sphere = sphere_of(*s, at, camera);
+  } else if (const auto* d = std::get_if<Disk<>>(&placed.shape)) {
+    out.flats.push_back({disk, place(at, d->center), rotate(at, d->u), rotate(at, d->v), d->inner});
+  } else {
+    const auto kind = std::holds_alternative<Triangle<>>(placed.shape) ? triangle : quad;
+    each_face(placed, [&](const BoxFace& face, int) { out.flats.push_back({kind, face.corner, face.u, face.v}); });
+  }
   return out;
 }
 
@@ -107,39 +102,37 @@ bool is_circle(const ForeignFlat& disk) {
 
 void check_shape(const ForeignShape& shape, const Scene& scene, const Refusal& refuse) {
   const ForeignRenderer& r = refuse.renderer;
-  const Material& material = scene.materials[static_cast<std::size_t>(shape.material)];
   if (shape.sphere && shape.sphere->moves()) {
     if (!r.moving_spheres) refuse("/camera/shutter", "spheres that move while it is open", "an instant");
-    if (std::holds_alternative<Light<double>>(material.kind)) refuse("/objects", "a light that moves", "one at rest");
+    if (shape.shines()) refuse("/objects", "a light that moves", "one at rest");
   }
   for (const ForeignFlat& flat : shape.flats) {
     if (flat.kind != ForeignFlat::Kind::disk) continue;
     if (!r.ellipses && !is_circle(flat)) refuse("/objects", "an ellipse", "a circle");
     if (!r.rings && flat.inner > 0) refuse("/objects", "a ring", "a disk without a hole");
-    if (is_image(texture_of(material, scene))) refuse("/objects", "an image on a disk", "a colour");
+    if (is_image(texture_of(*shape.material, scene))) refuse("/objects", "an image on a disk", "a colour");
   }
 }
 
 /// Adds the media; those whose boundary is a surface become its interior.
 void add_media(const Scene& scene, const Flattened& flat, const Refusal& refuse, ForeignScene& out) {
-  for (std::size_t i = 0; i < flat.volumes.size(); ++i) {
-    const PlacedVolume& volume = flat.volumes[i];
-    const auto* albedo = std::get_if<Vec3d>(&volume.albedo);
-    if (!albedo) refuse("/objects", "a texture as the albedo of a medium", "a colour");
-    for (std::size_t k = 0; k < i && !refuse.renderer.overlapping_media; ++k)
-      if (!are_apart(block_around(volume), block_around(flat.volumes[k])))
-        refuse("/objects", "media that may overlap", "media apart from each other");
+  for (const PlacedVolume& volume : flat.volumes) {
+    if (!std::holds_alternative<Vec3d>(volume.albedo))
+      refuse("/objects", "a texture as the albedo of a medium", "a colour");
+    const auto overlaps = [&](const PlacedVolume& o) { return !are_apart(block_around(volume), block_around(o)); };
+    if (!refuse.renderer.overlapping_media && std::any_of(out.media.begin(), out.media.end(), overlaps))
+      refuse("/objects", "media that may overlap", "media apart from each other");
     const int index = static_cast<int>(out.media.size());
-    out.media.push_back({volume.medium.density, volume.medium.g, *albedo});
+    out.media.push_back(volume);
     if (is_inside(volume, scene.camera.look_from)) out.camera_medium = index;
     if (!volume.surface) {
-      out.shapes.push_back(shape_of(volume.boundary, volume.placement, scene.camera));
+      const auto boundary = [&](const auto& shape) { return PlacedShape{shape, volume.placement}; };
+      out.shapes.push_back(shape_of(std::visit(boundary, volume.boundary), scene.camera));
       out.shapes.back().medium = index;
       continue;
     }
     ForeignShape& shape = out.shapes[static_cast<std::size_t>(*volume.surface)];
-    const Material& material = scene.materials[static_cast<std::size_t>(shape.material)];
-    if (!refuse.renderer.media_in_lights && std::holds_alternative<Light<double>>(material.kind))
+    if (!refuse.renderer.media_in_lights && shape.shines())
       refuse("/objects", "a medium within a light", "one within another surface");
     if (shape.sphere && shape.sphere->inward)
       refuse("/objects", "a medium within a sphere of negative radius", "a positive one");
@@ -156,14 +149,13 @@ ForeignScene foreign_scene(const Scene& scene, const std::string& name, const Fo
   if (scene.render.max_depth == 0 && !renderer.depth_zero) refuse("/render/max_depth", "0", "at least 1");
   const Flattened flat = flatten(scene);
   ForeignScene out;
-  std::set<int> used;
+  std::set<const Material*> used;
   for (const PlacedShape& shape : flat.shapes) {
-    used.insert(shape.material);
-    out.shapes.push_back(shape_of(shape.shape, shape.placement, scene.camera));
-    out.shapes.back().material = shape.material;
+    out.shapes.push_back(shape_of(shape, scene.camera));
+    used.insert(out.shapes.back().material = &scene.materials[static_cast<std::size_t>(shape.material)]);
     check_shape(out.shapes.back(), scene, refuse);
   }
-  for (const int material : used) check_material(scene.materials[static_cast<std::size_t>(material)], scene, refuse);
+  for (const Material* material : used) check_material(*material, scene, refuse);
   add_media(scene, flat, refuse, out);
   return out;
 }

@@ -34,14 +34,9 @@ struct ForeignSphere {
 struct ForeignShape {
   std::optional<ForeignSphere> sphere;
   std::vector<ForeignFlat> flats;
-  int material = -1;  ///< index into Scene::materials; -1: the boundary of a medium alone, which is not seen
-  int medium = -1;    ///< index into ForeignScene::media, behind the surface; -1: none
-};
-
-struct ForeignMedium {
-  double sigma_t = 1;  ///< mean number of events per unit length
-  double g = 0;        ///< mean cosine of the scattering angle
-  Vec3d albedo;
+  const Material* material = nullptr;  ///< of the scene; null: the boundary of a medium alone, which is not seen
+  int medium = -1;                     ///< index into ForeignScene::media, behind the surface; -1: none
+  bool shines() const { return material && std::holds_alternative<Light<double>>(material->kind); }
 };
 
 /// What a renderer has an equal of.
@@ -60,8 +55,8 @@ struct ForeignRenderer {
 
 struct ForeignScene {
   std::vector<ForeignShape> shapes;
-  std::vector<ForeignMedium> media;
-  int camera_medium = -1;  ///< that the eye is in; -1: none
+  std::vector<PlacedVolume> media;  ///< whose albedo is a colour
+  int camera_medium = -1;           ///< that the eye is in; -1: none
 };
 
 /// name: what messages call the scene. Throws SceneError with the first thing that the renderer has no equal of.

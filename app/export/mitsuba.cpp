@@ -26,10 +26,6 @@ std::string property(const char* type, const char* name, const std::string& valu
 std::string number(const char* name, double value) { return property("float", name, number_text(value)); }
 std::string whole(const char* name, int value) { return property("integer", name, std::to_string(value)); }
 std::string rgb(const char* name, Vec3d c) { return property("rgb", name, numbers_of(c, ", ")); }
-std::string point(const char* name, Vec3d p) {
-  return fmt::format("<point name=\"{}\" x=\"{}\" y=\"{}\" z=\"{}\"/>", name, number_text(p.x), number_text(p.y),
-                     number_text(p.z));
-}
 
 /// Where their rows lie, of 1: the first one straight above, the last one straight below.
 double place_of_row(int row, int rows) { return static_cast<double>(row) / (rows - 1); }
@@ -54,9 +50,10 @@ std::string background(const Scene& scene, const std::string& file, ForeignFile&
 }
 
 std::string medium(const ForeignScene& foreign, int index, const char* name) {
-  const ForeignMedium& m = foreign.media[static_cast<std::size_t>(index)];
+  const PlacedVolume& volume = foreign.media[static_cast<std::size_t>(index)];
   return fmt::format("<medium name=\"{}\" type=\"homogeneous\">{}{}<phase type=\"hg\">{}</phase></medium>", name,
-                     rgb("albedo", m.albedo), number("sigma_t", m.sigma_t), number("g", m.g));
+                     rgb("albedo", std::get<Vec3d>(volume.albedo)), number("sigma_t", volume.medium.density),
+                     number("g", volume.medium.g));
 }
 
 std::string camera(const Scene& scene, const ForeignScene& foreign) {
@@ -84,43 +81,31 @@ std::string diffuse(Vec3d colour) {
   return "<bsdf type=\"twosided\"><bsdf type=\"diffuse\">" + rgb("reflectance", colour) + "</bsdf></bsdf>";
 }
 
-Vec3d colour_of(const Material& material, const Scene& scene) {
-  return plain_colour(material, scene).value_or(Vec3d{});
-}
-
-std::string surface(const Material& material, const Scene& scene) {
-  return std::visit(
-      Overloaded{
-          [&](const Dielectric<double>& glass) {
-            return "<bsdf type=\"dielectric\">" + number("int_ior", glass.refractive_index) + number("ext_ior", 1) +
-                   "</bsdf>";
-          },
-          [&](const Metal<double>&) {
-            return "<bsdf type=\"twosided\"><bsdf type=\"conductor\"><string name=\"material\" value=\"none\"/>" +
-                   rgb("specular_reflectance", colour_of(material, scene)) + "</bsdf></bsdf>";
-          },
-          [&](const Light<double>&) {
-            return "<emitter type=\"area\">" + rgb("radiance", colour_of(material, scene)) + "</emitter>" + diffuse({});
-          },
-          [&](const auto&) { return diffuse(colour_of(material, scene)); }},
-      material.kind);
-}
-
-std::string sphere(const ForeignSphere& s, const std::string& inner) {
-  return "  <shape type=\"sphere\">" + point("center", s.center) + number("radius", s.radius) +
-         (s.inward ? "<boolean name=\"flip_normals\" value=\"true\"/>" : "") + inner + "</shape>\n";
+std::string surface(const ForeignShape& s, const Scene& scene) {
+  if (!s.material) return "<bsdf type=\"null\"/>";
+  if (const auto* glass = std::get_if<Dielectric<double>>(&s.material->kind))
+    return "<bsdf type=\"dielectric\">" + number("int_ior", glass->refractive_index) + number("ext_ior", 1) + "</bsdf>";
+  const Vec3d colour = plain_colour(*s.material, scene).value_or(Vec3d{});
+  if (s.shines()) return "<emitter type=\"area\">" + rgb("radiance", colour) + "</emitter>" + diffuse({});
+  if (!std::holds_alternative<Metal<double>>(s.material->kind)) return diffuse(colour);
+  return "<bsdf type=\"twosided\"><bsdf type=\"conductor\"><string name=\"material\" value=\"none\"/>" +
+         rgb("specular_reflectance", colour) + "</bsdf></bsdf>";
 }
 
 /// Half of the distance between the two sides of a light: more than single precision loses there.
 double half_gap(double size, Vec3d middle) { return 1e-6 * (size + length(middle)); }
 
-/// A light that shines on both sides: two spheres of one side each.
-std::string sphere_light(ForeignSphere s, const std::string& inner) {
-  ForeignSphere inside = s;
+/// A light shines on both sides: two spheres of one side each.
+std::string sphere(const ForeignSphere& s, bool light, const std::string& inner) {
+  const auto one = [&](double radius, bool inward) {
+    return fmt::format("  <shape type=\"sphere\"><point name=\"center\" x=\"{}\" y=\"{}\" z=\"{}\"/>{}{}{}</shape>\n",
+                       number_text(s.center.x), number_text(s.center.y), number_text(s.center.z),
+                       number("radius", radius), inward ? "<boolean name=\"flip_normals\" value=\"true\"/>" : "",
+                       inner);
+  };
+  if (!light) return one(s.radius, s.inward);
   const double half = half_gap(s.radius, s.center);
-  s.radius += half, s.inward = false;
-  inside.radius -= std::min(half, 0.5 * inside.radius), inside.inward = true;
-  return sphere(s, inner) + sphere(inside, inner);
+  return one(s.radius + half, false) + one(s.radius - std::min(half, 0.5 * s.radius), true);
 }
 
 constexpr const char* triangle_file = "unit-triangle.ply";
@@ -128,49 +113,26 @@ constexpr const char* triangle_mesh =
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
     "property list uchar int vertex_index\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
-/// A flat shape of theirs, in the plane of x and y with the normal z, that is placed in the world.
-struct Flat {
-  std::string type;  ///< with what it needs of its own
-  Vec3d x, y, origin;
-};
-
-/// Their rectangle is [-1, 1]² in x and y. out: gets the triangle's mesh.
-Flat flat_of(const ForeignFlat& f, ForeignFile& out) {
-  using enum ForeignFlat::Kind;
-  if (f.kind == quad) return {"rectangle\">", 0.5 * f.u, 0.5 * f.v, f.origin + 0.5 * (f.u + f.v)};
-  if (f.kind == disk) return {"disk\">", f.u, f.v, f.origin};
-  out.meshes[triangle_file] = triangle_mesh;
-  return {std::string("ply\"><string name=\"filename\" value=\"") + triangle_file + "\"/>", f.u, f.v, f.origin};
-}
-
-std::string placed(const Flat& f, const std::string& inner) {
-  std::string matrix;
-  for (const auto axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z})
-    for (const Vec3d& column : {f.x, f.y, normalize(cross(f.x, f.y)), f.origin})
-      matrix += number_text(column.*axis) + " ";
-  return "  <shape type=\"" + f.type + "<transform name=\"to_world\"><matrix value=\"" + matrix +
-         "0 0 0 1\"/></transform>" + inner + "</shape>\n";
-}
-
-/// A flat light, which shines on both sides: two of one side each. All these shapes are the same with x and y swapped,
-/// which turns the normal.
-std::string flat_light(Flat f, const std::string& inner) {
-  const Vec3d apart = half_gap(std::max(length(f.x), length(f.y)), f.origin) * normalize(cross(f.x, f.y));
-  const Flat other{f.type, f.y, f.x, f.origin - apart};
-  f.origin = f.origin + apart;
-  return placed(f, inner) + placed(other, inner);
-}
-
-std::string shape(const ForeignShape& s, const Scene& scene, const ForeignScene& foreign, ForeignFile& out) {
-  const Material* material = s.material < 0 ? nullptr : &scene.materials[static_cast<std::size_t>(s.material)];
-  const std::string inner = (material ? surface(*material, scene) : "<bsdf type=\"null\"/>") +
-                            (s.medium < 0 ? "" : medium(foreign, s.medium, "interior"));
-  const bool light = material && std::holds_alternative<Light<double>>(material->kind);
-  if (s.sphere) return light ? sphere_light(*s.sphere, inner) : sphere(*s.sphere, inner);
-  std::string text;
-  for (const ForeignFlat& flat : s.flats)
-    text += light ? flat_light(flat_of(flat, out), inner) : placed(flat_of(flat, out), inner);
-  return text;
+/// Their flat shapes lie in the plane of x and y with the normal z, and are placed in the world; the rectangle is
+/// [-1, 1]² in x and y. A light shines on both sides: two of one side each. All these shapes are the same with x and y
+/// swapped, which turns the normal.
+std::string flat(const ForeignFlat& f, bool light, const std::string& inner) {
+  const bool quad = f.kind == ForeignFlat::Kind::quad, disk = f.kind == ForeignFlat::Kind::disk;
+  const std::string type = quad   ? "rectangle\">"
+                           : disk ? "disk\">"
+                                  : fmt::format("ply\"><string name=\"filename\" value=\"{}\"/>", triangle_file);
+  const auto one = [&](Vec3d x, Vec3d y, Vec3d origin) {
+    std::string matrix;
+    for (const auto axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z})
+      for (const Vec3d& column : {x, y, normalize(cross(x, y)), origin}) matrix += number_text(column.*axis) + " ";
+    return "  <shape type=\"" + type + "<transform name=\"to_world\"><matrix value=\"" + matrix +
+           "0 0 0 1\"/></transform>" + inner + "</shape>\n";
+  };
+  const double half = quad ? 0.5 : 1;
+  const Vec3d x = half * f.u, y = half * f.v, middle = quad ? f.origin + 0.5 * (f.u + f.v) : f.origin;
+  if (!light) return one(x, y, middle);
+  const Vec3d apart = half_gap(std::max(length(x), length(y)), middle) * normalize(cross(x, y));
+  return one(x, y, middle + apart) + one(y, x, middle - apart);
 }
 
 }  // namespace
@@ -187,7 +149,14 @@ ForeignFile mitsuba_file(const Scene& scene, const std::string& name, const std:
   out.text += fmt::format("  <integrator type=\"{}\">{}{}</integrator>\n", foreign.media.empty() ? "path" : "volpath",
                           whole("max_depth", scene.render.max_depth + 1), whole("rr_depth", 16));
   out.text += camera(scene, foreign) + background(scene, file, out);
-  for (const ForeignShape& s : foreign.shapes) out.text += shape(s, scene, foreign, out);
+  for (const ForeignShape& s : foreign.shapes) {
+    const std::string inner = surface(s, scene) + (s.medium < 0 ? "" : medium(foreign, s.medium, "interior"));
+    if (s.sphere) out.text += sphere(*s.sphere, s.shines(), inner);
+    for (const ForeignFlat& f : s.flats) {
+      out.text += flat(f, s.shines(), inner);
+      if (f.kind == ForeignFlat::Kind::triangle) out.meshes[triangle_file] = triangle_mesh;
+    }
+  }
   out.text += "</scene>\n";
   return out;
 }

@@ -112,12 +112,9 @@ std::string image(const Image& image, std::size_t index, bool round, const std::
 /// The textures that shapes have.
 std::string textures(const Scene& scene, const ForeignScene& foreign, const std::string& file, ForeignFile& out) {
   std::set<std::pair<std::size_t, bool>> used;
-  for (const ForeignShape& shape : foreign.shapes) {
-    if (shape.material < 0) continue;
-    const auto& colour = scene.materials[static_cast<std::size_t>(shape.material)].colour;
-    if (const auto* texture = std::get_if<TextureIndex>(&colour))
+  for (const ForeignShape& shape : foreign.shapes)
+    if (const auto* texture = shape.material ? std::get_if<TextureIndex>(&shape.material->colour) : nullptr)
       used.emplace(static_cast<std::size_t>(texture->index), shape.sphere.has_value());
-  }
   std::string text;
   for (const auto& [index, round] : used) {
     const std::string begin = "Texture " + texture_name(index, round) + " \"spectrum\" ";
@@ -132,24 +129,19 @@ std::string textures(const Scene& scene, const ForeignScene& foreign, const std:
   return text;
 }
 
-std::string reflectance(const Material& material, const Scene& scene, bool round) {
-  if (const auto colour = plain_colour(material, scene)) return rgb("reflectance", *colour);
-  const int texture = std::get<TextureIndex>(material.colour).index;
-  return "\"texture reflectance\" " + texture_name(static_cast<std::size_t>(texture), round);
-}
-
 /// The material of a surface, and its light.
-std::string surface(const Material& material, const Scene& scene, bool round) {
-  return std::visit(
-      Overloaded{[&](const Dielectric<double>& glass) {
-                   return "  Material \"dielectric\" " + number("eta", glass.refractive_index) + "\n";
-                 },
-                 [&](const Light<double>&) {
-                   return "  Material \"diffuse\" " + rgb("reflectance", {}) + "\n  AreaLightSource \"diffuse\" " +
-                          rgb("L", plain_colour(material, scene).value()) + " \"bool twosided\" true\n";
-                 },
-                 [&](const auto&) { return "  Material \"diffuse\" " + reflectance(material, scene, round) + "\n"; }},
-      material.kind);
+std::string surface(const ForeignShape& s, const Scene& scene) {
+  if (!s.material) return "  Material \"interface\"\n";
+  if (const auto* glass = std::get_if<Dielectric<double>>(&s.material->kind))
+    return "  Material \"dielectric\" " + number("eta", glass->refractive_index) + "\n";
+  const auto colour = plain_colour(*s.material, scene);
+  const std::string begin = "  Material \"diffuse\" ";
+  if (s.shines())
+    return begin + rgb("reflectance", {}) + "\n  AreaLightSource \"diffuse\" " + rgb("L", colour.value()) +
+           " \"bool twosided\" true\n";
+  if (colour) return begin + rgb("reflectance", *colour) + "\n";
+  const auto texture = static_cast<std::size_t>(std::get<TextureIndex>(s.material->colour).index);
+  return begin + "\"texture reflectance\" " + texture_name(texture, s.sphere.has_value()) + "\n";
 }
 
 std::string shape(const ForeignSphere& s) {
@@ -188,10 +180,12 @@ std::string shape(const ForeignFlat& f) {
       quad ? "0 0 1 0 1 1 0 1" : "0 0 1 0 0 1");
 }
 
-std::string medium(const ForeignMedium& m, std::size_t index) {
-  const Vec3d scattering = m.sigma_t * m.albedo, absorption = Vec3d{m.sigma_t, m.sigma_t, m.sigma_t} - scattering;
+std::string medium(const PlacedVolume& volume, std::size_t index) {
+  const auto [density, g] = volume.medium;
+  const Vec3d scattering = density * std::get<Vec3d>(volume.albedo),
+              absorption = Vec3d{density, density, density} - scattering;
   return fmt::format("MakeNamedMedium \"medium {}\" \"string type\" \"homogeneous\" {} {} {}\n", index,
-                     rgb("sigma_a", absorption), rgb("sigma_s", scattering), number("g", m.g));
+                     rgb("sigma_a", absorption), rgb("sigma_s", scattering), number("g", g));
 }
 
 }  // namespace
@@ -209,10 +203,7 @@ ForeignFile pbrt_file(const Scene& scene, const std::string& name, const std::st
   if (foreign.camera_medium >= 0) out.text += "MediumInterface \"\" \"\"\n";
   out.text += background(scene, file, out) + textures(scene, foreign, file, out);
   for (const ForeignShape& s : foreign.shapes) {
-    out.text += "AttributeBegin\n";
-    out.text += s.material < 0
-                    ? "  Material \"interface\"\n"
-                    : surface(scene.materials[static_cast<std::size_t>(s.material)], scene, s.sphere.has_value());
+    out.text += "AttributeBegin\n" + surface(s, scene);
     if (s.medium >= 0) out.text += "  MediumInterface " + medium_name(s.medium) + " \"\"\n";
     if (s.sphere) out.text += shape(*s.sphere);
     for (const ForeignFlat& flat : s.flats) out.text += shape(flat);

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <exception>
 #include <span>
 
@@ -162,11 +161,9 @@ void ArrivingPicture::tell(bool ended) {
     if (const auto remark = reader_.remark()) said.push_back(*remark);
     now.said = joined(said, "; ");
   }
-  {
-    const std::lock_guard lock(mutex_);
-    if (now == arrival_) return;
-    arrival_ = now;
-  }
+  std::unique_lock lock(mutex_);
+  if (now == std::exchange(arrival_, now)) return;
+  lock.unlock();
   on_news_();
 }
 

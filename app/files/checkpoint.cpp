@@ -17,18 +17,14 @@ constexpr std::size_t pixels_at_a_time = 4096;  ///< by one thread
 
 /// Copies a film into another one, whose memory is used again. All threads copy parts of it, as rendering waits for it.
 void copy(const Film& film, Film& to, ThreadPool& thread_pool) {
-  to.pixels.resize(film.pixels.size());
-  to.emission.resize(film.emission.size());
-  const auto copy_part = [&](int number) {
-    const std::size_t first = pixels_at_a_time * static_cast<std::size_t>(number);
-    const auto part = [first](const auto& from, auto& into) {
-      const std::size_t begin = std::min(first, from.size()), count = std::min(pixels_at_a_time, from.size() - begin);
-      std::copy_n(from.data() + begin, count, into.data() + begin);
-    };
-    part(film.pixels, to.pixels);
-    part(film.emission, to.emission);
+  const auto copy_all = [&thread_pool](const auto& from, auto& into) {
+    into.resize(from.size());
+    thread_pool.for_each(static_cast<int>((from.size() + pixels_at_a_time - 1) / pixels_at_a_time), [&](int number) {
+      const std::size_t begin = pixels_at_a_time * static_cast<std::size_t>(number);
+      std::copy_n(from.data() + begin, std::min(pixels_at_a_time, from.size() - begin), into.data() + begin);
+    });
   };
-  thread_pool.for_each(static_cast<int>((film.pixels.size() + pixels_at_a_time - 1) / pixels_at_a_time), copy_part);
+  copy_all(film.pixels, to.pixels), copy_all(film.emission, to.emission);
   to.width = film.width, to.height = film.height, to.region = film.region, to.first_sample = film.first_sample;
   to.quantum = film.quantum, to.cut_throughput = film.cut_throughput, to.planned = film.planned;
 }

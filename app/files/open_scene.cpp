@@ -1,11 +1,9 @@
 #include "app/files/open_scene.h"
 
-#include "app/book/load_program.h"
 #include "app/text/standard_streams.h"
 #include "core/base/error.h"
 #include "core/scene/check.h"
 
-#include <algorithm>
 #include <system_error>
 
 namespace tyndall {
@@ -13,15 +11,14 @@ namespace {
 
 /// Programs name images by whole paths, as they run elsewhere. Those below the folder are named from there, so that the
 /// scene can be moved with them.
-Scene name_textures_from(const std::filesystem::path& folder, Scene scene) {
+void name_textures_from(const std::filesystem::path& folder, Scene& scene) {
   std::error_code error;
   const std::filesystem::path whole = std::filesystem::canonical(folder, error);
-  if (error) return scene;
+  if (error) return;
   each_picture(scene, [&](auto& picture) {
     const std::filesystem::path below = std::filesystem::path(picture.file).lexically_relative(whole);
     if (!below.empty() && *below.begin() != "..") picture.file = below.string();
   });
-  return scene;
 }
 
 /// The scene that a program describes, or its own samples.
@@ -43,7 +40,7 @@ LoadedScene load_program_scene(const SceneRequest& request, OwnSamples& own) {
   std::string reason = made.reason;
   if (!made.json.empty()) {
     loaded = load_scene_text(made.json, request.what, folder, request.overrides);
-    loaded.scene = name_textures_from(folder, std::move(loaded.scene));
+    name_textures_from(folder, loaded.scene);
     if (request.program.differs && request.overrides.empty()) reason = request.program.differs(loaded.scene, made);
   }
   if (!reason.empty()) {
@@ -121,7 +118,7 @@ LoadedScene open_variant(const LoadedScene& opened, const SceneRequest& request,
   overrides.insert(overrides.end(), more.begin(), more.end());
   LoadedScene loaded = opened;
   loaded.scene = load_scene_text(opened.text, name, opened.folder, overrides).scene;
-  if (!opened.sources.empty()) loaded.scene = name_textures_from(opened.folder, std::move(loaded.scene));
+  if (!opened.sources.empty()) name_textures_from(opened.folder, loaded.scene);
   loaded.name = name;
   apply_options(request, loaded);
   loaded.name = opened.name;

@@ -8,7 +8,6 @@
 #include "core/scene/scene.h"
 #include "core/system/locks.h"
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>

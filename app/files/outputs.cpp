@@ -5,12 +5,10 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/film/film.h"
-#include "core/image/whole_file.h"
 #include "core/system/files.h"
 #include "core/system/process.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <span>
 
 namespace tyndall {
@@ -46,16 +44,6 @@ fs::path free_name(const fs::path& file) {
     if (fs::symlink_status(name, error).type() == fs::file_type::not_found) return name;
   }
   return {};
-}
-
-bool succeeds(const std::function<void(const fs::path& file)>& write, const fs::path& file) {
-  if (file.empty()) return false;
-  try {
-    write(file);
-    return true;
-  } catch (const std::exception&) {
-    return false;
-  }
 }
 
 }  // namespace
@@ -166,18 +154,20 @@ void write_or_rescue(const fs::path& file, const std::function<void(const fs::pa
     throw;
   } catch (const std::exception& error) {
     if (is_stream(file)) throw;
-    const std::string problem = error.what();
-    fs::path place = free_name(file);
-    if (!succeeds(write, place)) {
-      const fs::path folder = make_temporary_folder("tyndall-");  // empty if none can be made
-      place = folder.empty() ? folder : folder / file.filename();
-      if (!succeeds(write, place)) {
-        std::error_code ignored;
-        fs::remove(folder, ignored);
-        throw;
+    const auto rescue_to = [&](const fs::path& place) {
+      try {
+        write(place);
+      } catch (const std::exception&) {
+        return;
       }
-    }
-    throw ImageFileError(problem + "; it is in " + place.string() + " instead");
+      throw ImageFileError(error.what() + ("; it is in " + place.string()) + " instead");
+    };
+    if (const fs::path name = free_name(file); !name.empty()) rescue_to(name);
+    const fs::path folder = make_temporary_folder("tyndall-");  // empty if none can be made
+    if (!folder.empty()) rescue_to(folder / file.filename());
+    std::error_code ignored;
+    fs::remove(folder, ignored);
+    throw;
   }
 }
 

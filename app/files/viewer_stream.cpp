@@ -27,42 +27,25 @@ constexpr const char* closed = "the viewer has closed the connection";
 
 enum class PacketType : char { create_image = 4, update_image_v3 = 6 };
 
-/// A packet: its size in bytes (4 bytes), its type, and values, the lowest byte first; texts end with a zero.
-class Packet {
- public:
-  Packet(PacketType type, const std::string& name) : bytes_(4, '\0') {
-    add(type, false);  // the viewer need not get the focus
-    add_text(name);
-  }
-  template <class... Values>
-  void add(Values... values) {
-    static_assert(std::endian::native == std::endian::little);
-    (bytes_.append(reinterpret_cast<const char*>(&values), sizeof values), ...);
-  }
-  void add_text(const std::string& text) { bytes_.append(text.c_str(), text.size() + 1); }
-  void add_channels() {
-    add(static_cast<std::int32_t>(viewer_channel_count));
-    for (const char* channel : viewer_channels) add_text(channel);
-  }
-  /// The rows y0 <= y < y1 of a frame.
-  void add_rows(const ViewerFrame& frame, int y0, int y1) {
-    constexpr std::int64_t channels = viewer_channel_count;
-    add(frame.region.x0, y0, frame.region.width(), y1 - y0);
-    for (std::int64_t c = 0; c < channels; ++c) add(c);         // where each channel begins
-    for (std::int64_t c = 0; c < channels; ++c) add(channels);  // and how far its values are apart
-    const std::int64_t row = channels * frame.region.width();
-    bytes_.append(reinterpret_cast<const char*>(frame.values.data() + row * (y0 - frame.region.y0)),
-                  sizeof(float) * static_cast<std::size_t>(row * (y1 - y0)));
-  }
-  const std::string& finished() {
-    const auto size = static_cast<std::uint32_t>(bytes_.size());
-    std::memcpy(bytes_.data(), &size, sizeof size);
-    return bytes_;
-  }
-
- private:
-  std::string bytes_;
-};
+/// Appends values to a packet, the lowest byte first.
+template <class... Values>
+void add(std::string& packet, Values... values) {
+  static_assert(std::endian::native == std::endian::little);
+  (packet.append(reinterpret_cast<const char*>(&values), sizeof values), ...);
+}
+/// Texts end with a zero.
+void add_text(std::string& packet, const std::string& text) { packet.append(text.c_str(), text.size() + 1); }
+void add_channels(std::string& packet) {
+  add(packet, static_cast<std::int32_t>(viewer_channel_count));
+  for (const char* channel : viewer_channels) add_text(packet, channel);
+}
+/// The beginning of a packet: room for its size in bytes, its type, and the picture's name.
+std::string begin_packet(PacketType type, const std::string& name) {
+  std::string packet(sizeof(std::uint32_t), 0);
+  add(packet, type, false);  // the viewer need not get the focus
+  add_text(packet, name);
+  return packet;
+}
 
 }  // namespace
 
@@ -81,17 +64,17 @@ struct ViewerStream::Shared {
   Clock::time_point taken = Clock::now();  ///< when the viewer last took something
   std::string problem{};
 
-  bool connect();
-  bool send(Packet packet);
-  bool send_frame(const ViewerFrame& frame);
-  bool goes_on(Sent sent);
+  // These throw an IoError where the viewer fails, or the caller has asked for the end.
+  void connect();
+  void send(std::string packet);
+  void send_frame(const ViewerFrame& frame);
+
   /// The end, of which the caller is told unless it has asked for it.
-  bool fail(const std::string& why) {
+  void fail(const std::string& why) {
     const std::lock_guard lock(mutex);
     if (!stop) problem = text_of(address) + ": " + why;
     state = State::ended;
     changed.notify_all();
-    return false;
   }
   void set(State now) {
     const std::lock_guard lock(mutex);
@@ -100,57 +83,58 @@ struct ViewerStream::Shared {
   }
 };
 
-/// Whether to send further.
-bool ViewerStream::Shared::goes_on(Sent sent) {
-  std::unique_lock lock(mutex);
-  if (stop) return false;
-  if (sent == Sent::some) taken = Clock::now();
-  const bool silent = Clock::now() - taken > silence;
-  lock.unlock();
-  if (sent == Sent::closed) return fail(closed);
-  return !silent || fail("the viewer has taken nothing for 10 s");
+void ViewerStream::Shared::send(std::string packet) {
+  const auto size = static_cast<std::uint32_t>(packet.size());
+  std::memcpy(packet.data(), &size, sizeof size);
+  for (std::size_t done = 0; done < packet.size();) {
+    const Sent sent = send_some(viewer, packet.data(), packet.size(), done);
+    const std::lock_guard lock(mutex);
+    if (sent == Sent::closed) throw IoError(closed);
+    if (sent == Sent::some) taken = Clock::now();
+    if (stop || Clock::now() - taken > silence) throw IoError("the viewer has taken nothing for 10 s");
+  }
 }
 
-bool ViewerStream::Shared::send(Packet packet) {
-  const std::string& bytes = packet.finished();
-  for (std::size_t done = 0; done < bytes.size();)
-    if (!goes_on(send_some(viewer, bytes.data(), bytes.size(), done))) return false;
-  return true;
-}
-
-bool ViewerStream::Shared::connect() {
+void ViewerStream::Shared::connect() {
   std::string why;
   const auto waits = [this] {
     const std::lock_guard lock(mutex);
     return !stop;
   };
   viewer = connect_to(address.host, address.port, waits, why);
-  if (!viewer) return !why.empty() && fail(why);
+  if (!viewer) throw IoError(why);
   set(State::sending);
-  Packet create(PacketType::create_image, name);
-  create.add(width, height);
-  create.add_channels();
-  return send(std::move(create));
+  std::string create = begin_packet(PacketType::create_image, name);
+  add(create, width, height);
+  add_channels(create);
+  send(std::move(create));
 }
 
-bool ViewerStream::Shared::send_frame(const ViewerFrame& frame) {
-  const auto row_bytes = viewer_channel_count * sizeof(float) * static_cast<std::size_t>(frame.region.width());
-  const int rows = std::max(1, static_cast<int>(band_bytes / row_bytes));
-  for (int y = frame.region.y0; y < frame.region.y1; y += rows) {
-    Packet packet(PacketType::update_image_v3, name);
-    packet.add_channels();
-    packet.add_rows(frame, y, std::min(y + rows, frame.region.y1));
-    if (!send(std::move(packet))) return false;
+void ViewerStream::Shared::send_frame(const ViewerFrame& frame) {
+  constexpr std::int64_t channels = viewer_channel_count;
+  const Region& all = frame.region;
+  const std::size_t row_bytes = sizeof(float) * viewer_channel_count * static_cast<std::size_t>(all.width());
+  const int most = std::max(1, static_cast<int>(band_bytes / row_bytes));
+  const auto* bytes = reinterpret_cast<const char*>(frame.values.data());
+  for (int y = all.y0, rows = 0; y < all.y1; y += rows) {
+    rows = std::min(most, all.y1 - y);
+    std::string packet = begin_packet(PacketType::update_image_v3, name);
+    add_channels(packet);
+    add(packet, all.x0, y, all.width(), rows);
+    for (std::int64_t c = 0; c < channels; ++c) add(packet, c);         // where each channel begins
+    for (std::int64_t c = 0; c < channels; ++c) add(packet, channels);  // and how far its values are apart
+    packet.append(bytes + row_bytes * static_cast<std::size_t>(y - all.y0), row_bytes * static_cast<std::size_t>(rows));
+    send(std::move(packet));
   }
-  return true;
 }
 
-/// Does a piece of work on a thread that nobody waits for; false: it has failed.
-void ViewerStream::start(std::function<bool(Shared&)> work) {
+/// Does a piece of work on a thread that nobody waits for.
+void ViewerStream::start(std::function<void(Shared&)> work) {
   try {
     std::thread([shared = shared_, work = std::move(work)] {
       try {
-        if (work(*shared)) shared->set(Shared::State::idle);
+        work(*shared);
+        shared->set(Shared::State::idle);
       } catch (const std::exception& error) {
         shared->fail(error.what());
       }
@@ -162,7 +146,7 @@ void ViewerStream::start(std::function<bool(Shared&)> work) {
 
 ViewerStream::ViewerStream(const ViewerAddress& address, const std::string& name, int width, int height)
     : shared_(new Shared{address, all_printable(name), width, height, {}, {}}) {
-  start([](Shared& its) { return its.connect(); });
+  start([](Shared& its) { its.connect(); });
 }
 
 ViewerStream::~ViewerStream() {
@@ -175,12 +159,14 @@ bool ViewerStream::ready() const {
     const std::lock_guard lock(shared_->mutex);
     if (shared_->state != Shared::State::idle) return false;
   }
-  return !is_closed_by_other(shared_->viewer) || shared_->fail(closed);
+  const bool gone = is_closed_by_other(shared_->viewer);
+  if (gone) shared_->fail(closed);
+  return !gone;
 }
 
 void ViewerStream::send(ViewerFrame frame) {
   shared_->set(Shared::State::sending);
-  start([frame = std::move(frame)](Shared& its) { return its.send_frame(frame); });
+  start([frame = std::move(frame)](Shared& its) { its.send_frame(frame); });
 }
 
 void ViewerStream::finish(double patience) {
@@ -189,7 +175,8 @@ void ViewerStream::finish(double patience) {
   const auto start = Clock::now(), latest = start + longest_finish;
   const auto patient = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(patience));
   std::unique_lock lock(its.mutex);
-  while (its.state == State::connecting || its.state == State::sending) {
+  const auto ended = [&its] { return its.state == State::idle || its.state == State::ended; };
+  while (!ended()) {
     const bool connected = its.state == State::sending;
     const auto until = std::min(latest, (connected ? std::max(start, its.taken) : start) + patient);
     if (Clock::now() >= until) {
@@ -198,7 +185,7 @@ void ViewerStream::finish(double patience) {
       its.stop = true;
       return;
     }
-    its.changed.wait_until(lock, std::min(until, Clock::now() + look_interval));
+    its.changed.wait_for(lock, std::min<Clock::duration>(until - Clock::now(), look_interval), ended);
   }
 }
 

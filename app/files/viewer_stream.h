@@ -57,7 +57,7 @@ class ViewerStream {
 
  private:
   struct Shared;
-  void start(std::function<bool(Shared&)> work);
+  void start(std::function<void(Shared&)> work);
 
   std::shared_ptr<Shared> shared_;  ///< threads have it, too, as a look-up of a name cannot be stopped
 };

@@ -69,9 +69,4 @@ std::string WatchedFunction::first_problem() const {
   return first_;
 }
 
-std::uint64_t WatchedFunction::problems() const {
-  const std::lock_guard lock(mutex_);
-  return problems_;
-}
-
 }  // namespace tyndall

@@ -2,6 +2,7 @@
 #include "core/render/sample_source.h"
 #include "core/system/locks.h"
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -30,7 +31,7 @@ class WatchedFunction {
   /// "pixel (3, 4), sample 5: REASON": the first sample that was found to have no value; "": none was.
   std::string first_problem() const;
   /// The number of samples without a value, those of earlier renders included.
-  std::uint64_t problems() const;
+  std::uint64_t problems() const { return problems_; }
 
  private:
   Vec3f sample(double x, double y, std::uint64_t index);
@@ -38,9 +39,9 @@ class WatchedFunction {
 
   Function function_;
   std::shared_ptr<const SampleSource> source_;
+  std::atomic<std::uint64_t> problems_ = 0;
   mutable Mutex mutex_;  ///< guards what follows
   std::string first_;
-  std::uint64_t problems_ = 0;
   std::function<void()> on_news_;
 };
 

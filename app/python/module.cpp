@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <exception>
-#include <initializer_list>
 #include <optional>
 #include <string>
 
@@ -24,25 +23,18 @@ auto unlocked(const F& f) {
   return f();
 }
 
-/// Floats of a picture, as an array that cannot be written to. owner: keeps them alive.
-py::array_t<float> look_into(const std::vector<float>& values, std::initializer_list<py::ssize_t> shape,
-                             const py::object& owner) {
-  py::array_t<float> array(shape, values.data(), owner);
-  array.attr("setflags")(py::arg("write") = false);
-  return array;
-}
-
-using Values = const std::vector<float>& (tyndall::Picture::*)() const;
-
-template <Values values, py::ssize_t channels>
+/// Floats of a picture, which it keeps alive, as an array that cannot be written to.
+template <auto values>
 py::array_t<float> array_of(const py::object& self) {
   const auto& picture = self.cast<const tyndall::Picture&>();
   const std::vector<float>& found = *unlocked([&] { return &(picture.*values)(); });
-  const py::ssize_t height = picture.height(), width = picture.width();
-  if constexpr (channels == 1)
-    return look_into(found, {height, width}, self);
-  else
-    return look_into(found, {height, width, channels}, self);
+  const std::size_t height = static_cast<std::size_t>(picture.height()),
+                    width = static_cast<std::size_t>(picture.width());
+  std::vector<std::size_t> shape{height, width};
+  if (found.size() > height * width) shape.push_back(found.size() / (height * width));
+  py::array_t<float> array(shape, found.data(), self);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
 }
 
 /// Renders without the interpreter's lock. Between passes it looks whether Ctrl-C was pressed, and calls `progress`.
@@ -95,7 +87,6 @@ void add_scene(py::module_& module) {
       .def(py::init<const Scene&>())
       .def_static("_load", &Scene::load, WithoutLock())
       .def_static("_parse", &Scene::parse, WithoutLock())
-      .def_static("_built_in", &Scene::built_in, WithoutLock())
       .def("_set_json", &Scene::set_json, WithoutLock())
       .def("_get_json", &Scene::get_json, WithoutLock())
       .def("_remove", &Scene::remove, WithoutLock())
@@ -130,15 +121,15 @@ void add_picture(py::module_& module) {
       .def_readonly("mrays_per_s", &tyndall::Progress::mrays_per_s);
   py::class_<Picture>(module, "Picture")
       .def_property_readonly(
-          "array", &array_of<&Picture::rgb, 3>,
+          "array", &array_of<&Picture::rgb>,
           "height x width x 3, float32, linear radiance, top row first; a view that cannot be written to.")
-      .def_property_readonly("error_map", &array_of<&Picture::error_map, 1>,
+      .def_property_readonly("error_map", &array_of<&Picture::error_map>,
                              "height x width: the estimated relative error around each pixel.")
-      .def_property_readonly("clean", &array_of<&Picture::clean, 3>,
+      .def_property_readonly("clean", &array_of<&Picture::clean>,
                              "height x width x 3: the clean view, if render(clean=True) made one.")
-      .def_property_readonly("_albedo", &array_of<&Picture::albedo, 3>)
-      .def_property_readonly("_normal", &array_of<&Picture::normal, 3>)
-      .def_property_readonly("_depth", &array_of<&Picture::depth, 1>)
+      .def_property_readonly("_albedo", &array_of<&Picture::albedo>)
+      .def_property_readonly("_normal", &array_of<&Picture::normal>)
+      .def_property_readonly("_depth", &array_of<&Picture::depth>)
       .def_property_readonly("width", &Picture::width, "Pixels.")
       .def_property_readonly("height", &Picture::height, "Pixels.")
       .def_property_readonly("error", &Picture::error,
@@ -157,7 +148,7 @@ void add_picture(py::module_& module) {
       .def_property_readonly("film", &Picture::film, "The samples, to save, merge or go on with.")
       .def_property_readonly("scene", &Picture::scene, "The scene that it shows.")
       .def("_save", &Picture::save, WithoutLock())
-      .def("_png", [](const Picture& picture) {
+      .def("_repr_png_", [](const Picture& picture) {
         const std::vector<unsigned char> bytes = unlocked([&] { return picture.png(); });
         return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
       });
@@ -165,10 +156,8 @@ void add_picture(py::module_& module) {
 
 void add_render(py::module_& module) {
   using tyndall::Region;
-  py::class_<Region>(module, "Region").def(py::init([](int x0, int y0, int x1, int y1) {
-    return Region{x0, y0, x1, y1};
-  }));
   // In the order of the members.
+  py::class_<Region>(module, "Region").def(py::init<int, int, int, int>());
   py::class_<tyndall::RenderOptions>(module, "RenderOptions")
       .def(py::init<std::uint32_t, double, double, bool, int, std::string, std::optional<Region>, std::uint32_t,
                     std::optional<tyndall::Film>>());
@@ -203,5 +192,6 @@ PYBIND11_MODULE(_tyndall, module) {
   add_picture(module);
   add_render(module);
   add_compare(module);
-  module.def("version", &tyndall::version);
+  module.def("built_in", &tyndall::Scene::built_in, WithoutLock(), "Names of the built-in scenes.");
+  module.attr("__version__") = tyndall::version();
 }

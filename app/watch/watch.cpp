@@ -16,7 +16,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cfenv>
 #include <clocale>
 #include <cstdint>
@@ -24,6 +23,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -146,6 +146,7 @@ void write_picture(const WindowOptions& order, const std::string& output, const 
     throw IoError(problem);
 }
 
+#ifdef TYNDALL_WINDOW
 /// Whether the file is a picture to compare with as it is, and not to be rendered.
 bool is_picture_file(const std::filesystem::path& name) {
   const std::filesystem::path file = picture_name(name).file;
@@ -154,7 +155,7 @@ bool is_picture_file(const std::filesystem::path& name) {
          image_kind(read_bytes(file, kind_size)) != ImageKind::unknown;
 }
 
-[[maybe_unused]] void add_reference(const std::string& reference, WindowOptions& order) {
+void add_reference(const std::string& reference, WindowOptions& order) {
   if (is_picture_file(reference)) {
     order.reference = reference;
     return;
@@ -166,20 +167,11 @@ bool is_picture_file(const std::filesystem::path& name) {
   order.reference_scene->scene.height = order.scene.scene.height;
 }
 
-#ifdef TYNDALL_WINDOW
 /// One window at a time: the libraries that draw it are of the whole process.
-struct OnlyWindow {
-  OnlyWindow() {
-    if (is_open.exchange(true)) throw UsageError("watch: a window is open; expected one at a time");
-  }
-  ~OnlyWindow() { is_open = false; }
-  static inline std::atomic<bool> is_open = false;
-};
-#endif
-
-void show_window([[maybe_unused]] WindowOptions& order, [[maybe_unused]] const std::string& reference) {
-#ifdef TYNDALL_WINDOW
-  const OnlyWindow only;
+void show_window(WindowOptions& order, const std::string& reference) {
+  static std::mutex window;
+  const std::unique_lock only(window, std::try_to_lock);
+  if (!only) throw UsageError("watch: a window is open; expected one at a time");
   check_memory({.width = order.scene.scene.width, .height = order.scene.scene.height, .window = true}, free_memory());
   if (const char* log = std::getenv("TYNDALL_UI_LOG")) order.ui_log = log;  // for tests
   if (!reference.empty()) add_reference(reference, order);
@@ -188,10 +180,12 @@ void show_window([[maybe_unused]] WindowOptions& order, [[maybe_unused]] const s
   } catch (const IoError& error) {
     throw IoError(error.what() + std::string(no_window));
   }
-#else
-  throw IoError(std::string("this build has no window") + no_window);
-#endif
 }
+#else
+void show_window(WindowOptions&, const std::string&) {
+  throw IoError(std::string("this build has no window") + no_window);
+}
+#endif
 
 int run(int width, int height, tyndall_watch_function function, void* user, const tyndall_watch_options* given) {
   const tyndall_watch_options options = whole(given);

@@ -59,7 +59,7 @@ void remove_dead(const fs::path& folder, const std::string& prefix) {
     const bool ours = name.size() == prefix.size() + digits_of_number && name.starts_with(prefix) &&
                       name.find_first_not_of("0123456789abcdef", prefix.size()) == std::string::npos;
     const OpenFile file = ours ? OpenFile(folder / name, OpenFor::looking) : OpenFile();
-    if (file && file.try_lock() == 0) remove_file(folder / name);
+    if (file && file.lock() == 0) remove_file(folder / name);
   }
 }
 
@@ -157,7 +157,7 @@ bool WholeFile::create(const fs::path& temporary) {
   }
   if (!file) fail(why);
   // Where files cannot be locked, nobody can lock them in order to remove them, either.
-  if (file.try_lock() == EWOULDBLOCK || !file.has_name()) {
+  if (file.lock() == EWOULDBLOCK || !file.has_name()) {
     temporary_.clear();
     return false;
   }

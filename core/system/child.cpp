@@ -27,15 +27,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The ends of a pipe; error: why there is none, or 0.
+/// The ends of a pipe; not open if there is none, and errno says why.
 struct Pipe {
   Pipe() {
     int ends[2];
-    error = pipe2(ends, O_CLOEXEC) == 0 ? 0 : errno;
-    if (error == 0) from = OpenFile(ends[0]), to = OpenFile(ends[1]);
+    if (pipe2(ends, O_CLOEXEC) == 0) from = OpenFile(ends[0]), to = OpenFile(ends[1]);
   }
   OpenFile from, to;
-  int error;
 };
 
 std::vector<char*> pointers(std::vector<std::string>& arguments) {
@@ -58,13 +56,10 @@ std::vector<std::string> with(const std::vector<std::string>& additions) {
 
 /// What the new process needs, made before it begins: there only functions that are safe in handlers may be called.
 struct ProcessStart {
-  explicit ProcessStart(const ChildPlan& p) : plan(p), command(p.command), environment(with(p.environment)) {
-    arguments = pointers(command), variables = pointers(environment);
-  }
   const ChildPlan& plan;
-  std::vector<std::string> command, environment;
-  std::vector<char*> arguments, variables;
-  Pipe input, errors, report;
+  std::vector<std::string> command = plan.command, environment = with(plan.environment);
+  std::vector<char*> arguments = pointers(command), variables = pointers(environment);
+  Pipe input{}, errors{}, report{};
 };
 
 /// Signals that wait from now on; all others come.
@@ -224,11 +219,9 @@ bool runs_children() { return true; }
 
 ChildEnd run_child(const ChildPlan& plan) {
   ChildEnd end;
-  ProcessStart start(plan);
-  for (const Pipe* one : {&start.input, &start.errors, &start.report})
-    end.start_error = std::max(end.start_error, one->error);
-  if (end.start_error != 0) return end;
-  const pid_t parent = getpid(), supervisor = fork();
+  ProcessStart start{plan};
+  const bool has_pipes = start.input.to && start.errors.to && start.report.to;
+  const pid_t parent = getpid(), supervisor = has_pipes ? fork() : -1;
   if (supervisor == 0) supervise(start, parent);
   if (supervisor < 0) {
     end.start_error = errno;

@@ -25,23 +25,22 @@ bool takes_bytes(int socket) {
 }
 
 OpenFile connect_at(const addrinfo& to, const std::function<bool()>& go_on, std::string& why) {
+  const auto fail = [&why](const std::string& text) {
+    why = text;
+    return OpenFile();
+  };
   OpenFile made(socket(to.ai_family, to.ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, to.ai_protocol));
   int error = 0, buffer = send_buffer;
   setsockopt(made.descriptor(), SOL_SOCKET, SO_SNDBUF, &buffer, sizeof buffer);
-  if (!made || (connect(made.descriptor(), to.ai_addr, to.ai_addrlen) != 0 && errno != EINPROGRESS)) {
-    why = error_text(errno);
-    return {};
-  }
+  if (!made || (connect(made.descriptor(), to.ai_addr, to.ai_addrlen) != 0 && errno != EINPROGRESS))
+    return fail(error_text(errno));
   for (const auto start = Clock::now(); !takes_bytes(made.descriptor());) {
     if (!go_on()) return {};
-    if (Clock::now() - start < connect_time) continue;
-    why = "no answer within 10 s";
-    return {};
+    if (Clock::now() - start >= connect_time) return fail("no answer within 10 s");
   }
   socklen_t size = sizeof error;
   if (getsockopt(made.descriptor(), SOL_SOCKET, SO_ERROR, &error, &size) == 0 && error == 0) return made;
-  why = error_text(error);
-  return {};
+  return fail(error_text(error));
 }
 
 }  // namespace

@@ -73,13 +73,9 @@ std::string problem_of_name(const fs::path&) { return ""; }
 FileTrace trace_of(const fs::path& file) {
   struct stat s {};
   if (stat(file.c_str(), &s) != 0) return {};
-  return {static_cast<std::int64_t>(s.st_dev),
-          static_cast<std::int64_t>(s.st_ino),
-          s.st_size,
-          s.st_mtim.tv_sec,
-          s.st_mtim.tv_nsec,
-          s.st_ctim.tv_sec,
-          s.st_ctim.tv_nsec};
+  const auto time = [](const timespec& t) { return t.tv_sec * std::int64_t{1'000'000'000} + t.tv_nsec; };
+  return {static_cast<std::int64_t>(s.st_dev), static_cast<std::int64_t>(s.st_ino), s.st_size, time(s.st_mtim),
+          time(s.st_ctim)};
 }
 
 fs::path own_file() {

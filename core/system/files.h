@@ -31,7 +31,7 @@ std::string problem_of_name(const std::filesystem::path& file);
 
 /// What changes with a file: which one it is, its size, and when its bytes, name or mode were changed last. Zeros where
 /// there is no file.
-using FileTrace = std::array<std::int64_t, 7>;
+using FileTrace = std::array<std::int64_t, 5>;
 FileTrace trace_of(const std::filesystem::path& file);
 
 /// The file that holds this code: the library where another program uses it, else the program.

@@ -6,8 +6,6 @@
 #include <fcntl.h>
 #include <io.h>
 
-#include <algorithm>
-#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -76,7 +74,7 @@ std::vector<std::string> names_in_folder(const fs::path& folder) {
   const auto close = [](void* search) { FindClose(search); };
   const std::unique_ptr<void, decltype(close)> search(FindFirstFileW((folder / L"*").c_str(), &found), close);
   if (search.get() == INVALID_HANDLE_VALUE) return names;
-  do names.push_back(utf8_of(found.cFileName));
+  do names.push_back(fs::path(found.cFileName).string());
   while (FindNextFileW(search.get(), &found));
   return names;
 }
@@ -123,22 +121,17 @@ std::string problem_of_name(const fs::path& file) {
 }
 
 FileTrace trace_of(const fs::path& file) {
-  FileTrace trace{};
   const HANDLE handle = CreateFileW(file.c_str(), FILE_READ_ATTRIBUTES, all_may, nullptr, OPEN_EXISTING,
                                     FILE_FLAG_BACKUP_SEMANTICS, nullptr);
-  if (handle == INVALID_HANDLE_VALUE) return trace;
+  if (handle == INVALID_HANDLE_VALUE) return {};
   BY_HANDLE_FILE_INFORMATION id{};
   FILE_BASIC_INFO times{};
   GetFileInformationByHandle(handle, &id);
   GetFileInformationByHandleEx(handle, FileBasicInfo, &times, sizeof times);
   CloseHandle(handle);
-  return {id.dwVolumeSerialNumber,
-          static_cast<std::int64_t>(std::uint64_t{id.nFileIndexHigh} << 32 | id.nFileIndexLow),
-          static_cast<std::int64_t>(std::uint64_t{id.nFileSizeHigh} << 32 | id.nFileSizeLow),
-          times.LastWriteTime.QuadPart,
-          times.ChangeTime.QuadPart,
-          id.dwFileAttributes,
-          0};
+  const auto joined = [](std::int64_t high, DWORD low) { return high << 32 | low; };
+  return {id.dwVolumeSerialNumber, joined(id.nFileIndexHigh, id.nFileIndexLow),
+          joined(id.nFileSizeHigh, id.nFileSizeLow), times.LastWriteTime.QuadPart, times.ChangeTime.QuadPart};
 }
 
 fs::path own_file() {

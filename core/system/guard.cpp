@@ -151,13 +151,18 @@ class CallFilter {
     add(BPF_JMP | BPF_JGE | BPF_K, call, 0, 1);
     fail(ENOSYS);
   }
-  /// Allows the call only with one of these values of the argument.
-  void allow_only(long call, int argument, std::initializer_list<std::uint32_t> values) {
-    test_argument(call, argument, ~0U, values, true);
-  }
-  /// Refuses the call where the masked argument has one of these values.
-  void refuse_values(long call, int argument, std::uint32_t mask, std::initializer_list<std::uint32_t> values) {
-    test_argument(call, argument, mask, values, false);
+  /// Allows the call only where the masked argument has one of these values, or, if that is `refused`, only where it
+  /// has none of them. Takes the lower half of the argument; the values lead beyond the refusal, or to it.
+  void test_argument(long call, int argument, std::initializer_list<std::uint32_t> values, std::uint32_t mask = ~0U,
+                     bool refused = false) {
+    auto left = static_cast<std::uint8_t>(values.size());
+    add(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(call), 0, static_cast<std::uint8_t>(left + 4 + refused));
+    load(offsetof(seccomp_data, args) + 8 * static_cast<std::size_t>(argument));
+    add(BPF_ALU | BPF_AND | BPF_K, mask, 0, 0);
+    for (const std::uint32_t value : values) add(BPF_JMP | BPF_JEQ | BPF_K, value, left--, 0);
+    if (refused) add(BPF_JMP | BPF_JA, 1, 0, 0);
+    fail(EPERM);
+    load(offsetof(seccomp_data, nr));
   }
   /// From here on in force; all else is allowed.
   bool install() {
@@ -172,18 +177,6 @@ class CallFilter {
   }
   void load(std::size_t offset) { add(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset), 0, 0); }
   void fail(std::uint32_t error) { add(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | error, 0, 0); }
-  /// Takes the lower half of the argument; the values lead beyond the refusal, or to it.
-  void test_argument(long call, int argument, std::uint32_t mask, std::initializer_list<std::uint32_t> values,
-                     bool allows) {
-    auto left = static_cast<std::uint8_t>(values.size());
-    add(BPF_JMP | BPF_JEQ | BPF_K, static_cast<std::uint32_t>(call), 0, static_cast<std::uint8_t>(left + 5 - allows));
-    load(offsetof(seccomp_data, args) + 8 * static_cast<std::size_t>(argument));
-    add(BPF_ALU | BPF_AND | BPF_K, mask, 0, 0);
-    for (const std::uint32_t value : values) add(BPF_JMP | BPF_JEQ | BPF_K, value, left--, 0);
-    if (!allows) add(BPF_JMP | BPF_JA, 1, 0, 0);
-    fail(EPERM);
-    load(offsetof(seccomp_data, nr));
-  }
 
   sock_filter code_[320];
   std::uint16_t size_ = 0;
@@ -201,16 +194,16 @@ void refuse_in_any_case(CallFilter& filter) {
 void refuse_without_namespaces(CallFilter& filter, int landlock) {
   filter.refuse({SYS_fchmod, SYS_fchmodat, SYS_fchown, SYS_fchownat, SYS_utimensat, SYS_setxattr, SYS_lsetxattr,
                  SYS_fsetxattr, SYS_removexattr, SYS_lremovexattr, SYS_fremovexattr});
-  filter.allow_only(SYS_ioctl, 1, {TCGETS, TIOCGWINSZ, FIONREAD, FIONBIO, FIOCLEX, FIONCLEX});
+  filter.test_argument(SYS_ioctl, 1, {TCGETS, TIOCGWINSZ, FIONREAD, FIONBIO, FIOCLEX, FIONCLEX});
 #ifdef __x86_64__
   filter.refuse({SYS_chmod, SYS_chown, SYS_lchown, SYS_utime, SYS_utimes, SYS_futimesat});
 #endif
   if (landlock < 3) {
     filter.refuse({SYS_truncate});
     const std::uint32_t mask = O_TRUNC | O_ACCMODE;  // Landlock sees those that open to write
-    filter.refuse_values(SYS_openat, 2, mask, {O_TRUNC, O_TRUNC | O_ACCMODE});
+    filter.test_argument(SYS_openat, 2, {O_TRUNC, O_TRUNC | O_ACCMODE}, mask, true);
 #ifdef __x86_64__
-    filter.refuse_values(SYS_open, 1, mask, {O_TRUNC, O_TRUNC | O_ACCMODE});
+    filter.test_argument(SYS_open, 1, {O_TRUNC, O_TRUNC | O_ACCMODE}, mask, true);
 #endif
   }
   filter.refuse({SYS_shmget, SYS_shmat, SYS_shmctl, SYS_semget, SYS_semop, SYS_semtimedop, SYS_semctl, SYS_msgget,
@@ -221,8 +214,8 @@ void refuse_without_namespaces(CallFilter& filter, int landlock) {
                  SYS_migrate_pages, SYS_move_pages});
   for (const long call : {SYS_kill, SYS_tgkill, SYS_rt_sigqueueinfo, SYS_prlimit64, SYS_sched_setaffinity,
                           SYS_sched_setscheduler, SYS_sched_setparam, SYS_sched_setattr})
-    filter.allow_only(call, 0, {0, self});
-  filter.refuse_values(SYS_fcntl, 1, ~0U, {F_SETOWN, F_SETOWN_EX, F_SETSIG});
+    filter.test_argument(call, 0, {0, self});
+  filter.test_argument(SYS_fcntl, 1, {F_SETOWN, F_SETOWN_EX, F_SETSIG}, ~0U, true);
 }
 
 bool drop_capabilities() {

@@ -42,21 +42,18 @@ class Condition {
   template <class Duration, class Predicate>
   bool wait_for(std::unique_lock<Mutex>& lock, Duration longest, Predicate predicate) {
     const auto end = std::chrono::steady_clock::now() + longest;
-    while (!predicate())
-      if (wait_until(lock, end) == std::cv_status::timeout) return predicate();
+    while (!predicate()) {
+      const auto rest = std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now()).count();
+      if (rest <= 0) return false;
+      sleep(lock, static_cast<unsigned>(std::min<long long>(rest, forever - 1)));
+    }
     return true;
-  }
-  template <class Time>
-  std::cv_status wait_until(std::unique_lock<Mutex>& lock, Time end) {
-    const auto rest = std::chrono::ceil<std::chrono::milliseconds>(end - Time::clock::now()).count();
-    const bool woken = rest > 0 && sleep(lock, static_cast<unsigned>(std::min<long long>(rest, forever - 1)));
-    return woken || Time::clock::now() < end ? std::cv_status::no_timeout : std::cv_status::timeout;
   }
 
  private:
   static constexpr unsigned forever = std::numeric_limits<unsigned>::max();
-  /// false: so many milliseconds have passed.
-  bool sleep(std::unique_lock<Mutex>& lock, unsigned milliseconds);
+  /// Until it is woken, or so many milliseconds have passed.
+  void sleep(std::unique_lock<Mutex>& lock, unsigned milliseconds);
   void* condition_ = nullptr;  // a CONDITION_VARIABLE, which is a pointer and begins as 0
 };
 

@@ -18,9 +18,8 @@ void Mutex::unlock() { ReleaseSRWLockExclusive(native_lock(&lock_)); }
 void Condition::notify_one() { WakeConditionVariable(native_condition(&condition_)); }
 void Condition::notify_all() { WakeAllConditionVariable(native_condition(&condition_)); }
 
-bool Condition::sleep(std::unique_lock<Mutex>& lock, unsigned milliseconds) {
-  return SleepConditionVariableSRW(native_condition(&condition_), native_lock(&lock.mutex()->lock_), milliseconds, 0) !=
-         0;
+void Condition::sleep(std::unique_lock<Mutex>& lock, unsigned milliseconds) {
+  SleepConditionVariableSRW(native_condition(&condition_), native_lock(&lock.mutex()->lock_), milliseconds, 0);
 }
 
 }  // namespace tyndall

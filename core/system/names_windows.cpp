@@ -4,12 +4,6 @@
 #include <cwchar>
 #include <utility>
 
-namespace tyndall {
-
-std::string utf8_of(const wchar_t* text) { return std::filesystem::path(text).string(); }
-
-}  // namespace tyndall
-
 // Names of files are UTF-8 everywhere in the program, and libstdc++ gives them so in path::string(); but what it makes
 // a path of goes through mbrtowc(), whose version in msvcrt.dll knows no UTF-8. These take its place, and that of its
 // neighbours in the C library's object, which would bring it along. (UCRT's are told by begin_process().) A byte that

@@ -13,19 +13,16 @@
 namespace tyndall {
 namespace {
 
-int flags_of(OpenFor purpose) {
-  constexpr int flags[] = {
-      O_RDONLY,                          // reading
-      O_WRONLY | O_NOCTTY,               // writing
-      O_WRONLY | O_APPEND | O_NOCTTY,    // appending
-      O_WRONLY | O_APPEND | O_CREAT,     // adding
-      O_RDWR | O_CREAT,                  // changing
-      O_RDWR | O_CREAT | O_EXCL,         // creating
-      O_RDWR | O_NOFOLLOW | O_NONBLOCK,  // looking
-      O_RDONLY | O_DIRECTORY,            // folder
-  };
-  return flags[static_cast<int>(purpose)];
-}
+constexpr int flags_for[] = {
+    O_RDONLY,                          // reading
+    O_WRONLY | O_NOCTTY,               // writing
+    O_WRONLY | O_APPEND | O_NOCTTY,    // appending
+    O_WRONLY | O_APPEND | O_CREAT,     // adding
+    O_RDWR | O_CREAT,                  // changing
+    O_RDWR | O_CREAT | O_EXCL,         // creating
+    O_RDWR | O_NOFOLLOW | O_NONBLOCK,  // looking
+    O_RDONLY | O_DIRECTORY,            // folder
+};
 
 int result(long value) { return value < 0 ? errno : 0; }
 
@@ -34,7 +31,8 @@ int result(long value) { return value < 0 ? errno : 0; }
 std::string error_text(int number) { return std::generic_category().message(number); }
 
 OpenFile::OpenFile(const std::filesystem::path& file, OpenFor purpose, unsigned mode)
-    : descriptor_(open(file.c_str(), flags_of(purpose) | O_CLOEXEC, mode)), error_(descriptor_ < 0 ? errno : 0) {}
+    : descriptor_(open(file.c_str(), flags_for[static_cast<int>(purpose)] | O_CLOEXEC, mode)),
+      error_(descriptor_ < 0 ? errno : 0) {}
 
 OpenFile OpenFile::unnamed() {
   std::FILE* stream = std::tmpfile();
@@ -99,10 +97,11 @@ int OpenFile::reserve([[maybe_unused]] std::uint64_t size) const {
   return 0;
 }
 
-int OpenFile::try_lock() const { return result(flock(descriptor_, LOCK_EX | LOCK_NB)); }
-
-void OpenFile::wait_for_lock() const {
-  while (flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) continue;
+int OpenFile::lock(bool waits) const {
+  int error = 0;
+  do error = result(flock(descriptor_, waits ? LOCK_EX : LOCK_EX | LOCK_NB));
+  while (error == EINTR);
+  return error;
 }
 
 bool OpenFile::has_name() const {

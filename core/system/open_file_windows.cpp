@@ -22,31 +22,21 @@ struct HowToOpen {
   int flags;
 };
 
-HowToOpen how_to_open(OpenFor purpose) {
-  constexpr DWORD all = GENERIC_READ | GENERIC_WRITE, append = FILE_APPEND_DATA | SYNCHRONIZE;
-  constexpr HowToOpen table[] = {
-      {GENERIC_READ, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, 0},                          // reading
-      {GENERIC_WRITE | FILE_READ_ATTRIBUTES, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, 0},  // writing
-      {append, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, _O_APPEND},                        // appending
-      {append, OPEN_ALWAYS, FILE_ATTRIBUTE_NORMAL, _O_APPEND},                          // adding
-      {all, OPEN_ALWAYS, FILE_ATTRIBUTE_NORMAL, 0},                                     // changing
-      {all, CREATE_NEW, FILE_ATTRIBUTE_NORMAL, 0},                                      // creating
-      {all, OPEN_EXISTING, FILE_FLAG_OPEN_REPARSE_POINT, 0},                            // looking
-      {GENERIC_READ, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, 0},                     // folder
-  };
-  return table[static_cast<int>(purpose)];
-}
+constexpr DWORD all = GENERIC_READ | GENERIC_WRITE, append = FILE_APPEND_DATA | SYNCHRONIZE;
+constexpr HowToOpen how_to_open[] = {
+    {GENERIC_READ, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, 0},                          // reading
+    {GENERIC_WRITE | FILE_READ_ATTRIBUTES, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, 0},  // writing
+    {append, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, _O_APPEND},                        // appending
+    {append, OPEN_ALWAYS, FILE_ATTRIBUTE_NORMAL, _O_APPEND},                          // adding
+    {all, OPEN_ALWAYS, FILE_ATTRIBUTE_NORMAL, 0},                                     // changing
+    {all, CREATE_NEW, FILE_ATTRIBUTE_NORMAL, 0},                                      // creating
+    {all, OPEN_EXISTING, FILE_FLAG_OPEN_REPARSE_POINT, 0},                            // looking
+    {GENERIC_READ, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, 0},                     // folder
+};
 
 int result(long long value) { return value < 0 ? errno : 0; }
 
 unsigned at_once(std::size_t size) { return static_cast<unsigned>(std::min<std::size_t>(size, 1u << 30)); }
-
-/// Far beyond the end of any file: here locks keep others from reading and writing what is locked.
-OVERLAPPED lock_place() {
-  OVERLAPPED place{};
-  place.Offset = 0xfffffffe, place.OffsetHigh = 0x7fffffff;
-  return place;
-}
 
 }  // namespace
 
@@ -57,14 +47,15 @@ int last_error_number(DWORD error) {
   return std::system_category().default_error_condition(static_cast<int>(error)).value();
 }
 
-int open_for_all(const std::filesystem::path& file, DWORD access, DWORD disposition, DWORD attributes, int flags,
-                 int& error) {
+/// A file as a descriptor of the C library, or -1 and why.
+static int open_file(const std::filesystem::path& file, const HowToOpen& how, int& error) {
   error = EINVAL;
   if (file.native().find(L'\0') != std::wstring::npos) return -1;
-  const HANDLE handle = CreateFileW(file.c_str(), access, all_may, nullptr, disposition, attributes, nullptr);
+  const HANDLE handle =
+      CreateFileW(file.c_str(), how.access, all_may, nullptr, how.disposition, how.attributes, nullptr);
   error = handle == INVALID_HANDLE_VALUE ? last_error_number() : 0;
   if (error != 0) return -1;
-  const int number = _open_osfhandle(reinterpret_cast<std::intptr_t>(handle), flags | _O_BINARY | _O_NOINHERIT);
+  const int number = _open_osfhandle(reinterpret_cast<std::intptr_t>(handle), how.flags | _O_BINARY | _O_NOINHERIT);
   if (number < 0) error = EMFILE, CloseHandle(handle);
   return number;
 }
@@ -75,15 +66,14 @@ std::string error_text(int number) {
 }
 
 OpenFile::OpenFile(const std::filesystem::path& file, OpenFor purpose, unsigned) {
-  const HowToOpen how = how_to_open(purpose);
-  descriptor_ = open_for_all(file, how.access, how.disposition, how.attributes, how.flags, error_);
+  descriptor_ = open_file(file, how_to_open[static_cast<int>(purpose)], error_);
 }
 
 OpenFile OpenFile::unnamed() {
   OpenFile file;
   file.descriptor_ =
-      open_for_all(temporary_folder() / (L"tyndall-" + unique_word()), GENERIC_READ | GENERIC_WRITE | DELETE,
-                   CREATE_NEW, FILE_ATTRIBUTE_TEMPORARY | FILE_FLAG_DELETE_ON_CLOSE, 0, file.error_);
+      open_file(temporary_folder() / (L"tyndall-" + unique_word()),
+                {all | DELETE, CREATE_NEW, FILE_ATTRIBUTE_TEMPORARY | FILE_FLAG_DELETE_ON_CLOSE, 0}, file.error_);
   return file;
 }
 
@@ -127,17 +117,14 @@ int OpenFile::synchronise() const {
 
 int OpenFile::reserve(std::uint64_t) const { return 0; }
 
-int OpenFile::try_lock() const {
-  OVERLAPPED place = lock_place();
-  const DWORD flags = LOCKFILE_EXCLUSIVE_LOCK | LOCKFILE_FAIL_IMMEDIATELY;
+/// Far beyond the end of any file: here locks keep others from reading and writing what is locked.
+int OpenFile::lock(bool waits) const {
+  OVERLAPPED place{};
+  place.Offset = 0xfffffffe, place.OffsetHigh = 0x7fffffff;
+  const DWORD flags = LOCKFILE_EXCLUSIVE_LOCK | (waits ? 0 : LOCKFILE_FAIL_IMMEDIATELY);
   if (LockFileEx(handle_of(descriptor_), flags, 0, 1, 0, &place)) return 0;
   const DWORD error = GetLastError();
   return error == ERROR_LOCK_VIOLATION || error == ERROR_IO_PENDING ? EWOULDBLOCK : last_error_number(error);
-}
-
-void OpenFile::wait_for_lock() const {
-  OVERLAPPED place = lock_place();
-  LockFileEx(handle_of(descriptor_), LOCKFILE_EXCLUSIVE_LOCK, 0, 1, 0, &place);
 }
 
 bool OpenFile::has_name() const {

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <chrono>
 #include <clocale>
-#include <cstdlib>
 
 namespace tyndall {
 namespace {
@@ -51,7 +50,7 @@ std::vector<std::string> program_arguments(int, char**) {
   int count = 0;
   wchar_t** words = CommandLineToArgvW(GetCommandLineW(), &count);
   std::vector<std::string> arguments;
-  for (int k = 1; words && k < count; ++k) arguments.push_back(utf8_of(words[k]));
+  for (int k = 1; words && k < count; ++k) arguments.push_back(std::filesystem::path(words[k]).string());
   LocalFree(words);
   if (has_own_console() && std::all_of(arguments.begin(), arguments.end(), is_absolute)) go_to_documents();
   return arguments;

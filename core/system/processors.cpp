@@ -5,7 +5,6 @@
 #endif
 
 #include <algorithm>
-#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -64,44 +63,23 @@ std::string unescaped(const std::string& text) {
   return out;
 }
 
-std::optional<Mount> mount_of(const std::string& line) {
-  Mount mount;
-  std::istringstream words(line);
-  std::string word;
-  words >> word >> word >> word >> mount.root >> mount.point;
-  while (words >> word && word != "-") continue;  // optional fields
-  words >> mount.type >> word >> mount.options;
-  mount.root = unescaped(mount.root), mount.point = unescaped(mount.point);
-  return mount.options.empty() || !mount.point.starts_with('/') ? std::nullopt : std::optional(mount);
-}
-
 bool names(const std::string& list, const std::string& word) {
   return ("," + list + ",").find("," + word + ",") != std::string::npos;
-}
-
-/// The group's path as a line of proc/self/cgroup has it ("3:cpu,cpuacct:/a/b"; "0::/a/b" for version 2), if the line
-/// is of the hierarchy that is mounted.
-std::optional<std::string> group_in(const std::string& line, const Mount& mount, const std::string& controller) {
-  const std::size_t first = line.find(':'), second = line.find(":/", first + 1);
-  if (first == line.npos || second == line.npos) return std::nullopt;
-  const std::string controllers = line.substr(first + 1, second - first - 1);
-  const bool fits = mount.type == "cgroup2" ? controllers.empty() : names(controllers, controller);
-  return fits ? std::optional(line.substr(second + 1)) : std::nullopt;
-}
-
-/// The part of the path that lies below the mounted root; "": the group is the root, or cannot be seen here.
-std::string below(const std::string& group, const std::string& root) {
-  if (group.find("/..") != std::string::npos) return "";
-  if (root == "/") return group.substr(1);
-  return group.starts_with(root + "/") ? group.substr(root.size() + 1) : "";
 }
 
 /// All mounts that this process sees, in the order in which they were made.
 std::vector<Mount> mounts(const fs::path& root) {
   std::vector<Mount> found;
   std::ifstream in(root / "proc/self/mountinfo");
-  for (std::string line; std::getline(in, line);)
-    if (const auto mount = mount_of(line)) found.push_back(*mount);
+  for (std::string line, word; std::getline(in, line);) {
+    Mount mount;
+    std::istringstream words(line);
+    words >> word >> word >> word >> mount.root >> mount.point;
+    while (words >> word && word != "-") continue;  // optional fields
+    words >> mount.type >> word >> mount.options;
+    mount.root = unescaped(mount.root), mount.point = unescaped(mount.point);
+    if (!mount.options.empty() && mount.point.starts_with('/')) found.push_back(mount);
+  }
   return found;
 }
 
@@ -115,11 +93,15 @@ std::vector<fs::path> cgroup_folders(const std::string& controller, const fs::pa
     if (!version_1 && mount.type != "cgroup2") continue;
     const fs::path top = root / mount.point.substr(1);
     std::ifstream groups(root / "proc/self/cgroup");
-    for (std::string line; std::getline(groups, line);) {
-      const auto group = group_in(line, mount, controller);
-      if (!group) continue;
-      for (fs::path rest = below(*group, mount.root); !rest.empty(); rest = rest.parent_path())
-        folders.push_back(top / rest);
+    for (std::string line; std::getline(groups, line);) {  // "3:cpu,cpuacct:/a/b"; "0::/a/b" for version 2
+      const std::size_t first = line.find(':'), second = line.find(":/", first + 1);
+      if (second == line.npos) continue;
+      const std::string controllers = line.substr(first + 1, second - first - 1);
+      if (version_1 ? !names(controllers, controller) : !controllers.empty()) continue;
+      fs::path below = fs::path(line.substr(second + 1)).lexically_relative(mount.root);
+      // Else the group is the mounted one itself, or cannot be seen here.
+      const bool is_below = !below.empty() && below != "." && *below.begin() != "..";
+      for (; is_below && !below.empty(); below = below.parent_path()) folders.push_back(top / below);
       folders.push_back(top);
     }
   }

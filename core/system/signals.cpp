@@ -4,8 +4,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <atomic>
-#include <chrono>
 #include <iterator>
 #include <utility>
 
@@ -72,7 +70,7 @@ SignalWatch::SignalWatch(WatchedSignals signals, std::function<void()> on_end) {
     for (std::size_t k = 0; k < std::size(watched); ++k) sigaction(watched[k].number, &before[k], nullptr);
     --watches;
   };
-  if (on_end) thread_ = std::thread([this, call = std::move(on_end)] { tell_end(call); });
+  if (on_end) thread_.emplace([this, call = std::move(on_end)] { tell_end(call); });
 }
 
 int SignalWatch::received() const { return restore_ ? received_signal.load() : 0; }

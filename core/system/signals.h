@@ -1,9 +1,11 @@
 #pragma once
+#include "core/system/locks.h"
+
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
-#include <thread>
 
 /// Signals: those that ask for an end, and the one that asks for the picture so far.
 namespace tyndall {
@@ -34,7 +36,6 @@ class SignalWatch {
   ~SignalWatch() {
     if (restore_) restore_();
     ends_ = true;
-    if (thread_.joinable()) thread_.join();
   }
   SignalWatch(const SignalWatch&) = delete;
   SignalWatch& operator=(const SignalWatch&) = delete;
@@ -53,7 +54,7 @@ class SignalWatch {
 
   std::function<void()> restore_;  ///< gives the signals back to those who had them before; empty: none is watched
   std::atomic<bool> ends_ = false;
-  std::thread thread_;
+  std::optional<JoinedThread> thread_;  // declared last, because it uses the others
 };
 
 /// A pipe or connection that breaks fails with an error from now on, and ends the program no more.

@@ -2,7 +2,6 @@
 
 #include "core/system/windows_api.h"
 
-#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <utility>
@@ -45,7 +44,7 @@ SignalWatch::SignalWatch(WatchedSignals signals, std::function<void()> on_end) {
     patient_watches -= patient;
     if (--watches == 0) SetConsoleCtrlHandler(take_event, FALSE);
   };
-  if (on_end) thread_ = std::thread([this, call = std::move(on_end)] { tell_end(call); });
+  if (on_end) thread_.emplace([this, call = std::move(on_end)] { tell_end(call); });
 }
 
 int SignalWatch::received() const { return restore_ ? received_signal.load() : 0; }

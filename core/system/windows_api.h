@@ -3,7 +3,6 @@
 #define WIN32_LEAN_AND_MEAN
 #include <windows.h>
 
-#include <filesystem>
 #include <string>
 
 namespace tyndall {
@@ -12,11 +11,6 @@ namespace tyndall {
 inline constexpr DWORD all_may = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
 /// The error number of POSIX that is most like an error of Windows: the last one of this thread.
 int last_error_number(DWORD error = GetLastError());
-/// A file as a descriptor of the C library, or -1 and why.
-int open_for_all(const std::filesystem::path& file, DWORD access, DWORD disposition, DWORD attributes, int flags,
-                 int& error);
-/// Text of Windows as the program has it.
-std::string utf8_of(const wchar_t* text);
 /// A word that no other call of any process gives.
 std::wstring unique_word();
 

@@ -26,11 +26,10 @@ from typing import Any, Callable, NamedTuple, Optional, Union
 import numpy
 
 from . import _tyndall
-from ._tyndall import Error, Progress
+from ._tyndall import Error, Progress, __version__, built_in
 
 __all__ = ["Comparison", "Error", "Features", "Film", "Picture", "Progress", "Scene", "built_in", "compare", "merge",
            "scene", "__version__"]
-__version__ = _tyndall.version()
 
 
 def _fail(place: str, found: Any, expected: str) -> Error:
@@ -190,9 +189,7 @@ class Scene:
         return Scene(self)
 
     __copy__ = copy
-
-    def __deepcopy__(self, memo: dict) -> "Scene":
-        return Scene(self)
+    __deepcopy__ = lambda self, memo: Scene(self)
 
     def __reduce__(self) -> tuple:
         return _parsed, (self.json(), os.path.abspath(self._folder))
@@ -347,11 +344,8 @@ class Picture:
         """Writes a .png, .exr, .ppm, .pfm or .hdr file, whole or not at all."""
         self._save(_file("file", file))
 
-    def _repr_png_(self) -> bytes:
-        return self._png()
-
     def _repr_html_(self) -> str:
-        image = base64.b64encode(self._png()).decode()
+        image = base64.b64encode(self._repr_png_()).decode()
         error = f", error {100 * self.error:.2g} %" if math.isfinite(self.error) else ""
         return (f'<img src="data:image/png;base64,{image}" width="{self.width}" height="{self.height}" alt="">'
                 f"<div>{self.width} x {self.height}, {self.spp} samples a pixel{error}</div>")
@@ -384,8 +378,8 @@ def compare(image: Any, reference: Any) -> Comparison:
     """Compares two pictures or films, or two arrays of linear radiance, height x width x 3."""
 
     if isinstance(image, (Picture, Film)) and isinstance(reference, (Picture, Film)):
-        found = _tyndall.compare_pictures(*(thing if isinstance(thing, Picture) else thing.picture
-                                            for thing in (image, reference)))
+        pictures = (thing if isinstance(thing, Picture) else thing.picture for thing in (image, reference))
+        found = _tyndall.compare_pictures(*pictures)
     else:
         a, b = _pixels("image", image), _pixels("reference", reference)
         if a.shape != b.shape:
@@ -415,8 +409,3 @@ def scene(what: Any = None) -> Scene:
     if isinstance(what, dict):
         return Scene._parse(_json("scene", what), ".")
     return Scene._load(_file("scene", what))
-
-
-def built_in() -> list:
-    """Names of the built-in scenes."""
-    return Scene._built_in()

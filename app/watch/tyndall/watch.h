@@ -131,14 +131,9 @@ int watch(int width, int height, Function&& function, const WatchOptions& option
       tyndall_watch_fail("an exception that is no std::exception");
     }
   };
-  const auto text = [](const std::string& option) { return option.empty() ? nullptr : option.c_str(); };
-  tyndall_watch_options plain = TYNDALL_WATCH_OPTIONS;
-  plain.threads = options.threads;
-  plain.spp = options.spp;
-  plain.seed = options.seed;
-  plain.title = text(options.title);
-  plain.output = text(options.output);
-  plain.reference = text(options.reference);
+  const tyndall_watch_options plain{
+      sizeof(tyndall_watch_options), options.threads,          options.spp, options.seed, options.title.c_str(),
+      options.output.c_str(),        options.reference.c_str()};
   return tyndall_watch(width, height, call, &sample_of, &plain);
 }
 

@@ -93,7 +93,7 @@ KeptSlot::KeptSlot(KeepingPlace place, int number) : place_(std::move(place)), n
     error_ = lock.error();
     if (error_ == EROFS || error_ == EACCES) lock = OpenFile(file, OpenFor::reading);
     if (!lock) return;
-    const int problem = lock.try_lock();
+    const int problem = lock.lock();
     error_ = problem == EWOULDBLOCK ? 0 : problem;
     if (problem != 0) return;
     if (!lock.has_name()) continue;  // another window has removed it in between: the next attempt makes a new one

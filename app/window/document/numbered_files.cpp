@@ -59,7 +59,7 @@ void NumberedFiles::write(const fs::path& base, std::function<std::string(const 
     try {
       // Other windows choose no name meanwhile, where folders can be locked.
       const OpenFile folder(base.parent_path(), OpenFor::folder);
-      if (folder) folder.wait_for_lock();
+      if (folder) folder.lock(true);
       const std::string name = base.filename().string();
       const fs::path free =
           numbered_base(base.parent_path(), name.substr(0, name.rfind('-')), number_of(base), endings_);
