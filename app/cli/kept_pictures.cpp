@@ -212,10 +212,9 @@ void find_start(RenderJob& job) {
   if (command.resume && place.output.empty()) refuse("--resume needs an output that ends in .exr, and --exr-film yes");
   if (command.fresh) return;
   std::error_code error;
-  const bool apart = !place.beside().empty() && std::filesystem::exists(place.beside(), error);
-  const std::filesystem::path& file = apart ? place.unfinished : place.output;
+  const bool apart = std::filesystem::exists(place.beside(), error);
   std::optional<StoredFilm> stored;
-  if (!file.empty()) stored = find_film(file, job);
+  if (!place.output.empty()) stored = find_film(apart ? place.unfinished : place.output, job);
   spare_unfinished(command.outputs, place.output, stored ? &*stored : nullptr);
   if (stored) start_with(std::move(*stored), job);
 }
