@@ -94,25 +94,6 @@ void open_video(Animating& film) {
            film.video->frames(), frames);
 }
 
-/// Whether the video lacks a frame.
-bool is_filmed_next(const Animating& film, int frame) {
-  return film.video && frame >= film.range.first + film.video->frames();
-}
-
-/// Renders a frame and writes it; false if something could not be written.
-bool make_frame(Animating& film, int frame, const PictureTask& task, Series& series) {
-  RenderJob job = job_of(film, frame);
-  job.command.outputs = task.outputs, job.film = task.film;
-  prepare(job);
-  const auto made = [&](const RenderOutcome& outcome, bool written) {
-    const auto& clean = outcome.result.clean;
-    if (written && is_filmed_next(film, frame))
-      film.video->add(clean ? LinearImage{clean->width, clean->height, clean->rgb} : outcome.picture.image,
-                      job.loaded.scene.display);
-  };
-  return make(series, job, made);
-}
-
 std::string summary(const Animating& film, const Series& series, std::size_t kept) {
   const std::size_t made = series.made;
   std::vector<std::string> names;
@@ -132,13 +113,22 @@ int run_animate(const CommandRequest& command) {
   std::map<int, PictureTask> tasks;  // of frames
   for (int frame = film.range.first; frame < film.range.last; ++frame) tasks[frame] = task_of(film, frame);
   open_video(film);
-  std::erase_if(tasks,
-                [&](const auto& task) { return task.second.outputs.empty() && !is_filmed_next(film, task.first); });
+  const auto is_filmed_next = [&](int n) { return film.video && n >= film.range.first + film.video->frames(); };
+  std::erase_if(tasks, [&](const auto& task) { return task.second.outputs.empty() && !is_filmed_next(task.first); });
   const auto all = static_cast<std::size_t>(film.range.last - film.range.first), kept = all - tasks.size();
   if (kept > 0) complain(fmt::format("{} of {} frames are there already", kept, all));
   Series series{ProgressReport(command.progress), tasks.size()};
-  for (const auto& [frame, task] : tasks) {
-    if (!make_frame(film, frame, task, series)) return output_failed;
+  for (const auto& task : tasks) {
+    RenderJob job = job_of(film, task.first);
+    job.command.outputs = task.second.outputs, job.film = task.second.film;
+    prepare(job);
+    const auto made = [&](const RenderOutcome& outcome, bool written) {
+      const auto& clean = outcome.result.clean;
+      if (written && is_filmed_next(task.first))
+        film.video->add(clean ? LinearImage{clean->width, clean->height, clean->rgb} : outcome.picture.image,
+                        job.loaded.scene.display);
+    };
+    if (!make(series, job, made)) return output_failed;
     if (series.signals.received() != 0) {
       series.report.finish("interrupted: " + summary(film, series, kept));
       return 128 + series.signals.received();

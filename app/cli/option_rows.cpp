@@ -1,4 +1,5 @@
-#include "app/cli/option_rows.h"
+#include "app/cli/requests.h"
+#include "app/manual/page.h"
 #include "core/base/target.h"
 #include "core/base/thread_pool.h"
 #include "core/scene/json_tree.h"
@@ -22,15 +23,15 @@ auto in(Member... members) {
 /// name, a file or a word.
 template <class Place, class Read = std::identity>
 Taker to(Place place, Read read = {}, const Names& choices = {}) {
-  return {[=](R& request, Text t) { std::invoke(place, request) = read(t); }, Takes::once, choices};
+  return {[=](R& request, Text t) { std::invoke(place, request) = read(t); }, choices};
 }
 template <class Place, class Read = std::identity>
 Taker add_to(Place place, Read read = {}) {
-  return {[=](R& request, Text t) { std::invoke(place, request).emplace_back(read(t)); }, Takes::each};
+  return {[=](R& request, Text t) { std::invoke(place, request).emplace_back(read(t)); }, {}, true};
 }
 template <class Place, class Value = bool>
 Taker on(Place place, Value value = true) {
-  return {[=](R& request, Text) { std::invoke(place, request) = value; }, Takes::flag};
+  return {[=](R& request, Text) { std::invoke(place, request) = value; }};
 }
 
 /// Readers of values in a range.
@@ -151,7 +152,7 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
        ".png .pfm .hdr .ppm: the filtered picture; .exr: the film, beside it denoised.R/G/B and denoised.error; - for "
        "standard output; repeatable; required",
        "denoise"},
-      {"-o,--output", "FILE", Taker{read_frame_output, Takes::each},
+      {"-o,--output", "FILE", Taker{read_frame_output, {}, true},
        "'f/%04d.png', a file for each frame, any of render's formats; .y4m, or - for standard output: 8 bits, 4:4:4, "
        "BT.601; repeatable; required",
        "animate"},
@@ -263,7 +264,7 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
       {"FILM.exr", " ", to(&R::image), "an EXR that 'tyndall render' or 'tyndall merge' wrote"},
       {"--measure", "", on(&R::measure),
        "measure how much faster the kernel is than the full one,\nand what chains gain over chance (4 s)"},
-      {"--accuracy", "", Taker{refuse_accuracy, Takes::flag}, ""},
+      {"--accuracy", "", Taker{refuse_accuracy}, ""},
       {"IMAGE REFERENCE", " ", operands,
        "PNG, PPM, JPEG, BMP, TGA, PFM, HDR or EXR, or FILE.exr:LAYER for a\n"
        "layer, a part, a view or a channel of an EXR; the second one is what\n"

@@ -150,22 +150,6 @@ void add_figures(Sweeping& sweep, std::size_t step, const RenderOutcome& outcome
     shown.detail = percent(difference.mean / sweep.mean, difference.mean_error / std::abs(sweep.mean));
 }
 
-/// Renders a picture; false if something could not be written.
-bool make_picture(Sweeping& sweep, std::size_t step, Series& series) {
-  RenderJob job = job_of(sweep, step, time_limit(sweep, series));
-  prepare(job);
-  const auto made = [&](const RenderOutcome& outcome, bool) {
-    add_figures(sweep, step, outcome, job.loaded.scene.display);
-  };
-  return make(series, job, made);
-}
-
-std::string csv_text(const Sweeping& sweep) {
-  return (sweep.command.axes.size() > 1 ? "value,value_2" : "value") +
-         (",mean,mean_error,relative_error,change,change_error,difference,difference_error,spp,seconds,image_hash\n" +
-          joined(sweep.rows, ""));
-}
-
 void write_sheet(const Sweeping& sweep) {
   const auto& axes = sweep.command.axes;
   const std::string pointers = axes[0].pointer + (axes.size() > 1 ? " and " + axes[1].pointer : "");
@@ -198,7 +182,12 @@ int run_sweep(const CommandRequest& command) {
   bool whole = true;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t step = i == 0 ? sweep.middle : i <= sweep.middle ? i - 1 : i;  // the middle goes first
-    whole = make_picture(sweep, step, series) && whole;
+    RenderJob job = job_of(sweep, step, time_limit(sweep, series));
+    prepare(job);
+    const auto made = [&](const RenderOutcome& outcome, bool) {
+      add_figures(sweep, step, outcome, job.loaded.scene.display);
+    };
+    whole = make(series, job, made) && whole;
     if (series.signals.received() != 0) {
       const char* further = command.outputs.empty() ? "" : "; the same command goes on";
       complain(fmt::format("interrupted: no sheet and no table are written{}", further));
@@ -207,8 +196,11 @@ int run_sweep(const CommandRequest& command) {
   }
   series.report.finish(fmt::format("done: {} pictures, {}", count, duration(series.seconds)));
   if (!command.sheet.empty()) whole = written_or_told([&] { write_sheet(sweep); }) && whole;
-  if (!command.csv.empty())
-    whole = written_or_told([&] { write_text_or_rescue(command.csv, csv_text(sweep)); }) && whole;
+  const std::string table =
+      (command.axes.size() > 1 ? "value,value_2" : "value") +
+      (",mean,mean_error,relative_error,change,change_error,difference,difference_error,spp,seconds,image_hash\n" +
+       joined(sweep.rows, ""));
+  if (!command.csv.empty()) whole = written_or_told([&] { write_text_or_rescue(command.csv, table); }) && whole;
   return whole ? 0 : output_failed;
 }
 
