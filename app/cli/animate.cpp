@@ -54,7 +54,8 @@ CommandRequest command_of(CommandRequest command, int frame) {
   return command;
 }
 
-/// A job that renders a frame, and whose picture can be compared with what is there already.
+/// A job that renders a frame, and whose picture can be compared with what is there already. Throws SceneError where
+/// the frame's scene is not valid.
 RenderJob job_of(const Animating& film, int frame) {
   RenderJob job{command_of(film.command, frame)};
   check_outputs(outputs_of(job.command.outputs), film.base.files);
@@ -63,12 +64,6 @@ RenderJob job_of(const Animating& film, int frame) {
   for (const auto& [name, list] : film.lists) job.lists[frame_file(name, frame)] = &list;
   set_up(job);
   return job;
-}
-
-/// Looks at what there is of a frame. Throws where it is of something else, or the frame's scene is not valid.
-PictureTask task_of(const Animating& film, int frame) {
-  const RenderJob job = job_of(film, frame);
-  return task_of(job, [&](const std::filesystem::path& file) { return is_whole(file, job); });
 }
 
 /// What the video is of.
@@ -111,7 +106,7 @@ int run_animate(const CommandRequest& command) {
   check_names(command_of(command, command.range ? command.range->first : 0));
   Animating film = open_film(command);
   std::map<int, PictureTask> tasks;  // of frames
-  for (int frame = film.range.first; frame < film.range.last; ++frame) tasks[frame] = task_of(film, frame);
+  for (int frame = film.range.first; frame < film.range.last; ++frame) tasks[frame] = task_of(job_of(film, frame));
   open_video(film);
   const auto is_filmed_next = [&](int n) { return film.video && n >= film.range.first + film.video->frames(); };
   std::erase_if(tasks, [&](const auto& task) { return task.second.outputs.empty() && !is_filmed_next(task.first); });

@@ -85,17 +85,14 @@ void find_start(RenderJob& job);
 /// Says in the lists beside the job's outputs that they are "begun" or "whole".
 void list_outputs(const RenderJob& job, const std::string& state);
 
-/// Whether a file holds the whole picture of the job. Throws UsageError if it is of something else: no picture of the
-/// same scene, settings and version.
-bool is_whole(const std::filesystem::path& file, const RenderJob& job);
-
 /// What is left to do for a picture of which an earlier run may have written some files.
 struct PictureTask {
   std::vector<std::filesystem::path> outputs;  ///< files that are not whole
   std::filesystem::path film;                  ///< the first whole file that holds its film; empty: none does
 };
-/// is_whole: not asked with --fresh.
-PictureTask task_of(const RenderJob& job, const std::function<bool(const std::filesystem::path& file)>& is_whole);
+/// With --fresh all is to be done. Of a sweep, which compares films, other formats than EXR are made anew. Throws
+/// UsageError if a file is of something else: no picture of the same scene, settings and version.
+PictureTask task_of(const RenderJob& job);
 
 /// 16 hexadecimal digits that differ with the job's scene, settings, version and instruction set.
 std::string picture_mark(const RenderJob& job);

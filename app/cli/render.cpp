@@ -122,8 +122,8 @@ void tell_remarks(const RenderJob& job) {
 }
 
 void tell_alpha(const LoadedScene& loaded) {
-  const std::string note = alpha_note(contents_of(loaded.scene).with_alpha);
-  if (!note.empty()) complain(loaded.name + ": " + note);
+  if (const std::string note = alpha_note(contents_of(loaded.scene).with_alpha); !note.empty())
+    complain(loaded.name + ": " + note);
 }
 
 void check_names(const CommandRequest& command) {

@@ -149,8 +149,7 @@ void write_so_far(const RenderJob& job, const RenderResult& result) {
   try {
     if (totals(result.film).max_taken == 0) return;
     const RenderOutcome outcome{result, finished_picture(*job.prepared, result)};
-    const std::string uneven = uneven_text(job.loaded.scene, outcome.picture.totals);
-    if (!uneven.empty()) complain(uneven);
+    if (const auto uneven = uneven_text(job.loaded.scene, outcome.picture.totals); !uneven.empty()) complain(uneven);
     write(job, outcome, false);
   } catch (const std::exception& error) {
     complain(std::string("SIGUSR1: the picture so far was not written: ") + error.what());
@@ -167,15 +166,13 @@ RenderBreaks breaks_of(Series& series, const RenderJob& job, Checkpoints& checkp
   };
   const bool wanted = job.command.checkpoint != 0, kept = wanted && !checkpoints.file().empty();
   const bool told = !wanted || !job.place.output.empty() || !job.name.empty();
-  breaks.film_due = [&checkpoints, &series, &view, kept, said = told]() mutable {
-    if (const auto problem = checkpoints.problem()) series.report.say(*problem);
-    if (const auto problem = view.problem()) series.report.say(*problem);
-    if (!kept && !said && checkpoints.due()) {
-      said = true;
+  breaks.film_due = [&checkpoints, &series, &view, kept, told] {
+    for (const auto& problem : {checkpoints.problem(), view.problem()})
+      if (problem) series.report.say(*problem);
+    if (!kept && !told && checkpoints.due() && series.told.insert("nothing is kept").second)
       series.report.say(
           "nothing is kept before the end; with a file as output that ends in .exr, and --exr-film yes, a killed "
           "render can go on");
-    }
     return (kept && checkpoints.due()) || view.due();
   };
   breaks.take_film = [&checkpoints, &view, kept](const Film& film, ThreadPool& thread_pool) {
@@ -253,8 +250,7 @@ void warn(Series& series, const RenderJob& job, const RenderOutcome& outcome) {
     tell(std::string(rare_bright_paths) + "; the error may be larger than estimated");
   if (job.command.clean && !result.clean)
     tell("--denoise: the picture is not filtered, as some pixels have fewer than 2 samples");
-  const std::string uneven = uneven_text(job.loaded.scene, sum);
-  if (!uneven.empty()) tell(uneven);
+  if (const std::string uneven = uneven_text(job.loaded.scene, sum); !uneven.empty()) tell(uneven);
   if (sum.rejected == 0) return;
   std::string places;
   for (const RejectedSample& r : result.first_rejected)

@@ -84,9 +84,8 @@ void check_steps(Sweeping& sweep) {
   check_outputs(outputs, sweep.base.files);
   check_can_write(std::vector<Output>(outputs.begin(), outputs.begin() + 2));
   for (std::size_t step = 0; step < sweep.tasks.size(); ++step) {
-    const RenderJob job = job_of(sweep, step, std::min(sweep.command.time_limit, sweep.command.total_time));
-    // Pictures of other formats are made anew.
-    sweep.tasks[step] = task_of(job, [&](const auto& file) { return is_exr(file) && is_whole(file, job); });
+    const double limit = std::min(sweep.command.time_limit, sweep.command.total_time);
+    sweep.tasks[step] = task_of(job_of(sweep, step, limit));
   }
 }
 
