@@ -194,7 +194,7 @@ void finish(CommandRequest& request) {
     if (need.commands.find(name) != need.commands.npos && !need.given(request))
       refuse("{} is missing{}", need.what, see_help(request.command));
   if (name == "compare") finish_compare(request);
-  if (name == "chart" && request.scene.what != "all") read_file_name(request.output.string(), ".svg");
+  if (name == "chart" && request.scene.what != "all") read_file_name(request.output.string(), {".svg"});
   const std::vector<SweepAxis>& axes = request.axes;
   if (axes.size() > 2) refuse("--vary: found it {} times, expected it once or twice", axes.size());
   if (axes.size() == 2 && axes[0].pointer == axes[1].pointer)
@@ -245,10 +245,9 @@ void refuse_misspelt(Text argument, bool alone) {
   std::vector<std::string> names;
   for (const CommandRow& command : command_rows()) names.push_back(command.name());
   const std::string hint = did_you_mean(argument, {names.begin(), names.end()});
-  if ((hint.empty() && alone) || argument[0] == '-' || argument.find_first_of("./") != std::string::npos) return;
   std::error_code error;
-  if (hint.empty() || std::filesystem::exists(argument, error)) return;
-  refuse("unknown command {}{}", in_quotes(argument), hint);
+  const bool is_file = argument.find_first_of("./") != argument.npos || std::filesystem::exists(argument, error);
+  if (!hint.empty() && argument[0] != '-' && !is_file) refuse("unknown command {}{}", in_quotes(argument), hint);
 }
 
 std::string manual_text(Arguments arguments) {

@@ -6,6 +6,7 @@
 #include "core/accuracy/error.h"
 #include "core/base/fnv1a.h"
 #include "core/base/text.h"
+#include "core/render/plan.h"
 #include "core/scene/json_tree.h"
 
 #include <algorithm>
@@ -24,8 +25,6 @@ struct Sweeping {
   std::size_t middle = 0;                ///< its picture is the first one, and what the others are compared with
   int columns = 1;
   Film reference{};  ///< the film in the middle
-  double mean = 0;   ///< of that
-  std::uint32_t spp = 0;
 };
 
 /// The values of a step, one of each axis.
@@ -130,11 +129,11 @@ void add_figures(Sweeping& sweep, std::size_t step, const RenderOutcome& outcome
   const RenderResult& result = outcome.result;
   const LinearImage& image = outcome.picture.image;
   const bool is_middle = step == sweep.middle;
-  if (is_middle)
-    sweep.reference = result.film, sweep.mean = film_mean(result.film).mean, sweep.spp = outcome.picture.spp;
+  if (is_middle) sweep.reference = result.film;
+  const double mean = film_mean(sweep.reference).mean;
   const FilmDifference difference = film_difference(result.film, sweep.reference);
   const std::vector<std::string> values = values_of(sweep.command, step);
-  sweep.rows[step] = csv_row(values, outcome, difference, sweep.mean);
+  sweep.rows[step] = csv_row(values, outcome, difference, mean);
   const auto& axes = sweep.command.axes;
   const bool longer = axes.size() > 1 && short_name(axes[0].pointer, false) == short_name(axes[1].pointer, false);
   SheetPicture& shown = sweep.pictures[step];
@@ -145,15 +144,16 @@ void add_figures(Sweeping& sweep, std::size_t step, const RenderOutcome& outcome
   shown.marked = is_middle;
   if (is_middle)
     shown.detail = "the others are compared with this one";
-  else if (sweep.mean != 0 && std::isfinite(difference.mean_error))
-    shown.detail = percent(difference.mean / sweep.mean, difference.mean_error / std::abs(sweep.mean));
+  else if (mean != 0 && std::isfinite(difference.mean_error))
+    shown.detail = percent(difference.mean / mean, difference.mean_error / std::abs(mean));
 }
 
 void write_sheet(const Sweeping& sweep) {
   const auto& axes = sweep.command.axes;
   const std::string pointers = axes[0].pointer + (axes.size() > 1 ? " and " + axes[1].pointer : "");
-  const std::string legend = fmt::format(
-      "beneath each value: the mean's change, and its standard error; {} samples a pixel, one seed for all", sweep.spp);
+  const std::string legend =
+      fmt::format("beneath each value: the mean's change, and its standard error; {} samples a pixel, one seed for all",
+                  labelled_spp(sweep.reference));
   const LinearImage image = light_of(
       contact_sheet(sweep.pictures, sweep.columns, printable(sweep.base.name) + ": " + printable(pointers), legend));
   const LoadedScene middle = scene_of(sweep, sweep.middle);

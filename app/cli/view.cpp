@@ -85,19 +85,14 @@ int open_window(const CommandRequest& command, WindowOptions options, const std:
 #endif
 }
 
-/// Options that change a scene, or how one is rendered, say nothing of a picture.
-void refuse_scene_options(const CommandRequest& command) {
-  const SceneRequest& request = command.scene;
-  const bool limited = std::isfinite(command.time_limit) || command.target_error > 0;
-  if (request.overrides.empty() && !request.size && request.render.given.empty() && !limited) return;
-  refuse(
-      "standard input: found a picture, expected a scene: --set, --size, limits and the options of rendering change "
-      "nothing in a picture");
-}
-
 /// Shows what a program writes to standard input, as it comes. begin: the bytes with which it begins.
 int view_picture(const CommandRequest& command, const std::string& begin) {
-  refuse_scene_options(command);
+  const SceneRequest& request = command.scene;
+  const bool limited = std::isfinite(command.time_limit) || command.target_error > 0;
+  if (limited || !request.overrides.empty() || request.size || !request.render.given.empty())
+    refuse(
+        "standard input: found a picture, expected a scene: --set, --size, limits and the options of rendering change "
+        "nothing in a picture");
   const auto picture = std::make_shared<ArrivingPicture>(standard_input, begin, input_name, command.form.ppm);
   WindowOptions options;
   options.picture = picture;
@@ -107,7 +102,7 @@ int view_picture(const CommandRequest& command, const std::string& begin) {
   loaded.is_picture = true;
   loaded.scene.width = picture->width(), loaded.scene.height = picture->height();
   loaded.scene.render.spp = 1;
-  apply(command.scene.display, loaded.scene.display);
+  apply(request.display, loaded.scene.display);
   return open_window(command, options,
                      "the program's picture can be kept in a file: > image.ppm in place of | tyndall view -");
 }
