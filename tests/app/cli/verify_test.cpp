@@ -44,11 +44,7 @@ bool are_named(const std::vector<VerifyCase>& cases, const std::vector<std::stri
 }
 
 Measured measured(double mean, double error, std::uint64_t rejected = 0) {
-  Measured m;
-  m.value = {mean, error};
-  m.totals.samples = 1000;
-  m.totals.rejected = rejected;
-  return m;
+  return {{mean, error}, {.samples = 1000, .rejected = rejected}};
 }
 
 VerifyRow row(const Measured& m, const std::string& name = "plate/a") {
