@@ -1,4 +1,5 @@
-#include "app/cli/option_rows.h"
+#include "app/cli/requests.h"
+#include "app/manual/page.h"
 #include "core/scene/place.h"
 
 #include <algorithm>
@@ -53,7 +54,6 @@ std::vector<OptionRow> setting_rows(Changes<Settings> SceneRequest::*changes) {
       if constexpr (std::is_same_v<T, bool>) {
         row.unit = usual ? "on|off" : "";
         if (usual) row.taker.choices = {"on", "off"};
-        if (!usual) row.taker.takes = Takes::flag;
       } else if constexpr (std::is_same_v<T, double>) {
         row.unit = *field.unit ? field.unit : "X";
       } else if constexpr (NamedEnum<T>) {
@@ -102,7 +102,7 @@ std::string wrapped(const std::string& text, std::size_t columns) {
 constexpr std::size_t longest_line = 70, help_width = 66;
 
 void add_options(CommandRow& command) {
-  command.options.emplace_back("-h,--help", "", Taker{{}, Takes::flag}, "show this text", "", usual_heading);
+  command.options.emplace_back("-h,--help", "", Taker{}, "show this text", "", usual_heading);
   for (const OptionGroup& group : command.groups) {
     std::istringstream names(group.options);
     for (std::string name; names >> name;)

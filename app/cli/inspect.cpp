@@ -84,8 +84,7 @@ std::string specular_paths_text(const Report& report) {
   const int flat = specular.first_slab - specular.first_mirror;
   const int slabs = static_cast<int>(specular.index.size()) - specular.first_slab;
   const int mirrors = static_cast<int>(std::count(specular.index.begin(), specular.index.end(), 0)) - flat;
-  const int shells = static_cast<int>(std::count_if(specular.inner_radius.begin(), specular.inner_radius.end(),
-                                                    [](auto radius) { return radius > 0; }));
+  const int shells = static_cast<int>(std::ranges::count_if(specular.inner_radius, [](auto r) { return r > 0; }));
   const std::pair<int, const char*> kinds[] = {{mirrors, "mirror ball"},
                                                {specular.first_mirror - mirrors - shells, "glass ball"},
                                                {shells, "glass shell"},

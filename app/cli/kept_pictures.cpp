@@ -204,6 +204,16 @@ bool is_listed_whole(const std::filesystem::path& file, const FrameList& list, c
   return entry->second.starts_with("whole");
 }
 
+/// Whether a file holds the whole picture of the job.
+bool is_whole(const std::filesystem::path& file, const RenderJob& job) {
+  std::error_code error;
+  const bool of_sweep = !job.command.axes.empty();
+  if ((of_sweep && !is_exr(file)) || !std::filesystem::exists(file, error)) return false;
+  const auto list = job.lists.find(file);
+  if (list != job.lists.end()) return is_listed_whole(file, *list->second, job);
+  return read_kept([&] { return is_finished(file, job); }, remedy);
+}
+
 }  // namespace
 
 void find_start(RenderJob& job) {
@@ -212,10 +222,9 @@ void find_start(RenderJob& job) {
   if (command.resume && place.output.empty()) refuse("--resume needs an output that ends in .exr, and --exr-film yes");
   if (command.fresh) return;
   std::error_code error;
-  const bool apart = !place.beside().empty() && std::filesystem::exists(place.beside(), error);
-  const std::filesystem::path& file = apart ? place.unfinished : place.output;
+  const bool apart = std::filesystem::exists(place.beside(), error);
   std::optional<StoredFilm> stored;
-  if (!file.empty()) stored = find_film(file, job);
+  if (!place.output.empty()) stored = find_film(apart ? place.unfinished : place.output, job);
   spare_unfinished(command.outputs, place.output, stored ? &*stored : nullptr);
   if (stored) start_with(std::move(*stored), job);
 }
@@ -249,18 +258,10 @@ void list_outputs(const RenderJob& job, const std::string& state) {
       add_frame(list->file, *job.command.frame, state + " " + picture_mark(job));
 }
 
-bool is_whole(const std::filesystem::path& file, const RenderJob& job) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) return false;
-  const auto list = job.lists.find(file);
-  if (list != job.lists.end()) return is_listed_whole(file, *list->second, job);
-  return read_kept([&] { return is_finished(file, job); }, remedy);
-}
-
-PictureTask task_of(const RenderJob& job, const std::function<bool(const std::filesystem::path& file)>& is_whole) {
+PictureTask task_of(const RenderJob& job) {
   PictureTask task;
   for (const std::filesystem::path& file : job.command.outputs) {
-    const bool whole = !job.command.fresh && is_whole(file);
+    const bool whole = !job.command.fresh && is_whole(file, job);
     if (!whole) task.outputs.push_back(file);
     if (whole && task.film.empty() && is_exr(file) && read_film_label(file)) task.film = file;
   }

@@ -19,8 +19,7 @@ int write(const CommandRequest& command, const Film& film, const Scene& scene, c
   const LinearImage image{film.region.width(), film.region.height(), resolve(film)};
   const auto problems = write_images(
       {film, image, scene.display, embedded, {}, clean ? &clean->picture : nullptr, command.form}, command.outputs);
-  const std::string uneven = uneven_text(scene, totals(film));
-  if (!uneven.empty()) complain(uneven);
+  if (const std::string uneven = uneven_text(scene, totals(film)); !uneven.empty()) complain(uneven);
   for (const std::string& problem : problems) complain(problem);
   return problems.empty() ? 0 : output_failed;
 }

@@ -1,4 +1,5 @@
-#include "app/cli/option_rows.h"
+#include "app/cli/requests.h"
+#include "app/manual/page.h"
 #include "core/base/target.h"
 #include "core/base/thread_pool.h"
 #include "core/scene/json_tree.h"
@@ -22,15 +23,15 @@ auto in(Member... members) {
 /// name, a file or a word.
 template <class Place, class Read = std::identity>
 Taker to(Place place, Read read = {}, const Names& choices = {}) {
-  return {[=](R& request, Text t) { std::invoke(place, request) = read(t); }, Takes::once, choices};
+  return {[=](R& request, Text t) { std::invoke(place, request) = read(t); }, choices};
 }
 template <class Place, class Read = std::identity>
 Taker add_to(Place place, Read read = {}) {
-  return {[=](R& request, Text t) { std::invoke(place, request).emplace_back(read(t)); }, Takes::each};
+  return {[=](R& request, Text t) { std::invoke(place, request).emplace_back(read(t)); }, {}, true};
 }
 template <class Place, class Value = bool>
 Taker on(Place place, Value value = true) {
-  return {[=](R& request, Text) { std::invoke(place, request) = value; }, Takes::flag};
+  return {[=](R& request, Text) { std::invoke(place, request) = value; }};
 }
 
 /// Readers of values in a range.
@@ -40,8 +41,8 @@ auto whole(std::int64_t low, std::int64_t high) {
 auto number(Valid valid, const char* expected) {
   return [valid, expected](Text t) { return read_number(t, valid, expected); };
 }
-auto file(const char* ending) {
-  return [ending](Text t) { return read_file_name(t, ending); };
+auto file(const Names& endings) {
+  return [endings](Text t) { return read_file_name(t, endings); };
 }
 /// One of two names, which mean no and yes.
 auto one_of(const char* no, const char* yes) {
@@ -61,7 +62,7 @@ void read_rate(R& request, Text t) {
 fs::path read_scene_output(Text t) {
   const std::string ending = lower_case(fs::path(t).extension().string());
   const bool foreign = ending == ".pbrt" || ending == ".xml" || ending == ".py";
-  return t == "-" || foreign ? fs::path(t) : read_file_name(t, ".json");
+  return t == "-" || foreign ? fs::path(t) : read_file_name(t, {".json"});
 }
 
 /// The text as it is, if that function takes it.
@@ -82,12 +83,6 @@ void read_frame_output(R& request, Text t) {
   }
   if (!request.video.empty()) refuse("found two films, expected one .y4m or -");
   request.video = t;
-}
-
-fs::path read_sheet(Text t) {
-  const std::string ending = image_ending(t, {});
-  if (ending != ".png" && ending != ".ppm") refuse("found {}, expected a name that ends in .png or .ppm", in_quotes(t));
-  return t;
 }
 
 SweepAxis read_axis(Text t) {
@@ -151,11 +146,12 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
        ".png .pfm .hdr .ppm: the filtered picture; .exr: the film, beside it denoised.R/G/B and denoised.error; - for "
        "standard output; repeatable; required",
        "denoise"},
-      {"-o,--output", "FILE", Taker{read_frame_output, Takes::each},
+      {"-o,--output", "FILE", Taker{read_frame_output, {}, true},
        "'f/%04d.png', a file for each frame, any of render's formats; .y4m, or - for standard output: 8 bits, 4:4:4, "
        "BT.601; repeatable; required",
        "animate"},
-      {"-o,--output", "SHEET.png", to(&R::sheet, read_sheet), "sheet of all pictures, .png or .ppm", "sweep"},
+      {"-o,--output", "SHEET.png", to(&R::sheet, file({".png", ".ppm"})), "sheet of all pictures, .png or .ppm",
+       "sweep"},
       {"-o,--output", "FILE.svg", to(&R::output), "the chart; required", "chart"},
       {"-o,--output", "FILE", to(&R::output, read_scene_output),
        ".json, .pbrt, .xml or .py, or - for JSON on standard output; required", "convert"},
@@ -263,14 +259,14 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
       {"FILM.exr", " ", to(&R::image), "an EXR that 'tyndall render' or 'tyndall merge' wrote"},
       {"--measure", "", on(&R::measure),
        "measure how much faster the kernel is than the full one,\nand what chains gain over chance (4 s)"},
-      {"--accuracy", "", Taker{refuse_accuracy, Takes::flag}, ""},
+      {"--accuracy", "", Taker{refuse_accuracy}, ""},
       {"IMAGE REFERENCE", " ", operands,
        "PNG, PPM, JPEG, BMP, TGA, PFM, HDR or EXR, or FILE.exr:LAYER for a\n"
        "layer, a part, a view or a channel of an EXR; the second one is what\n"
        "the first should look like, of the same size, or a scene; the first\n"
        "one may be - for standard input. With --baseline: any number of\n"
        "images, and folders of them, with all folders in them"},
-      {"--heatmap", "FILE.png", to(&R::heatmap, file(".png")),
+      {"--heatmap", "FILE.png", to(&R::heatmap, file({".png"})),
        "write FLIP of each pixel, in colours, with their scale beneath"},
       {"--max-rmse", "X", to(in(&R::baseline, &BaselineRequest::limits, &Tolerance::rmse), positive),
        "fail if RMSE is above X"},
@@ -291,9 +287,9 @@ std::vector<OptionRow> make_rows() {  // NOLINT(readability-function-size)
        "put the images into the folder, and the limits of --max-... as their\n"
        "tolerances; without limits these stay. Nothing is changed where an\n"
        "image cannot be read or has values that are not finite"},
-      {"--report", "FILE.html", to(&R::report, file(".html")),
+      {"--report", "FILE.html", to(&R::report, file({".html"})),
        "write one page with numbers, both pictures behind a slider, and FLIP"},
-      {"--junit", "FILE.xml", to(&R::junit, file(".xml")), "write the results as JUnit does"},
+      {"--junit", "FILE.xml", to(&R::junit, file({".xml"})), "write the results as JUnit does"},
   };
 }
 

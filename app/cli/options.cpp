@@ -1,6 +1,7 @@
 #include "app/book/load_program.h"
 #include "app/check/check.h"
-#include "app/cli/option_rows.h"
+#include "app/cli/requests.h"
+#include "app/manual/page.h"
 #include "app/text/standard_streams.h"
 #include "core/base/text.h"
 #include "core/render/clean_film.h"
@@ -27,22 +28,21 @@ void add_option(CLI::App& app, const OptionRow& row, CommandRequest& request) {
     try {
       row.taker.take(request, text);
     } catch (const UsageError& error) {
-      if (row.taker.takes == Takes::flag || row.names[0] != '-') throw;
+      if (row.unit.empty() || row.names[0] != '-') throw;
       refuse("{}: {}", row.names.substr(row.names.find("--")), error.what());
     }
   };
   app.option_defaults()->group(row.heading);
-  if (row.taker.takes == Takes::flag) {
-    app.add_flag_callback(
-        row.names, [take] { take("on"); }, row.help);
+  if (row.unit.empty()) {
+    const auto on = [take] { take("on"); };
+    app.add_flag_callback(row.names, on, row.help);
     return;
   }
-  const bool many = row.taker.takes == Takes::each;
   const auto each = [take](const std::vector<std::string>& texts) { std::for_each(texts.begin(), texts.end(), take); };
-  CLI::Option* option = many ? app.add_option_function<std::vector<std::string>>(row.names, each, row.help)
-                             : app.add_option_function<std::string>(row.names, take, row.help);
+  CLI::Option* option = row.taker.each
+                            ? app.add_option_function<std::vector<std::string>>(row.names, each, row.help)->take_all()
+                            : app.add_option_function<std::string>(row.names, take, row.help);
   option->option_text(row.unit);
-  if (many) option->take_all();
   if (row.names[0] == '-') option->allow_extra_args(false);
 }
 
@@ -194,7 +194,7 @@ void finish(CommandRequest& request) {
     if (need.commands.find(name) != need.commands.npos && !need.given(request))
       refuse("{} is missing{}", need.what, see_help(request.command));
   if (name == "compare") finish_compare(request);
-  if (name == "chart" && request.scene.what != "all") read_file_name(request.output.string(), ".svg");
+  if (name == "chart" && request.scene.what != "all") read_file_name(request.output.string(), {".svg"});
   const std::vector<SweepAxis>& axes = request.axes;
   if (axes.size() > 2) refuse("--vary: found it {} times, expected it once or twice", axes.size());
   if (axes.size() == 2 && axes[0].pointer == axes[1].pointer)
@@ -245,10 +245,9 @@ void refuse_misspelt(Text argument, bool alone) {
   std::vector<std::string> names;
   for (const CommandRow& command : command_rows()) names.push_back(command.name());
   const std::string hint = did_you_mean(argument, {names.begin(), names.end()});
-  if ((hint.empty() && alone) || argument[0] == '-' || argument.find_first_of("./") != std::string::npos) return;
   std::error_code error;
-  if (hint.empty() || std::filesystem::exists(argument, error)) return;
-  refuse("unknown command {}{}", in_quotes(argument), hint);
+  const bool is_file = argument.find_first_of("./") != argument.npos || std::filesystem::exists(argument, error);
+  if (!hint.empty() && argument[0] != '-' && !is_file) refuse("unknown command {}{}", in_quotes(argument), hint);
 }
 
 std::string manual_text(Arguments arguments) {

@@ -42,9 +42,10 @@ void add_frame(const std::filesystem::path& list, int frame, const std::string& 
 struct RenderJob {
   CommandRequest command;  ///< and the options of the render, which set_up() completes
   Clock::time_point start = Clock::now();
-  LoadedScene loaded{};     ///< what the command's scene is; see open_scene_or_samples()
-  OwnSamples own{};         ///< where it is a picture
-  bool whole_only = false;  ///< of a picture that is unfinished only a film is written, which can be gone on with
+  LoadedScene loaded{};  ///< what the command's scene is; see open_scene_or_samples()
+  OwnSamples own{};      ///< where it is a picture
+  /// "frame 12", of which, unfinished, only a film is written, which can be gone on with; "": the only picture.
+  std::string name{};
   /// Beside outputs whose formats carry no settings.
   std::map<std::filesystem::path, const FrameList*> lists{};
   std::filesystem::path film{};  ///< that an earlier run has finished; empty: the picture is to be rendered
@@ -84,17 +85,14 @@ void find_start(RenderJob& job);
 /// Says in the lists beside the job's outputs that they are "begun" or "whole".
 void list_outputs(const RenderJob& job, const std::string& state);
 
-/// Whether a file holds the whole picture of the job. Throws UsageError if it is of something else: no picture of the
-/// same scene, settings and version.
-bool is_whole(const std::filesystem::path& file, const RenderJob& job);
-
 /// What is left to do for a picture of which an earlier run may have written some files.
 struct PictureTask {
   std::vector<std::filesystem::path> outputs;  ///< files that are not whole
   std::filesystem::path film;                  ///< the first whole file that holds its film; empty: none does
 };
-/// is_whole: not asked with --fresh.
-PictureTask task_of(const RenderJob& job, const std::function<bool(const std::filesystem::path& file)>& is_whole);
+/// With --fresh all is to be done. Of a sweep, which compares films, other formats than EXR are made anew. Throws
+/// UsageError if a file is of something else: no picture of the same scene, settings and version.
+PictureTask task_of(const RenderJob& job);
 
 /// 16 hexadecimal digits that differ with the job's scene, settings, version and instruction set.
 std::string picture_mark(const RenderJob& job);
@@ -115,15 +113,13 @@ struct Series {
   ProgressReport report;
   std::size_t count;      ///< of pictures that are to be rendered
   SignalWatch signals{};  ///< what asks for an end
-  std::size_t begun = 0;
-  std::size_t made = 0;  ///< those that are whole
-  double seconds = 0;    ///< of rendering
+  std::size_t made = 0;   ///< those that are whole
+  double seconds = 0;     ///< of rendering
   std::set<std::string> told{};
 };
 
-/// Makes the picture of a job that is prepared. name: "frame 12"; "": it is the only one, which is summed up. False if
-/// something could not be written. made: called with a whole picture when its files are written, or could not be.
-bool make(Series& series, RenderJob& job, const std::string& name = "",
-          const std::function<void(const RenderOutcome&, bool written)>& made = {});
+/// Makes the picture of a job that is prepared, and sums up the only one. False if something could not be written.
+/// made: called with a whole picture when its files are written, or could not be.
+bool make(Series& series, RenderJob& job, const std::function<void(const RenderOutcome&, bool written)>& made = {});
 
 }  // namespace tyndall

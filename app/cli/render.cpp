@@ -13,14 +13,6 @@
 namespace tyndall {
 namespace {
 
-/// Samples a pixel at which to stop.
-std::uint32_t last_sample_count(const CommandRequest& command, const Scene& scene) {
-  if (command.sample_range) return command.sample_range->last - command.sample_range->first;
-  if (command.spp) return *command.spp;
-  if (std::isfinite(command.time_limit) || command.target_error > 0) return max_samples;
-  return static_cast<std::uint32_t>(scene.render.spp.value_or(64));
-}
-
 /// Own samples are no function of seed and index, so that nothing can be gone on with or put together.
 void check_own_samples(const CommandRequest& command, const std::string& name) {
   const std::pair<bool, const char*> refused[] = {{command.sample_range.has_value(), "--samples"},
@@ -99,8 +91,10 @@ void set_up(RenderJob& job) {
     refuse("--region: found X1,Y1 = {},{}, expected at most {},{}, the image's size", region->x1, region->y1,
            scene.width, scene.height);
   command.region = command.region.value_or(Region{0, 0, scene.width, scene.height});
-  command.first_sample = command.sample_range ? command.sample_range->first : 0;
-  command.spp = last_sample_count(command, scene);
+  const bool limited = std::isfinite(command.time_limit) || command.target_error > 0;
+  if (!command.spp) command.spp = limited ? max_samples : static_cast<std::uint32_t>(scene.render.spp.value_or(64));
+  if (const auto& range = command.sample_range)
+    command.first_sample = range->first, command.spp = range->last - range->first;
   command.adaptive = scene.render.adaptive;
 }
 
@@ -122,8 +116,8 @@ void tell_remarks(const RenderJob& job) {
 }
 
 void tell_alpha(const LoadedScene& loaded) {
-  const std::string note = alpha_note(contents_of(loaded.scene).with_alpha);
-  if (!note.empty()) complain(loaded.name + ": " + note);
+  if (const std::string note = alpha_note(contents_of(loaded.scene).with_alpha); !note.empty())
+    complain(loaded.name + ": " + note);
 }
 
 void check_names(const CommandRequest& command) {

@@ -13,9 +13,11 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-/// What the user asked for, which only read_command() makes, and the commands that do it.
+/// What the user asked for, which only read_command() makes, by the rows of options and commands; and the commands that
+/// do it.
 namespace tyndall {
 
 /// All that options and arguments can say. Each command reads the part that its options fill. What the options of a
@@ -73,6 +75,16 @@ struct CommandRequest : RenderOptions {
   bool measure = false;   ///< measure how much faster the chosen kernel and chains are
 };
 
+struct OptionRow;   // see app/manual/page.h
+struct CommandRow;  // likewise
+/// The row of an option, or of an argument such as "SCENE", of that command. There is one.
+const OptionRow& option_row(std::string_view name, std::string_view command);
+const std::vector<CommandRow>& command_rows();
+/// The commands with the options that their groups name.
+std::vector<CommandRow> with_options(std::vector<CommandRow> commands);
+
+/// The curve of a chart that --method describes, NAME=FLAGS, e.g. "no MIS=--integrator nee --isa avx2".
+CommandRequest read_method(const std::string& text);
 /// The command line as a whole. arguments[0] is what follows the program's name. Throws UsageError. Of files only the
 /// existence is looked at, to tell a misspelt command from a scene's file.
 CommandRequest read_command(const std::vector<std::string>& arguments);

@@ -104,11 +104,6 @@ class LiveView {
   double clean_cost_ = 0;  ///< likewise the clean view
 };
 
-RunFigures figures(const RenderJob& job, const RenderOutcome& outcome) {
-  return {job.loaded.name,    *job.prepared,     outcome.result,           outcome.picture,
-          job.samples_before, job.seconds_build, seconds_since(job.start), job.threads.from};
-}
-
 /// What an image or film at that place carries beside the picture.
 Embedded embedded_in(const RenderJob& job, const Film& film, const std::filesystem::path& file, std::string stats,
                      bool unfinished) {
@@ -121,20 +116,24 @@ Embedded embedded_in(const RenderJob& job, const Film& film, const std::filesyst
 /// Writes all that can be written; false if something could not. at_end: also what goes to standard output or pipes.
 bool write(const RenderJob& job, const RenderOutcome& outcome, bool at_end = true) {
   const Film& film = outcome.result.film;
+  RunFigures figures{
+      job.loaded.name, *job.prepared, outcome.result, outcome.picture, job.samples_before, job.seconds_build, 0,
+      job.threads.from};
   const bool unfinished = outcome.result.interrupted || !at_end;
   const auto embedded = [&](const std::filesystem::path& file) {
-    return embedded_in(job, film, file, embedded_stats_text(figures(job, outcome)), unfinished);
+    return embedded_in(job, film, file, embedded_stats_text(figures), unfinished);
   };
   const auto layers = [&] { return layers_of(*job.prepared, film, outcome.result.kernels); };
   const CleanPicture* clean = outcome.result.clean ? &*outcome.result.clean : nullptr;
   std::vector<std::filesystem::path> files = job.command.outputs;
   if (!at_end) std::erase_if(files, is_stream);
-  if (job.whole_only && unfinished) std::erase_if(files, [&](const auto& file) { return file != job.place.output; });
+  if (!job.name.empty() && unfinished) std::erase_if(files, [&](const auto& file) { return file != job.place.output; });
   auto problems = write_images(
       {film, outcome.picture.image, job.loaded.scene.display, embedded, layers, clean, job.command.form}, files);
   const std::filesystem::path& stats = job.command.stats;
+  figures.seconds_total = seconds_since(job.start);
   try {
-    if (!stats.empty() && (at_end || !is_stream(stats))) write_text_or_rescue(stats, stats_text(figures(job, outcome)));
+    if (!stats.empty() && (at_end || !is_stream(stats))) write_text_or_rescue(stats, stats_text(figures));
   } catch (const std::exception& error) {
     problems.emplace_back(error.what());
   }
@@ -150,8 +149,7 @@ void write_so_far(const RenderJob& job, const RenderResult& result) {
   try {
     if (totals(result.film).max_taken == 0) return;
     const RenderOutcome outcome{result, finished_picture(*job.prepared, result)};
-    const std::string uneven = uneven_text(job.loaded.scene, outcome.picture.totals);
-    if (!uneven.empty()) complain(uneven);
+    if (const auto uneven = uneven_text(job.loaded.scene, outcome.picture.totals); !uneven.empty()) complain(uneven);
     write(job, outcome, false);
   } catch (const std::exception& error) {
     complain(std::string("SIGUSR1: the picture so far was not written: ") + error.what());
@@ -167,16 +165,14 @@ RenderBreaks breaks_of(Series& series, const RenderJob& job, Checkpoints& checkp
     write_so_far(job, result);
   };
   const bool wanted = job.command.checkpoint != 0, kept = wanted && !checkpoints.file().empty();
-  const bool told = !wanted || !job.place.output.empty() || job.whole_only;
-  breaks.film_due = [&checkpoints, &series, &view, kept, said = told]() mutable {
-    if (const auto problem = checkpoints.problem()) series.report.say(*problem);
-    if (const auto problem = view.problem()) series.report.say(*problem);
-    if (!kept && !said && checkpoints.due()) {
-      said = true;
+  const bool told = !wanted || !job.place.output.empty() || !job.name.empty();
+  breaks.film_due = [&checkpoints, &series, &view, kept, told] {
+    for (const auto& problem : {checkpoints.problem(), view.problem()})
+      if (problem) series.report.say(*problem);
+    if (!kept && !told && checkpoints.due() && series.told.insert("nothing is kept").second)
       series.report.say(
           "nothing is kept before the end; with a file as output that ends in .exr, and --exr-film yes, a killed "
           "render can go on");
-    }
     return (kept && checkpoints.due()) || view.due();
   };
   breaks.take_film = [&checkpoints, &view, kept](const Film& film, ThreadPool& thread_pool) {
@@ -205,15 +201,15 @@ std::string summary(const RenderOutcome& outcome, const std::vector<std::filesys
 }
 
 /// Renders, with checkpoints.
-RenderResult render(Series& series, RenderJob& job, const std::string& name, LiveView& view) {
+RenderResult render(Series& series, RenderJob& job, LiveView& view) {
   const std::uint32_t before = totals(job.begin).min_taken;
   const auto show = [&](const RenderProgress& now) {
     const double part = progress_fraction(now, job.command, before);
-    if (name.empty()) return series.report.show(now.seconds, part, progress_text(now, job.command, before));
+    if (job.name.empty()) return series.report.show(now.seconds, part, progress_text(now, job.command, before));
     const double done = (static_cast<double>(series.made) + part) / static_cast<double>(series.count);
     const double seconds = series.seconds + now.seconds;
     std::string text =
-        fmt::format("{} ({}/{}), {}", name, series.made + 1, series.count, samples_text(now, job.command));
+        fmt::format("{} ({}/{}), {}", job.name, series.made + 1, series.count, samples_text(now, job.command));
     if (done > 0) text += ", " + duration(seconds * (1 - done) / done) + " left";
     series.report.show(seconds, done, text);
   };
@@ -242,10 +238,11 @@ RenderResult render(Series& series, RenderJob& job, const std::string& name, Liv
 
 /// Tells what users should know of a picture, also with -q, which only turns progress off; what holds for several,
 /// once.
-void warn(Series& series, const RenderJob& job, const RenderOutcome& outcome, const std::string& name) {
+void warn(Series& series, const RenderJob& job, const RenderOutcome& outcome) {
   const auto tell = [&](const std::string& text) {
     if (series.told.insert(text).second)
-      series.report.say((name.empty() ? "" : name + ": ") + text + (series.count > 1 ? " (told once for all)" : ""));
+      series.report.say((job.name.empty() ? "" : job.name + ": ") + text +
+                        (series.count > 1 ? " (told once for all)" : ""));
   };
   const RenderResult& result = outcome.result;
   const FilmTotals& sum = outcome.picture.totals;
@@ -253,8 +250,7 @@ void warn(Series& series, const RenderJob& job, const RenderOutcome& outcome, co
     tell(std::string(rare_bright_paths) + "; the error may be larger than estimated");
   if (job.command.clean && !result.clean)
     tell("--denoise: the picture is not filtered, as some pixels have fewer than 2 samples");
-  const std::string uneven = uneven_text(job.loaded.scene, sum);
-  if (!uneven.empty()) tell(uneven);
+  if (const std::string uneven = uneven_text(job.loaded.scene, sum); !uneven.empty()) tell(uneven);
   if (sum.rejected == 0) return;
   std::string places;
   for (const RejectedSample& r : result.first_rejected)
@@ -266,24 +262,23 @@ void warn(Series& series, const RenderJob& job, const RenderOutcome& outcome, co
 
 }  // namespace
 
-bool make(Series& series, RenderJob& job, const std::string& name,
-          const std::function<void(const RenderOutcome&, bool written)>& made) {
-  if (series.begun++ == 0) tell_remarks(job);
+bool make(Series& series, RenderJob& job, const std::function<void(const RenderOutcome&, bool written)>& made) {
+  if (series.made == 0) tell_remarks(job);
   const auto start = Clock::now();
   job.prepared = tyndall::prepare(job.loaded.scene);
   job.seconds_build = seconds_since(start);
   job.samples_before = totals(job.begin).samples;
   LiveView view(job);
-  const RenderResult result = render(series, job, name, view);
+  const RenderResult result = render(series, job, view);
   series.seconds += result.seconds;
   if (!result.interrupted) ++series.made;
   const RenderOutcome outcome{result, finished_picture(*job.prepared, result)};
-  if (name.empty()) series.report.finish(summary(outcome, job.command.outputs));
+  if (job.name.empty()) series.report.finish(summary(outcome, job.command.outputs));
   if (outcome.picture.totals.max_taken == 0) {
-    if (name.empty()) complain("interrupted before the first samples: nothing written");
+    if (job.name.empty()) complain("interrupted before the first samples: nothing written");
     return true;
   }
-  warn(series, job, outcome, name);
+  warn(series, job, outcome);
   if (!result.interrupted) list_outputs(job, "begun");
   const bool written = write(job, outcome);
   if (!result.interrupted && written) list_outputs(job, "whole");

@@ -52,7 +52,7 @@ void read_group(const JsonValue& json, const Place& at, const std::filesystem::p
     VerifyCase one = group;
     read_members(list[i], {cases, i}, {"name", "expected"}, {}, one);
     one.name = group.name + "/" + one.name;
-    if (std::any_of(out.begin(), out.end(), [&](const VerifyCase& other) { return other.name == one.name; }))
+    if (std::ranges::count(out, one.name, &VerifyCase::name) > 0)
       fail({cases, i}, in_quotes(one.name) + " twice", "each name once");
     out.push_back(one);
   }
@@ -60,19 +60,14 @@ void read_group(const JsonValue& json, const Place& at, const std::filesystem::p
 
 constexpr double max_z = 4;
 
-int count(const VerifyRun& run, Verdict verdict) {
-  return static_cast<int>(
-      std::count_if(run.rows.begin(), run.rows.end(), [=](const VerifyRow& row) { return row.verdict == verdict; }));
-}
-
 std::string line_of(const VerifyRow& row, std::size_t name_width) {
   const std::string start = fmt::format("  {:<{}}", row.name, name_width + 2);
-  if (row.verdict == Verdict::skipped)
+  if (row.verdict == "skipped")
     return start + fmt::format("{:<12.7g} {:<45} skipped\n", row.expected,
                                row.requires_specular_paths ? "needs chains" : "needs light sampling");
   const Measured& m = row.measured;
   std::string text = start + fmt::format("{:<12.7g} {:<12.7g} {:<9.2g} {:7.2f} {:9}   {}", row.expected, m.value.mean,
-                                         m.value.error, row.z, m.totals.truncated, name_of(row.verdict));
+                                         m.value.error, row.z, m.totals.truncated, row.verdict);
   if (m.totals.rejected > 0) text += fmt::format(", {} samples rejected", m.totals.rejected);
   return text + "\n";
 }
@@ -83,10 +78,9 @@ std::string sum_up(const VerifyRun& run) {
   for (const VerifyRow& row : run.rows)
     samples += row.measured.totals.samples, rejected += row.measured.totals.rejected;
   std::string text = std::to_string(run.rows.size()) + " cases";
-  for (int i = 0; i < count_of<Verdict>(); ++i) {
-    const auto verdict = static_cast<Verdict>(i);
-    if (const int n = count(run, verdict)) text += fmt::format(", {} {}", n, name_of(verdict));
-  }
+  for (const char* verdict : {"ok", "FAIL", "vague", "skipped"})
+    if (const auto n = std::ranges::count(run.rows, verdict, &VerifyRow::verdict))
+      text += fmt::format(", {} {}", n, verdict);
   text +=
       fmt::format("; {:.3g} samples, {} rejected; {}\n", static_cast<double>(samples), rejected, duration(run.seconds));
   if (z.count == 0) return text;
@@ -97,8 +91,7 @@ std::string sum_up(const VerifyRun& run) {
 Json json_of(const VerifyRow& row) {
   Json overrides = Json::object();
   for (const Override& o : row.overrides) overrides[o.pointer] = Json::parse(o.value);
-  const bool known = row.verdict != Verdict::skipped;
-  const auto number = [known](double v) { return known && std::isfinite(v) ? Json(v) : nullptr; };
+  const auto number = [&row](double v) { return row.verdict == "skipped" ? Json() : Json(v); };
   return {{"name", row.name},
           {"scene", row.scene},
           {"set", overrides},
@@ -110,7 +103,7 @@ Json json_of(const VerifyRow& row) {
           {"measured", number(row.measured.value.mean)},
           {"standard_error", number(row.measured.value.error)},
           {"z", number(row.z)},
-          {"verdict", row.verdict == Verdict::fail ? "fail" : name_of(row.verdict)},
+          {"verdict", lower_case(row.verdict)},
           {"samples", row.measured.totals.samples},
           {"rejected_samples", row.measured.totals.rejected},
           {"truncated_paths", row.measured.totals.truncated},
@@ -195,20 +188,17 @@ std::vector<VerifyCase> read_verify_cases(const std::filesystem::path& file) {
   }
 }
 
-std::vector<VerifyCase> chosen_cases(const std::vector<VerifyCase>& cases, const std::vector<std::string>& names) {
-  const auto begins = [](const VerifyCase& c, const std::string& name) { return c.name.starts_with(name); };
+std::vector<VerifyCase> chosen_cases(std::vector<VerifyCase> cases, const std::vector<std::string>& names) {
+  std::set<std::string> known;  // groups and cases
+  for (const VerifyCase& c : cases) known.insert({c.name, c.name.substr(0, c.name.find('/'))});
   for (const std::string& name : names)
-    if (std::none_of(cases.begin(), cases.end(), [&](const VerifyCase& c) { return begins(c, name); })) {
-      std::set<std::string> known;  // groups and cases
-      for (const VerifyCase& c : cases) known.insert({c.name, c.name.substr(0, c.name.find('/'))});
-      const std::string hint = did_you_mean(name, {known.begin(), known.end()});
-      refuse("found no case {}{}, expected the beginning of a case's name", in_quotes(name), hint);
-    }
-  std::vector<VerifyCase> chosen;
-  for (const VerifyCase& c : cases)
-    if (names.empty() || std::any_of(names.begin(), names.end(), [&](const auto& name) { return begins(c, name); }))
-      chosen.push_back(c);
-  return chosen;
+    if (std::ranges::none_of(known, [&](const std::string& one) { return one.starts_with(name); }))
+      refuse("found no case {}{}, expected the beginning of a case's name", in_quotes(name),
+             did_you_mean(name, {known.begin(), known.end()}));
+  std::erase_if(cases, [&](const VerifyCase& c) {
+    return !names.empty() && std::ranges::none_of(names, [&](const auto& name) { return c.name.starts_with(name); });
+  });
+  return cases;
 }
 
 VerifyRow judge(VerifyRow row, const Measured& measured, double precision) {
@@ -216,27 +206,26 @@ VerifyRow judge(VerifyRow row, const Measured& measured, double precision) {
   row.z = z_score(measured.value, row.expected);
   const bool sharp = measured.value.error <= precision * std::abs(row.expected);
   const bool right = std::abs(row.z) <= max_z && measured.totals.rejected == 0;
-  row.verdict = !right ? Verdict::fail : sharp ? Verdict::ok : Verdict::vague;
+  row.verdict = !right ? "FAIL" : sharp ? "ok" : "vague";
   return row;
 }
 
 ZStatistic z_statistic(const std::vector<VerifyRow>& rows) {
   ZStatistic scores;
-  double sum = 0;
   for (const VerifyRow& row : rows) {
     const double rounding = rounding_fraction * std::abs(row.expected);
-    if (row.verdict == Verdict::skipped || row.measured.value.error <= 10 * rounding) continue;
-    sum += row.z * row.z;
-    ++scores.count;
+    if (row.verdict == "skipped" || row.measured.value.error <= 10 * rounding) continue;
+    scores.mean_square += row.z * row.z, ++scores.count;
   }
   if (scores.count == 0) return scores;
-  scores.mean_square = sum / scores.count;
+  scores.mean_square /= scores.count;
   scores.band = mean_square_band(scores.count);
   return scores;
 }
 
 bool passed(const VerifyRun& run) {
-  return count(run, Verdict::fail) == 0 && count(run, Verdict::vague) == 0 && z_statistic(run.rows).ok();
+  const auto bad = [](const VerifyRow& row) { return row.verdict == "FAIL" || row.verdict == "vague"; };
+  return std::ranges::none_of(run.rows, bad) && z_statistic(run.rows).ok();
 }
 
 std::string verify_table(const VerifyRun& run) {

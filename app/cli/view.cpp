@@ -7,6 +7,7 @@
 #include "core/base/text.h"
 #include "core/image/image_io.h"
 #include "core/system/open_file.h"
+#include "core/system/process.h"
 
 #ifdef TYNDALL_WINDOW
 #include "app/window/system/preferences.h"
@@ -63,10 +64,16 @@ void check_memory(const Scene& scene) {
   check_memory(plan, free_memory(), "write \"clean off\" into " + file);
 }
 
-/// Opens the window; where there is none, says what to do instead.
-int open_window(const std::string& instead, const WindowOptions& options) {
+/// Opens the window with the options, and those of the command; where there is none, says what to do instead.
+int open_window(const CommandRequest& command, WindowOptions options, const std::string& instead) {
+  check_memory(options.scene.scene);
+  std::vector<std::filesystem::path> inputs = options.scene.files;
+  if (!command.reference.empty()) inputs.push_back(picture_name(command.reference).file);
+  check_outputs({{"--ui-log", command.ui_log}}, inputs);
   if (!has_display()) throw IoError("no display for a window; " + instead);
 #ifdef TYNDALL_WINDOW
+  options.threads = command.threads, options.isa = command.isa;
+  options.reference = command.reference, options.ui_log = command.ui_log;
   tell_alpha(options.scene);
   try {
     return run_window(options);
@@ -78,46 +85,26 @@ int open_window(const std::string& instead, const WindowOptions& options) {
 #endif
 }
 
-/// What a picture and a scene have in common.
-WindowOptions options_of(const CommandRequest& command, const LoadedScene& loaded) {
-  WindowOptions options;
-  options.scene = loaded;
-  options.threads = command.threads, options.isa = command.isa;
-  options.reference = command.reference, options.ui_log = command.ui_log;
-  return options;
-}
-
-void check_files(const CommandRequest& command, std::vector<std::filesystem::path> inputs) {
-  if (!command.reference.empty()) inputs.push_back(picture_name(command.reference).file);
-  check_outputs({{"--ui-log", command.ui_log}}, inputs);
-}
-
-/// Options that change a scene, or how one is rendered, say nothing of a picture.
-void refuse_scene_options(const CommandRequest& command) {
-  const SceneRequest& request = command.scene;
-  const bool limited = std::isfinite(command.time_limit) || command.target_error > 0;
-  if (request.overrides.empty() && !request.size && request.render.given.empty() && !limited) return;
-  refuse(
-      "standard input: found a picture, expected a scene: --set, --size, limits and the options of rendering change "
-      "nothing in a picture");
-}
-
 /// Shows what a program writes to standard input, as it comes. begin: the bytes with which it begins.
 int view_picture(const CommandRequest& command, const std::string& begin) {
-  refuse_scene_options(command);
-  check_files(command, {});
+  const SceneRequest& request = command.scene;
+  const bool limited = std::isfinite(command.time_limit) || command.target_error > 0;
+  if (limited || !request.overrides.empty() || request.size || !request.render.given.empty())
+    refuse(
+        "standard input: found a picture, expected a scene: --set, --size, limits and the options of rendering change "
+        "nothing in a picture");
   const auto picture = std::make_shared<ArrivingPicture>(standard_input, begin, input_name, command.form.ppm);
-  LoadedScene loaded;  // of the picture's size, to be shown in its place
+  WindowOptions options;
+  options.picture = picture;
+  LoadedScene& loaded = options.scene;  // of the picture's size, to be shown in its place
   loaded.name = input_name;
   loaded.folder = ".";
   loaded.is_picture = true;
   loaded.scene.width = picture->width(), loaded.scene.height = picture->height();
   loaded.scene.render.spp = 1;
-  apply(command.scene.display, loaded.scene.display);
-  check_memory(loaded.scene);
-  WindowOptions options = options_of(command, loaded);
-  options.picture = picture;
-  return open_window("the program's picture can be kept in a file: > image.ppm in place of | tyndall view -", options);
+  apply(request.display, loaded.scene.display);
+  return open_window(command, options,
+                     "the program's picture can be kept in a file: > image.ppm in place of | tyndall view -");
 }
 
 int view_scene(const CommandRequest& command) {
@@ -135,17 +122,15 @@ int view_scene(const CommandRequest& command) {
     request.program.allowed = false;
     return open_scene(request);
   };
-  const LoadedScene loaded = open_scene_or_samples(command.scene, *own);
+  WindowOptions options;
+  options.scene = open_scene_or_samples(command.scene, *own);
   find_kernels(command.isa);
-  check_memory(loaded.scene);
-  check_files(command, loaded.files);
-  WindowOptions options = options_of(command, loaded);
   const auto& arguments = command.arguments;
   options.reload = open, options.read_edits = read_edits;
   options.scene_named = std::find(arguments.begin(), arguments.end(), command.scene.what) != arguments.end();
   options.limits = {command.time_limit, command.target_error};
   if (is_program(command.scene.what)) options.function = own->function();
-  return open_window("the same picture without a window: " + headless_command(command), options);
+  return open_window(command, options, "the same picture without a window: " + headless_command(command));
 }
 
 }  // namespace

@@ -108,17 +108,13 @@ std::string fish_option(const OptionRow& option) {
 std::string compiler_text() {
 #if defined(__clang__)
   const std::string name = "clang " __clang_version__;
-#elif defined(__GNUC__)
-  const std::string name = "GCC " __VERSION__;
 #else
-  const std::string name = "unknown compiler";
+  const std::string name = "GCC " __VERSION__;
 #endif
 #if defined(_LIBCPP_VERSION)
   const std::string library = "libc++ " + std::to_string(_LIBCPP_VERSION / 1000);
-#elif defined(__GLIBCXX__)
-  const std::string library = "libstdc++ " + std::to_string(_GLIBCXX_RELEASE);
 #else
-  const std::string library = "unknown standard library";
+  const std::string library = "libstdc++ " + std::to_string(_GLIBCXX_RELEASE);
 #endif
   return name.substr(0, name.find_last_not_of(' ') + 1) + ", " + library + ", " TYNDALL_BUILD;
 }

@@ -10,15 +10,12 @@ namespace tyndall {
 
 struct CommandRequest;  // see app/cli/requests.h
 
-/// How often an option may be given: a flag takes no value, of `once` the last value counts.
-enum class Takes { flag, once, each };
-
 /// What an option does with its text; a flag gets "on". Throws UsageError `found "X", expected Y`, before which the
 /// option's name is put.
 struct Taker {
   std::function<void(CommandRequest&, const std::string&)> take;
-  Takes takes = Takes::once;
   std::vector<std::string> choices{};  ///< the values that it takes, where they have names, for shells
+  bool each = false;                   ///< whether all values count that an option is given, not the last one alone
 };
 
 /// An option of commands, or without dashes in its names an argument.
@@ -28,7 +25,7 @@ struct OptionRow {
       : names(std::move(n)), unit(std::move(u)), taker(std::move(t)), help(std::move(h)), commands(c), heading(below) {}
 
   std::string names;  ///< "-t,--threads", "SCENE"
-  std::string unit;   ///< what the help calls the value; "": it takes none, " ": the name says it
+  std::string unit;   ///< what the help calls the value; "": it takes none, as a flag; " ": the name says it
   Taker taker;
   std::string help;           ///< lines, with \n between them
   std::string_view commands;  ///< those that it is an option of in this way; "": of all that name it

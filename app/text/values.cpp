@@ -180,9 +180,9 @@ Override read_override(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
-std::filesystem::path read_file_name(const std::string& text, const std::string& ending) {
-  if (lower_case(std::filesystem::path(text).extension().string()) != ending)
-    refuse(text, "a name that ends in " + ending);
+std::filesystem::path read_file_name(const std::string& text, const std::vector<std::string>& endings) {
+  if (std::ranges::count(endings, lower_case(std::filesystem::path(text).extension().string())) == 0)
+    refuse(text, "a name that ends in " + joined(endings, " or "));
   return text;
 }
 
@@ -207,9 +207,8 @@ SweepAxis read_sweep_axis(const std::string& text) {
     values = values.substr(1, values.size() - 2);
   axis.values = read ? std::move(*read) : split_at(values, ',');
   if (axis.values.size() < 2) refuse(text, expected);
-  for (std::size_t i = 0; i < axis.values.size(); ++i) {
-    if (axis.values[i].empty()) refuse(text, expected);
-    const auto here = axis.values.begin() + static_cast<std::ptrdiff_t>(i);
+  for (auto here = axis.values.begin(); here != axis.values.end(); ++here) {
+    if (here->empty()) refuse(text, expected);
     if (std::find(axis.values.begin(), here, *here) != here)
       refuse(text, "each value once; " + *here + " is there twice");
   }

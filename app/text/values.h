@@ -52,8 +52,8 @@ Region read_region(const std::string& text);
 SampleKey read_sample_key(const std::string& text);
 /// POINTER=VALUE; the pointer starts with "/".
 Override read_override(const std::string& text);
-/// A file name with that ending (".png", any case).
-std::filesystem::path read_file_name(const std::string& text, const std::string& ending);
+/// A file name with one of these endings (".png", any case).
+std::filesystem::path read_file_name(const std::string& text, const std::vector<std::string>& endings);
 /// The index of text in names. The message of a near miss suggests what was meant.
 std::size_t read_name(const std::string& text, const std::vector<std::string>& names);
 

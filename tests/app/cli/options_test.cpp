@@ -1,5 +1,5 @@
-#include "app/cli/option_rows.h"
 #include "app/cli/requests.h"
+#include "app/manual/page.h"
 
 #include <doctest/doctest.h>
 

@@ -10,7 +10,7 @@ namespace {
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 const OptionRow output{"-o,--output", "FILE", {}, "the image; it's required", "", "Output"};
-const OptionRow method{"--method", "NAME", {{}, Takes::once, {"fast", "slow"}}, "how [from the scene]", "", "Method"};
+const OptionRow method{"--method", "NAME", {{}, {"fast", "slow"}}, "how [from the scene]", "", "Method"};
 const OptionRow quiet{"-q,--quiet", "", {}, ".dots and \\ backslashes", "", "Output"};
 const OptionRow bits{"--bits", "N", {}, "bits[8]", "", "Output"};
 const std::vector<CommandRow> rows{{"paint SCENE -o FILE",
