@@ -181,9 +181,9 @@ std::string shape(const ForeignFlat& f) {
 }
 
 std::string medium(const PlacedVolume& volume, std::size_t index) {
-  const auto [density, g] = volume.medium;
-  const Vec3d scattering = density * std::get<Vec3d>(volume.albedo),
-              absorption = Vec3d{density, density, density} - scattering;
+  const auto [extinction, g] = volume.medium;
+  const Vec3d scattering = extinction * std::get<Vec3d>(volume.albedo),
+              absorption = Vec3d{extinction, extinction, extinction} - scattering;
   return fmt::format("MakeNamedMedium \"medium {}\" \"string type\" \"homogeneous\" {} {} {}\n", index,
                      rgb("sigma_a", absorption), rgb("sigma_s", scattering), number("g", g));
 }

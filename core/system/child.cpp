@@ -96,8 +96,8 @@ void report(const ProcessStart& start, int number) { start.report.to.write(&numb
   const ChildPlan& plan = start.plan;
   for (const auto& [resource, bytes] :
        {std::pair(RLIMIT_AS, plan.max_memory), std::pair(RLIMIT_FSIZE, plan.max_file)}) {
-    const rlimit most{bytes, bytes};
-    if (bytes > 0) setrlimit(resource, &most);
+    const rlimit limit{bytes, bytes};
+    if (bytes > 0) setrlimit(resource, &limit);
   }
   if (plan.channel >= 0) fcntl(plan.channel, F_SETFD, 0);
   int error = EPERM;

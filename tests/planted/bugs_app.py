@@ -37,7 +37,7 @@ APP = [
     ("a chart that cannot be written is no error", "app/curves/chart.cpp", "«if (!problem.empty()) throw ImageFileError(problem); → »", "commands/measured_slow"),
 
     ("a light that moves is written at rest", "app/export/foreign_scene.cpp",
-     "if («std::holds_alternative<Light<double>>(material.kind) → false») refuse(\"/objects\", \"a light that moves\"", "commands/refusals commands/convert_foreign_slow"),
+     "if («shape.shines() → false») refuse(\"/objects\", \"a light that moves\"", "commands/refusals commands/convert_foreign_slow"),
     ("up is down", "app/export/blender.cpp", "{\"up\", «cross(right, forward) → cross(forward, right)»},", "commands/convert_foreign_slow"),
     ("fog scatters what it absorbs", "app/export/pbrt.cpp", "rgb(\"sigma_a\", «absorption → scattering»)", "commands/convert_foreign_slow"),
     ("the height's angle of view in upright pictures", "app/export/pbrt.cpp",
