@@ -62,8 +62,8 @@ class OpenFile {
   int synchronise() const;
   /// Asks the disk for room, so that it is not missed in the middle. 0 also where a file system does not say.
   int reserve(std::uint64_t size) const;
-  /// Takes the lock if nobody has it, or else waits for it, if that is asked for; it ends with the file, or the program.
-  /// EWOULDBLOCK: somebody has it.
+  /// Takes the lock if nobody has it, or else waits for it, if that is asked for; it ends with the file, or the
+  /// program. EWOULDBLOCK: somebody has it.
   int lock(bool waits = false) const;
   /// Whether it still stands in a folder: it was not removed.
   bool has_name() const;

@@ -42,7 +42,7 @@ APP = [
     ("fog scatters what it absorbs", "app/export/pbrt.cpp", "rgb(\"sigma_a\", «absorption → scattering»)", "commands/convert_foreign_slow"),
     ("the height's angle of view in upright pictures", "app/export/pbrt.cpp",
      "aspect >= 1 ? c.vfov : «360 / std::numbers::pi * std::atan(half * aspect) → c.vfov»;", "commands/convert_foreign_slow"),
-    ("half of a quad", "app/export/mitsuba.cpp", "{\"rectangle\\\">\", «0.5 * f.u → f.u»,", "commands/convert_foreign_slow"),
+    ("half of a quad", "app/export/mitsuba.cpp", "const double half = quad ? «0.5 → 1» : 1;", "commands/convert_foreign_slow"),
     ("fuzzy metal is written as a mirror", "app/export/foreign_scene.cpp", "«if (metal->fuzz > 0) refuse(where + \"fuzz\", number_text(metal->fuzz), \"0\"); → »",
      "commands/refusals commands/convert_foreign_slow"),
 

@@ -75,8 +75,8 @@ struct light_answer {
 struct description {
   /// A member, with the key of its name. n: a number, v: a vector, r: a ray's origin and direction.
   virtual void take_numbers(char kind, const char* key, const double* numbers, int count) = 0;
-  /// s, m, t: a member that is, or points to, a shape, a material, a texture. c: the whole object, with the mangled name
-  /// of its class.
+  /// s, m, t: a member that is, or points to, a shape, a material, a texture. c: the whole object, with the mangled
+  /// name of its class.
   virtual void take_object(char kind, const char* key, const void* object) = 0;
 };
 
