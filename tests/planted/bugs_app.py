@@ -177,7 +177,8 @@ APP = [
     ("arrays of a picture can be written to", "app/python/module.cpp", "«array.attr(\"setflags\")(py::arg(\"write\") = false); → »", "python"),
     ("the reference's mean is that of the picture", "app/python/module.cpp", "channels(«c.mean_reference → c.mean_image»)", "python"),
     ("names of files that are no UTF-8 are an error", "app/python/module.cpp", "«\"surrogateescape\" → \"strict\"»", "python"),
-    ("the region ends on the right where it ends below", "app/python/module.cpp", "Region{x0, y0, «x1 → y1», y1};", "python"),
+    ("the region ends on the right where it ends below", "app/python/module.cpp",
+     "(«py::init<int, int, int, int>() → py::init([](int a, int b, int, int d) { return Region{a, b, d, d}; })»);", "python"),
 
     ("a line that begins with a dot is a request", "app/manual/page.cpp", "if (at_start && («c == '.' → false» || c == '\\''))", "app/manual/page"),
     ("a switch wants a value in bash", "app/manual/page.cpp", "«if (option.unit.empty()) return std::string(); → »", "app/manual/page"),
