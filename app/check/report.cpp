@@ -32,9 +32,10 @@ std::string object_line(const ObjectDifference& d) {
 
 /// Of a right curve; "": nothing has to be said of it.
 const char* curve_text(TransferCurve curve) {
-  constexpr const char* texts[] = {"", "sRGB's curve", "gamma 2.2", "gamma 2", "",
-                                   ""};  // in the order of TransferCurve
-  return texts[static_cast<std::size_t>(curve)];
+  return curve == TransferCurve::srgb      ? "sRGB's curve"
+         : curve == TransferCurve::power22 ? "gamma 2.2"
+         : curve == TransferCurve::gamma2  ? "gamma 2"
+                                           : "";
 }
 
 /// What the objects that differ have in common; "": nothing.

@@ -114,10 +114,10 @@ void ViewerStream::Shared::send_frame(const ViewerFrame& frame) {
   constexpr std::int64_t channels = viewer_channel_count;
   const Region& all = frame.region;
   const std::size_t row_bytes = sizeof(float) * viewer_channel_count * static_cast<std::size_t>(all.width());
-  const int most = std::max(1, static_cast<int>(band_bytes / row_bytes));
+  const int band_rows = std::max(1, static_cast<int>(band_bytes / row_bytes));
   const auto* bytes = reinterpret_cast<const char*>(frame.values.data());
   for (int y = all.y0, rows = 0; y < all.y1; y += rows) {
-    rows = std::min(most, all.y1 - y);
+    rows = std::min(band_rows, all.y1 - y);
     std::string packet = begin_packet(PacketType::update_image_v3, name);
     add_channels(packet);
     add(packet, all.x0, y, all.width(), rows);

@@ -117,9 +117,8 @@ int OpenFile::synchronise() const {
 
 int OpenFile::reserve(std::uint64_t) const { return 0; }
 
-/// Far beyond the end of any file: here locks keep others from reading and writing what is locked.
 int OpenFile::lock(bool waits) const {
-  OVERLAPPED place{};
+  OVERLAPPED place{};  // far beyond the end of any file: here locks keep others from reading and writing what is locked
   place.Offset = 0xfffffffe, place.OffsetHigh = 0x7fffffff;
   const DWORD flags = LOCKFILE_EXCLUSIVE_LOCK | (waits ? 0 : LOCKFILE_FAIL_IMMEDIATELY);
   if (LockFileEx(handle_of(descriptor_), flags, 0, 1, 0, &place)) return 0;

@@ -144,6 +144,9 @@ def test_frames(film):
     assert image_hash("f/0002.png") == hash_in("f/0002.png")
     run("animate metal-spheres --size 16x9 --spp 1 --turntable --frames 3 -q -o t%d.png")
     assert hash_in("t0.png") != hash_in("t1.png")
+    run(f"{film} --gamma2 -o g%d.ppm")
+    run("render film.json --spp 4 --frame 2 --gamma2 -q -o still.ppm")
+    assert read("g2.ppm") == read("still.ppm")
 
 
 def test_frames_that_are_there(film):

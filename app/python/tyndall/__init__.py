@@ -189,7 +189,9 @@ class Scene:
         return Scene(self)
 
     __copy__ = copy
-    __deepcopy__ = lambda self, memo: Scene(self)
+
+    def __deepcopy__(self, memo: dict) -> "Scene":
+        return Scene(self)
 
     def __reduce__(self) -> tuple:
         return _parsed, (self.json(), os.path.abspath(self._folder))
