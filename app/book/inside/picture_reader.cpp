@@ -207,8 +207,8 @@ int read_depth(Reading& reading) {
   if (!matt) return told;
   if (!reading.picture.draws_by_pdf) {
     const book::light_answer hit = reading.program.light({matt, 1});
-    const Vec3d behind = reading.program.light({nullptr, 0, nullptr, 0, {}, hit.second}).colour;
-    expect(reading.albedo * behind, hit.colour, reading.precision, "one hit");
+    const Vec3d beyond = reading.program.light({nullptr, 0, nullptr, 0, {}, hit.second}).colour;
+    expect(reading.albedo * beyond, hit.colour, reading.precision, "one hit");
     if (shining)
       expect(reading.albedo * reading.light, reading.program.light({matt, 1, shining, 1}).colour, reading.precision,
              "a hit and a light");
