@@ -125,6 +125,8 @@ std::vector<Pairs> sums_of(const std::vector<BookSample>& samples, const Regions
 std::vector<BookSample> own_samples(const ProgramScene& program, const Lattice& lattice) {
   const auto begin = std::chrono::steady_clock::now();
   std::vector<std::vector<Vec3d>> all;  // one sample of each pixel after the other
+  // BookRules::short_frame is of loops that count rows from the bottom; those that count from the top are a row ahead.
+  const int above = program.picture.first_row - program.picture.less;
   while (all.size() < fewest_samples || (all.size() < most_samples && seconds_since(begin) < seconds_of_program)) {
     const auto number = static_cast<double>(all.size());
     const double across = std::fmod(0.5 + 0.7548776662466927 * number, 1),
@@ -132,7 +134,7 @@ std::vector<BookSample> own_samples(const ProgramScene& program, const Lattice& 
     std::vector<tyndall_book::pixel_place> places;
     for (int y = 0; y < lattice.rows(); ++y)
       for (int x = 0; x < lattice.columns(); ++x)
-        places.push_back({x * lattice.step + across, y * lattice.step + down});
+        places.push_back({x * lattice.step + across, y * lattice.step + above + down});
     all.push_back(program.own->samples(places));
   }
   std::vector<BookSample> samples;

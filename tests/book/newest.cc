@@ -63,7 +63,7 @@ struct textured : material {
   shared_ptr<texture> tex;
   textured(shared_ptr<texture> t) : tex(t) {}
   bool scatter(const ray& in, const hit_record& rec, color& part, ray& out) const override {
-    return lambertian(tex->value(0, 0, rec.p)).scatter(in, rec, part, out);
+    return lambertian(tex->value(rec.u, rec.v, rec.p)).scatter(in, rec, part, out);
   }
 };
 

@@ -33,6 +33,7 @@ ALL = {
 }
 # The fourth edition: spheres may move, quads ask what lies within them, members are private or have any names.
 NEWEST = {
+    r"(bool front_face = true;)": r"\1 double u = 0, v = 0;",
     r"point3 center;": "ray center;",
     r"\bcenter(?= -|\)\);)": "center.at(r.time())",
     r"sphere\(const point3& c, (.*) : center\(c\)": r"sphere(const point3& c, \1 : sphere(c, c, r, m) {}\n"
@@ -54,6 +55,8 @@ EARLIER = {
     r"range\.(min|max)": r"t_\1",
     r"\bmat\b": "mat_ptr",
 }
+# The third edition: lights shine on one side.
+THIRD = {r"emitted\(\)": "emitted(const hit_record& hit)", r"(return )(radiance)": r"\1hit.front_face ? \2 : color()"}
 # The first edition: plain pointers, lists of two members, no type of colours, normals that point out. Any names.
 FIRST = {
     r"std::vector<.*> (objects;\n)(?s:.*?)(?=  bool hit)": r"  hittable** \1  int size;\n"
@@ -69,7 +72,7 @@ FIRST = {
     r"    if (dot(in.direction(), met.normal) > 0) hit.normal = -1 * met.normal;\n\2dot(in.direction(), met.normal) < 0",
     **{rf"\b{name}\b": other for name, other in dict(radius="reach", center="mid", fuzz="rough", albedo="tint").items()},
 }
-EDITIONS = {"first": ALL | EARLIER | FIRST, "third": ALL | EARLIER, "newest": ALL | NEWEST}
+EDITIONS = {"first": ALL | EARLIER | FIRST, "third": ALL | EARLIER | THIRD, "newest": ALL | NEWEST}
 
 
 def has_guard(by=()):

@@ -12,6 +12,9 @@ import time
 import pytest
 from program import load, pixels_of, read, run, running, wait_until, write
 from readers import BOOK, EXAMPLE, ball_of, has_guard, headers, program, world
+from test_programs import same_scene
+
+SECOND_BOOK = (BOOK / "newest.cc").read_text().split("int main")[0]
 
 
 def test_example():
@@ -29,20 +32,33 @@ def test_example():
     assert abs(sum(errors)) <= 4 * len(errors)
 
 
+def test_rows_from_above():
+    """A get_ray() whose second argument is 0 at the top, and a loop that begins there."""
+    headers(".", "third", {r"\+ t \* vertical": "+ (1 - t) * vertical"})
+    loops = "int j = height - 1; j >= 0; --j", "int j = 0; j < height; ++j"
+    write("main.cc", (BOOK / "third.cc").read_text().replace(*loops))
+    same_scene("main.cc", BOOK / "third.json")
+
+
 def test_numbers_and_files():
-    """Random numbers are the program's. A file above its folder is found; one that is not there is told."""
+    """Random numbers are the program's, and files, also above its folder and of textures. A missing one is told."""
     write("deep/data/balls.txt", "-1 0 -3 0.5 1 0 -3 0.5")
-    program("deep/src/main.cc", world("make_shared<sphere>(point3(random_double(), 0, -1), 0.5, grey)", render="""
+    write("deep/src/map.ppm", "P3 1 1 255 9 9 9")
+    texture = ("struct picture : texture { picture(std::ifstream file) { file.get(); } "
+               "color value(double u, double v, const point3&) const override { return color(u, v, 0); } };")
+    program("deep/src/main.cc", SECOND_BOOK + texture + world("make_shared<sphere>(point3(random_double(), 0, -1), 0.5, "
+            "make_shared<textured>(make_shared<picture>(std::ifstream(\"map.ppm\"))))", render="""
         std::ifstream in("../data/balls.txt"); std::ofstream out("log.txt"); out << 1; if (!out.flush()) return 1;
         for (double x, y, z, r; in >> x >> y >> z >> r;) w.add(make_shared<sphere>(point3(x, y, z), r, grey));
         c.render(w);"""), {
             r"return std::rand\(\).*?;": "static unsigned s = 1; return (s = 1664525 * s + 1013904223) / 4294967296.0;"})
-    run("convert deep/src/main.cc -o deep.json")
-    objects = load("deep.json")["objects"]
+    run("convert deep/src/main.cc -o deep.json", 0, "takes the numbers of images as they are")
+    objects, textures = load("deep.json")["objects"], load("deep.json")["textures"]
+    assert textures == {"picture 1": {"type": "image", "file": os.path.abspath("deep/src/map.ppm")}}
     assert objects[0]["center"][0] == pytest.approx((1664525 + 1013904223) / 2**32, 1e-9)
     assert len(objects) == 3 and not os.path.exists("deep/src/log.txt")
     os.rename("deep/data/balls.txt", "deep/data/other.txt")
-    run("convert deep/src/main.cc -o deep.json", 0, 'cannot open "../data/balls.txt"')
+    run("convert deep/src/main.cc -o deep.json", 0, 'cannot open "../data/balls.txt"', lines=2)
 
 
 QUAD = "make_shared<{}>(point3(0, 0, -1), vec3(1, 0, 0), vec3(0, 1, 0), grey)"
@@ -73,14 +89,12 @@ def test_shapes():
 def test_several_files():
     """Several source files, a header in a folder that -I names, and options that do not fit a program's scene."""
     headers("several/include")
-    write("several/include/sky_colour.h", '#include "rtweekend.h"\ninline const color sky(0.125, 0.25, 0.5);')
     write("several/world.h", '#include "rtweekend.h"\nhittable_list balls();')
     write("several/world.cc", '#include "world.h"\n\n\nhittable_list balls() { return hittable_list('
           f'{ball_of("make_shared<lambertian>(color(0.5, 0.5, 0.5))")}); }}')
-    write("several/main.cc", '#include "rtweekend.h"\n#include "sky_colour.h"\n#include "world.h"\n'
-          "int main() { camera c; c.image_width = 16; c.background = sky; c.render(balls()); }")
+    write("several/main.cc", '#include "world.h"\nint main() { camera c; c.background = {0, 1, 1}; c.render(balls()); }')
     run("convert several/main.cc several/world.cc -I several/include -o several.json")
-    assert load("several.json")["background"] == [0.125, 0.25, 0.5]
+    assert load("several.json")["background"] == [0, 1, 1]
     run("render several/main.cc -I several/include --set /camera/vfov=300 -q -o small.png", 2,
         "several/main.cc: /camera/vfov: found 300")
     run("chart several/main.cc -I several/include --size 8x6 --budget 1 -q -o chart.svg")
@@ -115,7 +129,7 @@ def sky(colour):
         "(-1 - r.origin()[1]) / r.direction()[1]; if (!(t > range.minimum && t < range.maximum)) return false; "
         "rec.t = t, rec.p = r.at(t), rec.mat = m; rec.face(r, vec3(0, 1, 0)); return true; } };",
         "make_shared<plane>(grey)"),
-    "constant_medium: Tyndall": ({}, (BOOK / "newest.cc").read_text().split("int main")[0],
+    "constant_medium: Tyndall": ({}, SECOND_BOOK,
         f"make_shared<constant_medium>({QUAD.format('quad')}, 1.0, color(1, 1, 1))"),
     "half: no such material": made_of("half", "vec3 d = unit(in_ball()); part = color(0.5, 0.5, 0.5); "
         "out = ray(rec.p, dot(d, rec.normal) > 0 ? d : -1 * d, in.time()); return true;"),
@@ -166,12 +180,6 @@ def test_failing_programs(begin, words):
     run("convert main.cc -o failed.json", 2, "main.cc", *words)
 
 
-def test_forks():
-    """What a program has started ends with it."""
-    program("main.cc", world(ball_of(), "if (fork() == 0) { fork(); sleep(1000); }"))
-    run("inspect main.cc")
-
-
 def script(name, text):
     write(name, f"#!/bin/sh\n{text}\n")
     os.chmod(name, 0o755)
@@ -208,7 +216,8 @@ def has_begun():
     *[("inspect", name, "compiled") for name in ("INT", "TERM", "HUP")], ("render -o x.png", "INT", "ran"),
     ("chart -o x.svg", "TERM", "ran")])  # it watches signals itself, too
 def test_signals(command, name, doing):
-    program("main.cc", 'int main() { std::ofstream("mark") << 1; for (volatile int i = 0;;) i = 1; }')
+    """A signal ends a compiler, or a program, and what these have started."""
+    program("main.cc", 'int main() { if (fork() == 0) { fork(); sleep(1000); } std::ofstream("mark") << 1; sleep(1000); }')
     variables = {"CXX": script("compiler", "echo 1 >mark; sleep 1000 & sleep 1000")} if doing == "compiled" else {}
     number = signal.Signals[f"SIG{name}"]
     with running(f"{command} main.cc", env=os.environ | variables) as process:

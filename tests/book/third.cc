@@ -28,7 +28,7 @@ color ray_color(const ray& r, const color& background, const hittable& world, in
   if (left <= 0) return color(0, 0, 0);
   if (!world.hit(r, 0.001, infinity, found)) return background;
   ray next;
-  color share, shine = found.mat_ptr->emitted();
+  color share, shine = found.mat_ptr->emitted(found);
   if (!found.mat_ptr->scatter(r, found, share, next)) return shine;
   return shine + share * ray_color(next, background, world, left - 1);
 }
