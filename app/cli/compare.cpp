@@ -113,7 +113,8 @@ std::string table(const Comparison& c, const BlockScores& b) {
 int compare_with_baseline(const CommandRequest& command) {
   std::vector<std::filesystem::path> inputs;
   for (const auto& image : command.baseline.images) inputs.push_back(picture_name(image).file);
-  const std::vector<Output> outputs{{"--report", command.report}, {"--junit", command.junit}};
+  std::vector<Output> outputs{{"--report", command.report}, {"--junit", command.junit}};
+  if (!command.report.empty()) outputs.push_back({"--report", numbers_beside(command.report)});
   check_outputs(outputs, inputs);
   check_can_write(outputs);
   if (command.update) {

@@ -61,8 +61,12 @@ BaselineCheck check_baseline(const BaselineRequest& request);
 /// the baseline keeps from before among the notes. Throws UsageError, IoError, ImageFileError.
 NamedPictures update_baseline(const BaselineRequest& request);
 
-/// One page with everything in it: numbers, both pictures behind a slider, the map of FLIP; and beside it the numbers
-/// for programs, in a file of the same name that ends in .json. ppm: how PPM files are read. Throws ImageFileError.
+/// Where the numbers of a report lie, for programs: in a file of the same name that ends in .json. Throws UsageError if
+/// another file has that name, such as a scene.
+std::filesystem::path numbers_beside(std::filesystem::path report);
+
+/// One page with everything in it: numbers, both pictures behind a slider, the map of FLIP; and beside it its numbers.
+/// ppm: how PPM files are read. Throws as numbers_beside() does, and ImageFileError.
 void write_html_report(const std::filesystem::path& file, const std::vector<CheckedPicture>& pictures, PpmCurve ppm);
 
 /// A report in the form that JUnit gave to continuous integration.

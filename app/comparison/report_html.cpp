@@ -2,6 +2,7 @@
 #include "app/files/outputs.h"
 #include "app/report/heat_map.h"
 #include "app/text/markup.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/image/image_io.h"
 #include "core/image/image_io_file.h"
@@ -14,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 
 namespace tyndall {
 namespace {
@@ -162,6 +164,15 @@ static void to_json(Json& json, const CheckedPicture& picture) {
           {"limits", limits}};
 }
 
+std::filesystem::path numbers_beside(std::filesystem::path report) {
+  report.replace_extension(".json");
+  std::ifstream in(report);
+  if (in && !Json::parse(in, nullptr, false).contains("pictures"))
+    throw UsageError("--report: found " + in_quotes(report.string()) +
+                     ", which holds no report's numbers, expected another name: they are written there");
+  return report;
+}
+
 void write_html_report(const std::filesystem::path& file, const std::vector<CheckedPicture>& pictures, PpmCurve ppm) {
   const auto passes = [](const CheckedPicture& picture) { return picture.failures.empty(); };
   std::string rows, sections;
@@ -172,8 +183,7 @@ void write_html_report(const std::filesystem::path& file, const std::vector<Chec
       rows += summary_row(picture, ++number);
       sections += section(picture, number, ppm);
     }
-  std::filesystem::path numbers = file;
-  numbers.replace_extension(".json");
+  const std::filesystem::path numbers = numbers_beside(file);
   const std::string sentence = fmt::format("{} of {} pictures look like their baseline",
                                            std::count_if(pictures.begin(), pictures.end(), passes), pictures.size());
   write_text_or_rescue(file, from_template("report.html", {{"stops", css_stops()},
