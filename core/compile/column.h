@@ -37,7 +37,7 @@ class Column {
   ~Column() {
     if (!first_ || --head()->users > 0) return;
     std::destroy_n(first_, head()->room);
-    ::operator delete(head());
+    std::allocator<Head>().deallocate(head(), heads(head()->room));
   }
 
   /// The first value: column[i], and tables for gather() and lookup().
@@ -68,10 +68,12 @@ class Column {
 
  private:
   /// What lies before the first value.
-  struct alignas(std::max_align_t) Head {
+  struct alignas(std::max(alignof(std::max_align_t), alignof(T))) Head {
     std::atomic<int> users;  ///< columns that share the values
     std::size_t room;        ///< values that were constructed, those beyond count_ as well
   };
+  /// As much memory as a head and the values take, in heads, so that it is aligned as these are.
+  static constexpr std::size_t heads(std::size_t room) { return 2 + room * sizeof(T) / sizeof(Head); }
   Head* head() const { return reinterpret_cast<Head*>(first_) - 1; }
 
   /// Memory that no other column shares, with room for at least so many values.
@@ -81,7 +83,7 @@ class Column {
     room = room > had ? std::max(room, 2 * size()) : had;
     if (room > std::numeric_limits<int>::max()) throw std::bad_alloc();
     Column larger;
-    larger.first_ = reinterpret_cast<T*>(new (::operator new(sizeof(Head) + room * sizeof(T))) Head{1, room} + 1);
+    larger.first_ = reinterpret_cast<T*>(new (std::allocator<Head>().allocate(heads(room))) Head{1, room} + 1);
     std::uninitialized_value_construct_n(larger.first_, room);
     std::copy_n(first_, size(), larger.first_);
     std::swap(first_, larger.first_);

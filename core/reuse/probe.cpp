@@ -3,6 +3,7 @@
 #include "core/reuse/reuse_tile.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 
 namespace tyndall {
@@ -17,7 +18,8 @@ void spread_groups(const SceneView& s, int samples, ReusedPaths& paths) {
   paths.clear();
   paths.groups = 0;
   const auto spread = [](int i, int size, int block, int offset) {
-    return std::min(((2 * i + 1) * size / (2 * across)) / block * block + offset % group_spacing, size - 1);
+    const auto middle = static_cast<int>((2 * i + 1) * std::int64_t{size} / (2 * across));
+    return std::min(middle / block * block + offset % group_spacing, size - 1);
   };
   for (int i = 0; i < samples * across * across; ++i) {
     const int place = i / samples, at = paths.groups++;
