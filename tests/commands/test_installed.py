@@ -59,7 +59,8 @@ def test_files(tree):
     everything = list(tree.rglob("*"))
     assert not [path for path in everything if re.match(r"\..*|__pycache__|.*\.md~", path.name)]
     assert not [path for path in everything if path.is_symlink() and not re.match(r"libtyndall.*\.so", path.name)]
-    shell(f"! grep -rlF -- '{ROOT}' {tree}")
+    if re.search(", Release$", run("version"), re.M):  # sanitizers keep the names of the sources
+        shell(f"! grep -rlF -- '{ROOT}' {tree}")
 
 
 def test_program(moved):
