@@ -1,8 +1,8 @@
 """What readers' programs may have of their own, what is not taken for a scene, what fails, and what is left alone."""
 
-import math
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -27,16 +27,16 @@ def test_example():
     run("render small.cc -Itracer -q -o tyndall.pfm")
     picture = pixels_of("tyndall.pfm")
     # Of the red ball's left half, where nothing is dark or clipped, so that means of bytes agree.
-    errors = [int(plain[3 * (40 * y + x)]) - 256 * math.sqrt(picture[y][x][0])
+    errors = [int(plain[3 * (40 * y + x)]) - 256 * picture[y][x][0] ** 0.5
               for y in range(7, 16) for x in range(1, 8)]
     assert abs(sum(errors)) <= 4 * len(errors)
 
 
-def test_rows_from_above():
-    """A get_ray() whose second argument is 0 at the top, and a loop that begins there."""
+def test_columns_from_above():
+    """A get_ray() whose second argument is 0 at the top, and loops that go down there, column by column."""
     headers(".", "third", {r"\+ t \* vertical": "+ (1 - t) * vertical"})
-    loops = "int j = height - 1; j >= 0; --j", "int j = 0; j < height; ++j"
-    write("main.cc", (BOOK / "third.cc").read_text().replace(*loops))
+    write("main.cc", re.sub(r"int j = .*--j((?s:.*?))int i = .*\+\+i", r"int i = 0; i < width; ++i\1int j = 0; j < height; ++j",
+                            (BOOK / "third.cc").read_text().replace("<< j", "")))
     same_scene("main.cc", BOOK / "third.json")
 
 

@@ -63,10 +63,12 @@ class Watcher {
   }
   bool is_later(int seconds) const { return std::chrono::steady_clock::now() - begin_ > std::chrono::seconds(seconds); }
   bool counts_samples() {
-    const auto column = [&](const Place& at) {
-      return picture.by_pixels ? at.first : std::floor(at.first * (picture.width - picture.less));
+    const auto pixel = [&](const Place& at) {
+      if (picture.by_pixels) return std::pair(at.first, at.second);
+      return std::pair(std::floor(at.first * (picture.width - picture.less)),
+                       std::floor(at.second * (picture.height - picture.less)));
     };
-    const bool same = column(seen_.back()) == column(seen_.front());
+    const bool same = pixel(seen_.back()) == pixel(seen_.front());
     if (same && seen_.size() < 20000 && !is_later(2)) return false;
     picture.samples = static_cast<int>(seen_.size()) - (same ? 0 : 1);
     return true;
