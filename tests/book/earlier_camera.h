@@ -15,8 +15,8 @@ struct camera {
     lower_left_corner = origin - 0.5 * horizontal - 0.5 * vertical - focus * w;
   }
   ray get_ray(double s, double t) const {
-    const vec3 p = in_ball(), offset = lens_radius * p[0] * u + lens_radius * p[1] * v;
-    const vec3 to = lower_left_corner + s * horizontal + t * vertical - origin - offset;
-    return ray(origin + offset, to, random_double(time0, time1));
+    const vec3 q = in_ball(), p = std::sqrt(random_double()) * unit(vec3(q[0], q[1], 0));
+    const vec3 eye = origin + lens_radius * p[0] * u + lens_radius * p[1] * v;
+    return ray(eye, lower_left_corner + s * horizontal + t * vertical - eye, random_double(time0, time1));
   }
 };

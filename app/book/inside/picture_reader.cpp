@@ -102,7 +102,7 @@ class CameraReader {
         take(camera_.defocus_angle, 0.03, [&](double width) { return of_lens(width / 2); });
   }
 
-  /// Whether 500 rays leave the lens and meet the plane of focus in their pixels.
+  /// Whether 2,000 rays leave the lens, all of its parts alike, and meet the plane of focus in their pixels.
   bool agrees() {
     const Vec3d w = normalize(camera_.look_from - camera_.look_at), u = normalize(cross(camera_.vup, w)),
                 v = cross(w, u);
@@ -113,8 +113,9 @@ class CameraReader {
     const double rounding = 0.01 * r_.precision * largest(camera_.look_from) / size;
     const double wide = (picture_.by_pixels ? 1.01 : picture_.less ? 1.52 : 0.02) + rounding;
     RandomNumbers random;
-    double widest = 0;
-    for (int k = 0; k < 500; ++k) {
+    constexpr int rounds = 2000;
+    double widest = 0, squares = 0;
+    for (int k = 0; k < rounds; ++k) {
       const double x = random.between(0, picture_.width), y = random.between(0, picture_.height);
       const book::ray_parts ray = book::ray_at(x, y);
       const Vec3d from = ray.from - camera_.look_from, to = ray.to;
@@ -125,9 +126,11 @@ class CameraReader {
       const double column = place(x) - 0.5 * picture_.width, row = 0.5 * picture_.height - place(y);
       if (!(std::fabs(dot(point, u) / size - column) <= wide && std::fabs(dot(point, v) / size - row) <= wide))
         return false;
-      widest = std::fmax(widest, length(from));
+      widest = std::fmax(widest, length(from)), squares += dot(from, from) / rounds;
     }
-    return std::fabs(widest - lens) <= 0.1 * lens + r_.precision * std::fmax(1, largest(camera_.look_from));
+    const double error = r_.precision * std::fmax(1, largest(camera_.look_from));
+    return std::fabs(widest - lens) <= 0.1 * lens + error &&
+           std::fabs(squares - 0.5 * lens * lens) <= 0.05 * lens * lens + error * error;
   }
 
   /// By the times of 2,000 rays, and two numbers of the members between which they lie.
