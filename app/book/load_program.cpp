@@ -99,6 +99,10 @@ bool read_messages(const ProgramTask& task, ProgramScene& scene) {
     const std::string& bytes = message->bytes;
     if (message->letter == 'F') scene.notes.push_back(task.name + ": cannot open " + in_quotes(printable(bytes)));
     if (message->letter == 'E') throw UsageError(task.name + ": " + printable(bytes));
+    if (message->letter == 'I') {
+      auto& values = scene.images.emplace_back(bytes.size() / sizeof(tyndall_book::image_value));
+      std::memcpy(values.data(), bytes.data(), values.size() * sizeof values[0]);
+    }
     if (message->letter == 'P' && bytes.size() == sizeof scene.picture)
       std::memcpy(&scene.picture, bytes.data(), bytes.size());
     if (message->letter == 'S') return (bytes.starts_with('{') ? scene.json : scene.reason) = bytes, true;

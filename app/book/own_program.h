@@ -60,12 +60,13 @@ class OwnProgram {
 
 /// What a program shows: a scene, or samples of its own.
 struct ProgramScene {
-  std::string json;                          ///< a scene file's text, with size, samples and depth; "": there is none
-  std::string reason;                        ///< why there is none, in one sentence
-  tyndall_book::picture_told picture;        ///< its size, and what it does otherwise than Tyndall
-  std::vector<std::string> notes;            ///< what the user should know, a line each
-  std::vector<std::filesystem::path> files;  ///< of the reader's, that were read
-  std::shared_ptr<OwnProgram> own;           ///< computes what it would
+  std::string json;                    ///< a scene file's text, with size, samples and depth; "": there is none
+  std::string reason;                  ///< why there is none, in one sentence
+  tyndall_book::picture_told picture;  ///< its size, and what it does otherwise than Tyndall
+  std::vector<std::string> notes;      ///< what the user should know, a line each
+  std::vector<std::vector<tyndall_book::image_value>> images;  ///< values of the scene's textures of images, in order
+  std::vector<std::filesystem::path> files;                    ///< of the reader's, that were read
+  std::shared_ptr<OwnProgram> own;                             ///< computes what it would
 };
 
 }  // namespace tyndall

@@ -16,6 +16,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <system_error>
@@ -143,6 +144,33 @@ std::vector<BookSample> own_samples(const ProgramScene& program, const Lattice& 
   return samples;
 }
 
+/// Whether a texture of a program has, up to a texel, the colours of its file at the same places, by one of the curves
+/// that programs read files by: bytes as they are, a power of 2.2, sRGB's.
+bool shows_file(const Image::Pixels& file, const std::vector<tyndall_book::image_value>& values) {
+  constexpr double precision = 6 / 255.0;  // decoders of JPEG differ
+  const auto fits = [&](const tyndall_book::image_value& one, float power) {
+    if (!(one.u >= 0 && one.u <= 1 && one.v >= 0 && one.v <= 1)) return false;
+    const int column = static_cast<int>(one.u * file.width), row = static_cast<int>((1 - one.v) * file.height);
+    Vec3d low{1e9, 1e9, 1e9}, high = -1e9 * Vec3d{1, 1, 1};
+    for (int k = 0; k < 9; ++k) {
+      const int x = std::clamp(column + k % 3 - 1, 0, file.width - 1),
+                y = std::clamp(row + k / 3 - 1, 0, file.height - 1);
+      const float* texel = file.rgb.data() + 3 * (std::ptrdiff_t{y} * file.width + x);
+      for (const auto& [member, light] :
+           {std::pair(&Vec3d::x, texel[0]), {&Vec3d::y, texel[1]}, {&Vec3d::z, texel[2]}}) {
+        const double value = static_cast<double>(power > 0 ? std::pow(srgb_encode(light), power) : light);
+        low.*member = std::min(low.*member, value), high.*member = std::max(high.*member, value);
+      }
+    }
+    const Vec3d below = low - one.colour, above = one.colour - high;
+    return std::max({below.x, below.y, below.z, above.x, above.y, above.z}) <= precision;
+  };
+  return std::ranges::any_of(std::array{1.0f, 2.2f, 0.0f}, [&](float power) {
+    const auto right = std::ranges::count_if(values, [&](const auto& one) { return fits(one, power); });
+    return 10 * right >= 9 * std::ssize(values);
+  });
+}
+
 }  // namespace
 
 bool names_scene(const std::string& name) {
@@ -221,6 +249,11 @@ Check check_picture(const CheckRequest& request) {
 }
 
 std::string differs_from_own(const Scene& scene, const ProgramScene& program) {
+  auto values = program.images.begin();
+  for (const Texture& texture : scene.textures)
+    if (const auto* image = std::get_if<Image>(&texture.kind); image && values != program.images.end())
+      if (!shows_file(*image->pixels, *values++))
+        return texture.name + ": its colours are not those of " + image->file + " at the same places";
   if (program.picture.has_noise || program.picture.has_images) return "";
   const Lattice lattice{scene.width, scene.height, std::max(1, scene.width / max_columns)};
   const Regions regions = blocks_of(lattice, block_edge);

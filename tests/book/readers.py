@@ -1,6 +1,5 @@
 """Programs of readers of the books, by the headers of the example: with what each edition does otherwise."""
 
-import os
 import re
 import subprocess
 
@@ -91,7 +90,7 @@ def headers(folder, edition="newest", changes={}):
 
 def program(name, text, changes={}):
     """A program behind the headers of the newest edition, which lie beside it."""
-    headers(os.path.dirname(name) or ".", changes=changes)
+    headers(name.rpartition("/")[0] or ".", changes=changes)
     write(name, '#include "rtweekend.h"\n#include <fstream>\n#include <unistd.h>\n' + text)
 
 

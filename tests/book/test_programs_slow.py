@@ -43,9 +43,10 @@ def test_columns_from_above():
 def test_numbers_and_files():
     """Random numbers are the program's, and files, also above its folder and of textures. A missing one is told."""
     write("deep/data/balls.txt", "-1 0 -3 0.5 1 0 -3 0.5")
-    write("deep/src/map.ppm", "P3 1 1 255 9 9 9")
-    texture = ("struct picture : texture { picture(std::ifstream file) { file.get(); } "
-               "color value(double u, double v, const point3&) const override { return color(u, v, 0); } };")
+    columns = [f"{32 * k} 0 0 " for k in range(8)]
+    write("deep/src/map.ppm", "P3 8 1 255 " + "".join(columns))
+    texture = ("struct picture : texture { picture(std::ifstream file) { file.get(); } color value(double u, double, "
+               "const point3&) const override { return color(int(8 * u) * 32 / 255.0, 0, 0); } };")
     program("deep/src/main.cc", SECOND_BOOK + texture + world("make_shared<sphere>(point3(random_double(), 0, -1), 0.5, "
             "make_shared<textured>(make_shared<picture>(std::ifstream(\"map.ppm\"))))", render="""
         std::ifstream in("../data/balls.txt"); std::ofstream out("log.txt"); out << 1; if (!out.flush()) return 1;
@@ -58,7 +59,8 @@ def test_numbers_and_files():
     assert objects[0]["center"][0] == pytest.approx((1664525 + 1013904223) / 2**32, 1e-9)
     assert len(objects) == 3 and not os.path.exists("deep/src/log.txt")
     os.rename("deep/data/balls.txt", "deep/data/other.txt")
-    run("convert deep/src/main.cc -o deep.json", 0, 'cannot open "../data/balls.txt"', lines=2)
+    write("deep/src/map.ppm", "P3 8 1 255 " + "".join(columns[::-1]))
+    run("convert deep/src/main.cc -o x.json", 2, 'cannot open "../data/balls.txt"', "not those of map.ppm", lines=4)
 
 
 QUAD = "make_shared<{}>(point3(0, 0, -1), vec3(1, 0, 0), vec3(0, 1, 0), grey)"

@@ -202,6 +202,9 @@ class TextureReader {
     if (is_flat && o_.file.empty()) o_.refuse("no such texture in Tyndall");
     if (is_flat) {
       r_.picture.has_images = true;
+      std::vector<book::image_value> told;
+      for (std::size_t k = 0; k < points.size(); ++k) told.push_back({points[k].u, points[k].v, values[k]});
+      book::tell('I', told.data(), told.size() * sizeof told[0]);
       return "{\"type\":\"image\",\"file\":" + in_quotes(o_.file) + "}";
     }
     for (const void* texture : o_.objects('t'))

@@ -1,6 +1,5 @@
 #include "app/book/load_program.h"
 #include "app/book/compile_program.h"
-#include "app/text/values.h"
 #include "core/base/error.h"
 #include "tests/support/paths.h"
 #include "tests/support/scratch.h"

@@ -25,10 +25,16 @@ struct pixel_place {
   double x = 0, y = 0;
 };
 /// Begins what one program sends to the other: a letter, and the bytes that follow. From the reader's program: F, a
-/// file that is missing; P, its picture_told; S, a scene that begins with a brace, or why there is none; A, colours; E,
-/// why there is nothing to be shown. To it: pixel_places, whose colours are wanted.
+/// file that is missing; P, its picture_told; I, of the scene's next texture of an image, image_values; S, a scene that
+/// begins with a brace, or why there is none; A, colours; E, why there is nothing to be shown. To it: pixel_places,
+/// whose colours are wanted.
 struct message_head {
   double letter = 0, size = 0;
+};
+/// What a texture of an image is at a place.
+struct image_value {
+  double u = 0, v = 0;
+  vector colour;
 };
 
 struct ray_parts {
