@@ -98,6 +98,7 @@ bool read_messages(const ProgramTask& task, ProgramScene& scene) {
   while (const auto message = scene.own->next_message(seconds())) {
     const std::string& bytes = message->bytes;
     if (message->letter == 'F') scene.notes.push_back(task.name + ": cannot open " + in_quotes(printable(bytes)));
+    if (message->letter == 'N') scene.notes.push_back(task.name + ": " + printable(bytes));
     if (message->letter == 'E') throw UsageError(task.name + ": " + printable(bytes));
     if (message->letter == 'I') {
       auto& values = scene.images.emplace_back(bytes.size() / sizeof(tyndall_book::image_value));

@@ -80,11 +80,11 @@ def test_shapes():
     helpers = f"#include <thread>\nnamespace mine {{ {triangle} {washer} {put} }}\n"
     turned = {r"get_ray\(x, y\)": "get_ray(y, x)", r"get_ray\(int x, int y\)": "get_ray(int y, int x)"}
     program("shapes.cc", helpers + world(shapes, render=threads), turned)
-    run("convert shapes.cc -o shapes.json")
+    run("convert shapes.cc -o shapes.json", loud=True)  # which may have seen both pictures
     first, second = load("shapes.json")["objects"]
     assert first["type"] == "triangle" and second["type"] == "disk" and second["inner"] == 0.5
     for compiler in filter(shutil.which, ("g++", "clang++")):
-        run("convert shapes.cc -o again.json", CXX=f"{compiler} -std=c++20")
+        run("convert shapes.cc -o again.json", loud=True, CXX=f"{compiler} -std=c++20")
         assert read("again.json") == read("shapes.json")
 
 
@@ -154,16 +154,16 @@ def test_not_taken(reason, own):
 
 
 def test_own_samples_alone():
-    """Refused where a scene is needed, or samples that are a function of seed and index."""
+    """Refused where a scene is needed, or samples that are a function of seed and index. Other ways to write are told."""
     program("holes.cc", "struct with_holes : sphere { using sphere::sphere; "
             "bool hit(const ray& r, interval range, hit_record& rec) const override { "
             "return sphere::hit(r, range, rec) && std::fabs(std::sin(9 * rec.p[1])) > 0.3; } };"
-            + world("make_shared<with_holes>(point3(0, 0, -1), 0.5, grey)"))
-    run("render holes.cc --spp 1 -q -o holes.png", 0, "holes.cc", "with_holes: its hit() is not that")
+            + world(ball_of().replace("sphere", "with_holes"), render="c.render(w); c.render(w);"), {r"std::sqrt\(s": "0.5 * (s"})
+    run("render holes.cc --spp 1 -q -o holes.png", 0, "more pictures than one", "as (32, 81, 255)", "hit() is not that", lines=3)
     for command in ("inspect holes.cc", "convert holes.cc -o x.json", "render holes.cc --set /camera/vfov=3 -o x.png",
                     "render holes.cc --samples 0:2 -o x.png", "chart holes.cc -o x.svg", "compare holes.png holes.cc",
                     "sweep holes.cc --vary /camera/vfov=20:30:2 -o x.png"):
-        run(command, 2, "holes.cc", lines=2)
+        run(command, 2, "holes.cc", lines=4)
 
 
 @pytest.mark.parametrize("begin, words", [

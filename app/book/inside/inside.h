@@ -25,6 +25,10 @@ std::vector<std::string> missing_files();
 /// Reads the size at the head of the picture that the program has begun to write; false: it has not yet.
 bool read_head(picture_told& picture);
 
+/// What the program that goes on alone shows of itself, if it ends within half a second, or else so far: a sentence
+/// each.
+std::vector<std::string> seen_alone();
+
 /// Sends to the house, or ends with it.
 void tell(char letter, const void* bytes, std::size_t size);
 inline void tell(char letter, const std::string& text) { tell(letter, text.data(), text.size()); }

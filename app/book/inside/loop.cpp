@@ -175,6 +175,7 @@ void serve(const program_functions* functions) {
   tell('P', &picture, sizeof picture);
   std::string scene = "its classes are not those of the books";
   if (functions && !std::getenv("TYNDALL_BOOK_SAMPLES")) scene = tyndall::read_scene(*functions, picture);
+  for (const std::string& note : seen_alone()) tell('N', note);
   tell('P', &picture, sizeof picture), tell('S', scene);
   for (;;) {
     const std::string places = next_message();

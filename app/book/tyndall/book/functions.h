@@ -26,8 +26,8 @@ struct pixel_place {
 };
 /// Begins what one program sends to the other: a letter, and the bytes that follow. From the reader's program: F, a
 /// file that is missing; P, its picture_told; I, of the scene's next texture of an image, image_values; S, a scene that
-/// begins with a brace, or why there is none; A, colours; E, why there is nothing to be shown. To it: pixel_places,
-/// whose colours are wanted.
+/// begins with a brace, or why there is none; N, a note for the user; A, colours; E, why there is nothing to be shown.
+/// To it: pixel_places, whose colours are wanted.
 struct message_head {
   double letter = 0, size = 0;
 };
@@ -109,6 +109,7 @@ struct program_loop {
   vector (*colour)(const void* ray) = nullptr;  ///< what he computes
   const void* world = nullptr;                  ///< a shape
   int depth = 0;
+  bool alone = false;  ///< see goes_on_alone()
 };
 
 // Of the library.
@@ -118,6 +119,10 @@ program_loop& loop();
 void keep_place(double first, double second);
 /// Whether all is known of the loop; called for each of its rays, which get black until then.
 bool knows_loop(const void* ray);
+/// Forks the program. True in the new one, which goes on for 2 s at most, with light that is known in place of what it
+/// would compute: so it is seen how it writes light, and whether it makes further pictures.
+bool goes_on_alone();
+constexpr double known_light[] = {0.25, 0.64, 4};
 /// Takes the world over, if there are functions, then serves samples.
 [[noreturn]] void serve(const program_functions* functions);
 /// Inserted into the constructors of textures.
