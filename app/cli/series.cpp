@@ -12,7 +12,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <new>
+#include <utility>
 
 namespace tyndall {
 namespace {
@@ -236,6 +238,23 @@ RenderResult render(Series& series, RenderJob& job, LiveView& view) {
   }
 }
 
+/// Whether a pixel's samples are the same again and again, as those of a program that seeds its generator anew for each
+/// pixel: in most pixels that differ from those beside them both halves are equal. At the edges of things of one colour
+/// each that happens by chance, in a third of them.
+bool repeats(const Film& film) {
+  constexpr std::size_t fewest = 4;  // pixels, and samples of a half
+  std::size_t differ = 0, equal = 0;
+  for (std::size_t k = 1; k + 1 < film.pixels.size(); ++k) {
+    const FilmPixel* pixel = &film.pixels[k];
+    const Vec3f mean = half_mean(film, *pixel, 0);
+    if (counted(film, *pixel, 1) < fewest || mean == half_mean(film, pixel[-1], 0) ||
+        mean == half_mean(film, pixel[1], 0))
+      continue;
+    ++differ, equal += mean == half_mean(film, *pixel, 1) ? 1 : 0;
+  }
+  return equal >= fewest && 2 * equal > differ;
+}
+
 /// Tells what users should know of a picture, also with -q, which only turns progress off; what holds for several,
 /// once.
 void warn(Series& series, const RenderJob& job, const RenderOutcome& outcome) {
@@ -272,13 +291,18 @@ bool make(Series& series, RenderJob& job, const std::function<void(const RenderO
   const RenderResult result = render(series, job, view);
   series.seconds += result.seconds;
   if (!result.interrupted) ++series.made;
-  const RenderOutcome outcome{result, finished_picture(*job.prepared, result)};
+  FinishedPicture picture = finished_picture(*job.prepared, result);
+  const bool unknown = job.loaded.is_picture && repeats(result.film);
+  if (unknown) picture.estimate.relative_error = std::numeric_limits<double>::infinity();
+  const RenderOutcome outcome{result, std::move(picture)};
   if (job.name.empty()) series.report.finish(summary(outcome, job.command.outputs));
   if (outcome.picture.totals.max_taken == 0) {
     if (job.name.empty()) complain("interrupted before the first samples: nothing written");
     return true;
   }
   warn(series, job, outcome);
+  if (unknown)
+    series.report.say("the program's samples of a pixel are the same again and again: the error is not known");
   if (!result.interrupted) list_outputs(job, "begun");
   const bool written = write(job, outcome);
   if (!result.interrupted && written) list_outputs(job, "whole");

@@ -45,7 +45,7 @@ NEWEST = {
     r"double min, max(.*\n.*): min(.*) max": r"double minimum, maximum\1: minimum\2 maximum",
     r"range\.(min|max)": r"range.\1imum",
 }
-# Editions 1 to 3: two ends of t, and a camera for a loop in main().
+# Editions 1 to 3: two ends of t, and a camera for a loop in main(). The third's lights shine on one side.
 EARLIER = {
     r"struct camera \{(?s:.*)": (BOOK / "earlier_camera.h").read_text(),
     r"struct bvh_node(?s:.*?)(?=struct sphere)": "",
@@ -54,7 +54,6 @@ EARLIER = {
     r"range\.(min|max)": r"t_\1",
     r"\bmat\b": "mat_ptr",
 }
-# The third edition: lights shine on one side.
 THIRD = {r"emitted\(\)": "emitted(const hit_record& hit)", r"(return )(radiance)": r"\1hit.front_face ? \2 : color()"}
 # The first edition: plain pointers, lists of two members, no type of colours, normals that point out. Any names.
 FIRST = {
