@@ -97,11 +97,14 @@ void move_all(const Move& move, Byte* at, std::size_t size) {
 
 /// The pictures that were written, each from its head on; other words may come before.
 std::vector<std::string> written_pictures() {
+  constexpr std::size_t largest = std::size_t(1) << 26;  // bytes of a file that are looked at
   std::vector<std::string> pictures;
   for (const auto& [name, place] : files().written) {
     std::string text;
+    char bytes[65536];
     FILE* in = open_file("fopen", place.c_str(), "r");
-    for (int byte = 0; in && (byte = std::fgetc(in)) != EOF;) text += static_cast<char>(byte);
+    for (std::size_t size = 1; in && size > 0 && text.size() < largest; text.append(bytes, size))
+      size = std::fread(bytes, 1, sizeof bytes, in);
     if (in) std::fclose(in);
     const std::string head = text.find("P3") != std::string::npos ? "P3" : "P6";
     for (std::size_t at = text.find(head), next = 0; at != std::string::npos; at = next)
