@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -142,18 +144,22 @@ bool read_head(picture_told& picture) {
   return false;
 }
 
+using Clock = std::chrono::steady_clock;
 static pid_t alone = -1;
+static Clock::time_point alone_since;
 
 bool goes_on_alone() {
   std::fflush(nullptr);
-  alone = fork();
+  alone = fork(), alone_since = Clock::now();
   loop().alone = alone == 0;
   if (loop().alone) alarm(2), close(channel());
   return loop().alone;
 }
 
 std::vector<std::string> seen_alone() {
-  for (int k = 0; k < 100 && alone > 0 && waitpid(alone, nullptr, WNOHANG) == 0; ++k) usleep(5000);
+  const Clock::time_point latest = alone_since + std::chrono::milliseconds(200);
+  while (alone > 0 && waitpid(alone, nullptr, WNOHANG) == 0 && Clock::now() < latest) usleep(5000);
+  if (alone > 0) kill(alone, SIGKILL);  // else it ends by itself
   std::vector<std::string> seen;
   const std::vector<std::string> pictures = written_pictures();
   if (pictures.size() > 1) seen.push_back("it makes more pictures than one; this is the first");

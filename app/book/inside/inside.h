@@ -25,8 +25,8 @@ std::vector<std::string> missing_files();
 /// Reads the size at the head of the picture that the program has begun to write; false: it has not yet.
 bool read_head(picture_told& picture);
 
-/// What the program that goes on alone shows of itself, if it ends within half a second, or else so far: a sentence
-/// each.
+/// What the program that goes on alone shows of itself, if it ends within a fifth of a second, or else so far: a
+/// sentence each.
 std::vector<std::string> seen_alone();
 
 /// Sends to the house, or ends with it.
