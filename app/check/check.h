@@ -108,6 +108,7 @@ struct CheckRequest {
 /// Compares a small picture of the scene that was taken from a program, made by the rules of its edition, with one of
 /// samples that the program computes itself. Returns why they are not the same, in one sentence; "": they are, or it
 /// cannot be judged (of noise and images, each program has its own). Takes half a second of the program's time.
+/// Textures of images are compared with their files.
 std::string differs_from_own(const Scene& scene, const ProgramScene& program);
 
 /// A picture against a scene.

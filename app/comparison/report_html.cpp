@@ -166,7 +166,8 @@ static void to_json(Json& json, const CheckedPicture& picture) {
 
 std::filesystem::path numbers_beside(std::filesystem::path report) {
   report.replace_extension(".json");
-  std::ifstream in(report);
+  std::error_code error;  // what is no ordinary file is not read
+  std::ifstream in(std::filesystem::is_regular_file(report, error) ? report : "");
   if (in && !Json::parse(in, nullptr, false).contains("pictures"))
     throw UsageError("--report: found " + in_quotes(report.string()) +
                      ", which holds no report's numbers, expected another name: they are written there");

@@ -97,6 +97,10 @@ void move_all(const Move& move, Byte* at, std::size_t size) {
   }
 }
 
+using Clock = std::chrono::steady_clock;
+pid_t alone = -1;  ///< the process that goes on alone; -1: there is none
+Clock::time_point alone_since;
+
 /// The pictures that were written, each from its head on; other words may come before.
 std::vector<std::string> written_pictures() {
   constexpr std::size_t largest = std::size_t(1) << 26;  // bytes of a file that are looked at
@@ -144,10 +148,6 @@ bool read_head(picture_told& picture) {
   return false;
 }
 
-using Clock = std::chrono::steady_clock;
-static pid_t alone = -1;
-static Clock::time_point alone_since;
-
 bool goes_on_alone() {
   std::fflush(nullptr);
   alone = fork(), alone_since = Clock::now();
@@ -158,8 +158,9 @@ bool goes_on_alone() {
 
 std::vector<std::string> seen_alone() {
   const Clock::time_point latest = alone_since + std::chrono::milliseconds(200);
-  while (alone > 0 && waitpid(alone, nullptr, WNOHANG) == 0 && Clock::now() < latest) usleep(5000);
-  if (alone > 0) kill(alone, SIGKILL);  // else it ends by itself
+  bool runs = alone > 0;
+  while (runs && (runs = waitpid(alone, nullptr, WNOHANG) == 0) && Clock::now() < latest) usleep(5000);
+  if (runs && kill(alone, SIGKILL) == 0) waitpid(alone, nullptr, 0);  // where that is refused it ends by itself
   std::vector<std::string> seen;
   const std::vector<std::string> pictures = written_pictures();
   if (pictures.size() > 1) seen.push_back("it makes more pictures than one; this is the first");
@@ -172,8 +173,8 @@ std::vector<std::string> seen_alone() {
   };
   while (read(pixel[0]) && read(pixel[1]) && read(pixel[2]))  // the first ones were black
     if (pixel[0] + pixel[1] + pixel[2] > 0) std::copy(pixel, pixel + 3, last);
-  // By the square root, a power of 2.2 or sRGB's curve, rounded in any way; without an end at white where none is
-  // needed.
+  // By the square root, a power of 2.2 or sRGB's curve, rounded in any way. Programs that never have light above white
+  // need not end there.
   const auto is_shown = [&](int channel, double low, double high) {
     return last[channel] > (low - 0.012) * white && last[channel] < (high + 0.012) * white;
   };

@@ -85,13 +85,21 @@ template <class T, class P>
 constexpr bool leads_to() {
   return std::is_convertible<decltype(pointer(std::declval<std::remove_reference_t<P>&>())), const T*>::value;
 }
-/// A vector or colour of the reader's class T.
+/// A vector or colour of the reader's class T; black where it is not known how one is made.
 template <class T>
 T make_vector(vector a) {
-  if constexpr (std::is_constructible<T, float, float, float>::value)
+  if constexpr (std::is_constructible<T, float, float, float>::value) {
     return T(a.x, a.y, a.z);
-  else
-    return T{decltype(T().x)(a.x), decltype(T().x)(a.y), decltype(T().x)(a.z)};
+  } else {
+    T made{};
+    if constexpr (TYNDALL_HAS(T, o.x = 0))
+      made.x = a.x, made.y = a.y, made.z = a.z;
+    else if constexpr (TYNDALL_HAS(T, o.e[0] = 0))
+      made.e[0] = a.x, made.e[1] = a.y, made.e[2] = a.z;
+    else if constexpr (TYNDALL_HAS(T, o.r = 0))
+      made.r = a.x, made.g = a.y, made.b = a.z;
+    return made;
+  }
 }
 /// The members of the reader's class T: each(o, f) calls f(key of its name, role, member) for all of them, those of its
 /// bases first. Made behind his code for his classes; others have none. Roles are told by names. Of what is hit: n, the
