@@ -141,7 +141,7 @@ def sky(colour):
         "if (random_double() < 0.1) out = ray(rec.p, reflect(unit(in.direction()), rec.normal)); return does;"),
     "neither one colour nor a gradient":
         sky("dot(unit(r.direction()), unit(vec3(1, 1, 0.5))) > 0.998 ? color(50, 45, 40) : color(1, 1, 1)"),
-    "neither one colour": sky("color(r.direction()[0] > 0, 0, 0)"),
+    "get_ray(): its rays": ({r"defocus_angle = 0": "defocus_angle = 5", r"while \(p.sq.*0\);": ""}, "", ball_of()),
     "takes hits at t = 0": ({r"interval\(0\.001,": "interval(0,"}, "", ball_of()),
     "no material": ({}, "", ball_of("nullptr")),
     "of one hit it makes": ({r"\+ part \*": "+ 0.5 * part *"}, "", ball_of()),
