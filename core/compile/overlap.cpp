@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <ranges>
 
 namespace tyndall {
 namespace {
@@ -184,6 +185,42 @@ bool is_covered(const Block& own, std::size_t shape, const std::vector<Flat>& fl
     const Vec3d across = normalize(cross(other.block.edge[0], other.block.edge[1]));
     return length(cross(across, normal)) < parallel && !are_apart(block, other.block);
   });
+}
+
+std::vector<std::int32_t> plane_numbers(const Flattened& flat) {
+  struct Face {
+    std::array<double, 4> plane;  ///< unit normal to one of both sides, and distance from the origin, in units of each
+    std::size_t shape, element;
+  };
+  constexpr double unit = 0x1p-30;
+  double size = 1e-300;
+  std::vector<Face> faces;
+  std::vector<std::int32_t> numbers;
+  for (std::size_t i = 0; i < flat.shapes.size(); ++i) {
+    const std::size_t first = numbers.size();
+    numbers.resize(first + (std::holds_alternative<Box<>>(flat.shapes[i].shape) ? 6 : 1), -1);
+    each_face(flat.shapes[i], [&](const BoxFace& face, std::int32_t k) {
+      const Vec3d n = (1 / unit) * face.normal;
+      const double x = std::round(n.x), y = std::round(n.y), z = std::round(n.z),
+                   distance = dot(face.normal, face.corner);
+      const double side = std::array{x, y, z, 0.0} < std::array{-x, -y, -z, 0.0} ? -1 : 1;
+      faces.push_back({{side * x, side * y, side * z, side * distance / unit}, i, first + static_cast<std::size_t>(k)});
+      size = std::max(size, length(face.corner));
+    });
+  }
+  for (Face& one : faces) one.plane[3] = std::round(one.plane[3] / size);
+  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.plane < b.plane; });
+  bool some = false;
+  for (auto from = faces.begin(), to = from; from != faces.end(); from = to) {
+    to = std::find_if(from, faces.end(), [&](const Face& one) { return one.plane != from->plane; });
+    if (std::all_of(from, to, [&](const Face& one) { return one.shape == from->shape; })) continue;
+    some = true;
+    for (const Face& one : std::ranges::subrange(from, to))
+      numbers[one.element] = static_cast<std::int32_t>(2 * (from - faces.begin())) +
+                             (std::holds_alternative<Box<>>(flat.shapes[one.shape].shape) ? 1 : 0);
+  }
+  if (!some) numbers.clear();
+  return numbers;
 }
 
 Obstacles list_obstacles(const Flattened& flat) {

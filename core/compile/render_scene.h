@@ -128,7 +128,8 @@ struct Elements {
   Column<float> inverse_radius;
   VectorColumn move;  ///< filled only if some sphere moves
   Column<std::int32_t> material;
-  Column<std::int32_t> light;  ///< index into Lights, or -1
+  Column<std::int32_t> light;         ///< index into Lights, or -1
+  Column<std::int32_t> shared_plane;  ///< see plane_numbers()
   /// For image textures; empty without image textures. Flats: u and v as affine functions of the point (8 floats).
   /// Spheres: cosine and sine of the rotation into the sphere's own frame, in the first two floats.
   Column<float> uv;

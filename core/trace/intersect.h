@@ -94,6 +94,45 @@ TYNDALL_INLINE void test_tree(const auto& s, const Ray<F>& ray, Q query, Hit<F>&
   }
 }
 
+/// Lanes whose ray has met a flat in the plane of the face that it leaves, or has gone out by such a face of a box. It
+/// cannot: only the rounding of its start makes it.
+template <class F>
+TYNDALL_INLINE MaskOf<F> meets_own_plane(const auto& s, const Ray<F>& ray, IntOf<F> met) {
+  using I = IntOf<F>;
+  const int count = s.elements.count();
+  const I left = as_int(shift_right<2>(as_uint(ray.from)));
+  const auto known = mask_and(less_equal(I(0), met), less(left, I(count)));
+  if (!any(known)) return known;
+  const I plane = lookup<F>(s.elements.shared_plane, count, select(known, left, I(0)));
+  const I other = lookup<F>(s.elements.shared_plane, count, select(known, met, I(0)));
+  const auto same = mask_and(mask_and(known, less_equal(I(0), plane)), equal(plane | I(1), other | I(1)));
+  if (!any(same)) return same;
+  const Vec3<F> normal = lookup<F>(s.elements.center_or_normal, count, select(same, met, I(0)));
+  return mask_and(same, mask_or(equal(other & I(1), I(0)), less(F(0.0f), dot(normal, ray.direction))));
+}
+
+/// The search of lanes that have met their own plane, from a start that is moved off it, by no more than it takes.
+/// best: what they have found; limit: the distance up to which they search.
+template <class F, bool is_shadow>
+[[gnu::noinline]] static Hit<F> search_off_plane(const auto& s, Ray<F> ray, F limit, IntOf<F> aim, Hit<F> best) {
+  const IntOf<F> left = as_int(shift_right<2>(as_uint(ray.from)));
+  auto again = meets_own_plane(s, ray, best.element);
+  for (float part = 0x1p-23f; part < 0x1p-10f && any(again); part *= 2) {
+    const Vec3<F> normal = lookup<F>(s.elements.center_or_normal, s.elements.count(), select(again, left, IntOf<F>(0)));
+    const F size = max(max(abs(ray.origin.x), abs(ray.origin.y)), abs(ray.origin.z));
+    const F way = copy_sign(F(part) * size, dot(normal, ray.direction));
+    ray.origin = select(again, ray.origin + way * normal, ray.origin);
+    Hit<F> found{select(again, limit, F(-1.0f)), IntOf<F>(-1)};
+    if (s.bvh.nodes.empty())
+      test_all(s, ray, RayQuery<F, is_shadow, false>{F(0.0f), aim, -1}, found);
+    else
+      test_tree(s, ray, RayQuery<F, is_shadow, true>{F(0.0f), aim, -1}, found);
+    best.t = select(again, found.t, best.t), best.element = select(again, found.element, best.element);
+    again = mask_and(again, meets_own_plane(s, ray, best.element));
+  }
+  return best;
+}
+
 template <class F>
 TYNDALL_INLINE Hit<F> closest_of_all(const auto& s, const Ray<F>& ray, MaskOf<F> active) {
   Hit<F> best{select(active, F(__builtin_inff()), F(-1.0f)), IntOf<F>(-1)};
@@ -102,11 +141,17 @@ TYNDALL_INLINE Hit<F> closest_of_all(const auto& s, const Ray<F>& ray, MaskOf<F>
 }
 
 template <class F>
-TYNDALL_INLINE Hit<F> closest(const auto& s, const Ray<F>& ray, MaskOf<F> active) {
-  if (s.bvh.nodes.empty()) return closest_of_all(s, ray, active);
+TYNDALL_INLINE Hit<F> closest_by_tree(const auto& s, const Ray<F>& ray, MaskOf<F> active) {
   Hit<F> best{select(active, F(__builtin_inff()), F(-1.0f)), IntOf<F>(-1)};
   test_tree(s, ray, RayQuery<F, false, true>{F(0.0f), IntOf<F>(-1), -1}, best);
   return best;
+}
+
+template <class F>
+TYNDALL_INLINE Hit<F> closest(const auto& s, const Ray<F>& ray, MaskOf<F> active) {
+  const Hit<F> best = s.bvh.nodes.empty() ? closest_of_all(s, ray, active) : closest_by_tree(s, ray, active);
+  if (s.elements.shared_plane.empty() || !any(meets_own_plane(s, ray, best.element))) return best;
+  return search_off_plane<F, false>(shared_view(s), ray, F(__builtin_inff()), IntOf<F>(-1), best);
 }
 
 /// Lanes that hit anything but element `aim` before `distance`. If `aim` is a face of a box, the box's other faces do
@@ -119,6 +164,8 @@ TYNDALL_INLINE MaskOf<F> blocked_towards(const auto& s, const Ray<F>& ray, F dis
     test_all(s, ray, RayQuery<F, true, false>{F(0.0f), aim, common_aim}, best);
   else
     test_tree(s, ray, RayQuery<F, true, true>{F(0.0f), aim, common_aim}, best);
+  if (!s.elements.shared_plane.empty() && any(meets_own_plane(s, ray, best.element)))
+    best = search_off_plane<F, true>(shared_view(s), ray, distance, aim, best);
   return less_equal(IntOf<F>(0), best.element);
 }
 

@@ -112,6 +112,22 @@ TEST_CASE("white furnace: of surfaces in one place the first is seen, and does n
             {RotateY{10}, Translate{{0, 0, 1}}}));
 }
 
+TEST_CASE("white furnace: flats, and faces of boxes, that lie in one plane do not shade each other") {
+  for (const Transform& transform : {Transform{}, Transform{RotateY{33}}}) {
+    check("boxes that overlap, with a quad on a face and a triangle on another", 0.8f, [=](Scene& s, double a) {
+      add(s, Box<>{{-a, -a, -a}, {0.3 * a, a, a}}, lambertian(0.8), transform);
+      add(s, Box<>{{-0.3 * a, -a, -a}, {a, a, a}}, lambertian(0.8), transform);
+      add(s, Quad<>{{0.7 * a, 0.7 * a, a}, {-1.5 * a, 0.1 * a, 0}, {0.2 * a, -1.3 * a, 0}}, lambertian(0.8), transform);
+      add(s, Triangle<>{{-a, a, -a}, {1.5 * a, 0, 0.2 * a}, {0, 0, 1.5 * a}}, lambertian(0.8), transform);
+    });
+    check("quads and a disk", 0.8f, [=](Scene& s, double a) {
+      add(s, Quad<>{{-a, -a, 0.1 * a}, {2 * a, 0, 0}, {0, 2 * a, 0}}, lambertian(0.8), transform);
+      add(s, Quad<>{{a, a, 0.1 * a}, {-1.7 * a, 0.2 * a, 0}, {-0.1 * a, -1.8 * a, 0}}, lambertian(0.8), transform);
+      add(s, Disk<>{{0, 0, 0.1 * a}, {0.8 * a, 0, 0}, {0, 0.8 * a, 0}}, lambertian(0.8), transform);
+    });
+  }
+}
+
 TEST_CASE("white furnace: media that only scatter are invisible at any density, also as milk in balls and boxes") {
   for (const double density : {0.01, 1.0, 10.0, 100.0})
     for (const double g : {0.0, 0.8, -0.5}) {
