@@ -1,7 +1,9 @@
 #include "app/book/own_program.h"
 
 #include "core/base/error.h"
+#include "core/base/seconds.h"
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -44,21 +46,34 @@ std::optional<OwnProgram::Message> OwnProgram::next_message(double seconds) {
 }
 
 std::vector<Vec3d> OwnProgram::samples(const std::vector<tyndall_book::pixel_place>& places) {
+  constexpr std::size_t largest = 1 << 16;
   const std::lock_guard lock(mutex_);
-  const std::size_t size = places.size() * sizeof places[0];
+  std::vector<Vec3d> colours(places.size());
+  for (std::size_t done = 0, count = 0; done < places.size(); done += count) {
+    count = std::min(batch_, places.size() - done);
+    const auto begin = Clock::now();
+    ask(&places[done], count, &colours[done]);
+    if (seconds_since(begin) > 0.02)
+      batch_ = std::max(batch_ / 2, std::size_t(1));
+    else if (seconds_since(begin) < 0.01 && count == batch_)
+      batch_ = std::min(2 * batch_, largest);
+  }
+  return colours;
+}
+
+void OwnProgram::ask(const tyndall_book::pixel_place* places, std::size_t count, Vec3d* colours) {
+  const std::size_t size = count * sizeof *places;
   const tyndall_book::message_head head{0, static_cast<double>(size)};
   std::string bytes(reinterpret_cast<const char*>(&head), sizeof head);
-  bytes.append(reinterpret_cast<const char*>(places.data()), size);
+  bytes.append(reinterpret_cast<const char*>(places), size);
   for (std::size_t done = 0; done < bytes.size();)
     if (send_some(channel_, bytes.data(), bytes.size(), done) == Sent::closed)
       throw IoError(name_ + ": the program has ended");
   const std::optional<Message> message = next_message(20);
   stops_ = stops_ || !message;  // it has ended, or hangs
-  std::vector<Vec3d> colours(places.size());
-  if (!message || message->bytes.size() != colours.size() * sizeof(Vec3d))
+  if (!message || message->bytes.size() != count * sizeof *colours)
     throw IoError(name_ + ": the program has ended, or needs more than 20 s for a sample");
-  std::memcpy(colours.data(), message->bytes.data(), message->bytes.size());
-  return colours;
+  std::memcpy(colours, message->bytes.data(), message->bytes.size());
 }
 
 const ChildEnd& OwnProgram::end() {

@@ -49,12 +49,15 @@ class OwnProgram {
   const ChildEnd& end();
 
  private:
+  void ask(const tyndall_book::pixel_place* places, std::size_t count, Vec3d* colours);
+
   OpenFile channel_;
   std::string name_;
   std::atomic<bool> stops_ = false;
   Mutex wanted_mutex_;
   std::function<bool()> go_on_;
-  Mutex mutex_;  ///< one question at a time
+  Mutex mutex_;            ///< one question at a time
+  std::size_t batch_ = 1;  ///< places of a question, so that it takes about 10 ms
   std::shared_future<ChildEnd> end_;
 };
 

@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/scene/check.h"
 
+#include <algorithm>
 #include <system_error>
 
 namespace tyndall {
@@ -20,6 +21,9 @@ void name_textures_from(const std::filesystem::path& folder, Scene& scene) {
     if (!below.empty() && *below.begin() != "..") picture.file = below.string();
   });
 }
+
+/// Colours that this thread has been given before they are asked for, the next one last.
+thread_local std::vector<Vec3d> ahead;
 
 /// The scene that a program describes, or its own samples.
 LoadedScene load_program_scene(const SceneRequest& request, OwnSamples& own) {
@@ -67,14 +71,30 @@ void apply_options(const SceneRequest& request, LoadedScene& loaded) {
 }  // namespace
 
 OwnSamples::OwnSamples()
-    : function_(std::make_shared<WatchedFunction>([its = held_](double x, double y, std::uint64_t, double rgb[3]) {
-        std::unique_lock lock(its->mutex);
-        const std::shared_ptr<OwnProgram> program = its->program;
-        lock.unlock();
-        if (!program) return;
-        const Vec3d colour = program->samples({{x, y}})[0];
-        rgb[0] = colour.x, rgb[1] = colour.y, rgb[2] = colour.z;
-      })) {}
+    : function_(std::make_shared<WatchedFunction>(
+          [its = held_](double x, double y, std::uint64_t, double rgb[3]) {
+            if (ahead.empty()) ahead = its->samples({{x, y}});
+            if (ahead.empty()) return;
+            rgb[0] = ahead.back().x, rgb[1] = ahead.back().y, rgb[2] = ahead.back().z;
+            ahead.pop_back();
+          },
+          [its = held_](const std::vector<Pair<double>>& points) {
+            ahead.clear();
+            std::vector<tyndall_book::pixel_place> places;
+            for (const Pair<double>& one : points) places.push_back({one.x, one.y});
+            try {
+              ahead = its->samples(places);
+              std::reverse(ahead.begin(), ahead.end());
+            } catch (const IoError&) {  // which is told where single samples are asked for
+            }
+          })) {}
+
+std::vector<Vec3d> OwnSamples::Held::samples(const std::vector<tyndall_book::pixel_place>& places) {
+  std::unique_lock lock(mutex);
+  const std::shared_ptr<OwnProgram> asked = program;
+  lock.unlock();
+  return asked ? asked->samples(places) : std::vector<Vec3d>();
+}
 
 std::uint32_t OwnSamples::take(std::shared_ptr<OwnProgram> program, const std::string& reason) {
   const std::lock_guard lock(held_->mutex);

@@ -20,10 +20,10 @@ thread_local std::optional<std::string>* reason_of_sample = nullptr;
 
 }  // namespace
 
-WatchedFunction::WatchedFunction(Function function)
+WatchedFunction::WatchedFunction(Function function, decltype(SampleSource::announce) announce)
     : function_(std::move(function)),
-      source_(std::make_shared<const SampleSource>(
-          SampleSource{[this](double x, double y, std::uint64_t index) { return sample(x, y, index); }})) {}
+      source_(std::make_shared<const SampleSource>(SampleSource{
+          [this](double x, double y, std::uint64_t index) { return sample(x, y, index); }, std::move(announce)})) {}
 
 Vec3f WatchedFunction::sample(double x, double y, std::uint64_t index) {
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();

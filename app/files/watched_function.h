@@ -17,7 +17,8 @@ class WatchedFunction {
  public:
   /// Sets the linear radiance rgb at a point of the picture, see SampleSource. rgb holds NaN before.
   using Function = std::function<void(double x, double y, std::uint64_t sample, double rgb[3])>;
-  explicit WatchedFunction(Function function);
+  /// announce: see SampleSource.
+  explicit WatchedFunction(Function function, decltype(SampleSource::announce) announce = {});
 
   std::shared_ptr<const SampleSource> source() const { return source_; }
 

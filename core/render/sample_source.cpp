@@ -45,28 +45,41 @@ void add(FilmPixel& pixel, std::uint32_t half, Vec3f radiance, double per_quantu
   sum[0].add(sample.x), sum[1].add(sample.y), sum[2].add(sample.z);
 }
 
-}  // namespace
-
-bool sample_tile(const SampleSource& source, const SceneView& scene, const TileJob& job, double film_quantum,
-                 FilmPixel* pixels, const std::atomic<bool>* leave) {
-  const double per_quantum = 1 / film_quantum;
+/// Calls visit(pixel's place in the tile, index of the sample, its point) until it returns false; returns whether it
+/// never did.
+template <class Visit>
+bool for_each_sample(const SceneView& scene, const TileJob& job, const Visit& visit) {
   for (int y = job.tile.y0; y < job.tile.y1; ++y)
     for (int x = job.tile.x0; x < job.tile.x1; ++x) {
       if (x % job.step != 0 || y % job.step != 0) continue;
       if (job.skip_step > 0 && x % job.skip_step == 0 && y % job.skip_step == 0) continue;
       const int place = (y - job.tile.y0) * job.tile.width() + x - job.tile.x0;
-      FilmPixel& pixel = pixels[place];
-      const std::uint32_t first = job.first_of ? job.first_of[place] : job.first;
       const std::uint32_t last = job.last_of ? job.last_of[place] : job.last;
       const PixelPoints points(scene, x, y);
-      for (std::uint32_t index = first; index < last; ++index, ++pixel.taken) {
-        if (leave && leave->load(std::memory_order_relaxed)) return false;
+      for (std::uint32_t index = job.first_of ? job.first_of[place] : job.first; index < last; ++index) {
         const Pair<float> at = points.of(index);
-        add(pixel, index & 1u, source.sample(x + static_cast<double>(at.x), y + static_cast<double>(at.y), index),
-            per_quantum);
+        if (!visit(place, index, Pair<double>{x + static_cast<double>(at.x), y + static_cast<double>(at.y)}))
+          return false;
       }
     }
   return true;
+}
+
+}  // namespace
+
+bool sample_tile(const SampleSource& source, const SceneView& scene, const TileJob& job, double film_quantum,
+                 FilmPixel* pixels, const std::atomic<bool>* leave) {
+  if (source.announce) {
+    std::vector<Pair<double>> points;
+    for_each_sample(scene, job, [&](int, std::uint32_t, Pair<double> at) { return points.push_back(at), true; });
+    source.announce(points);
+  }
+  const double per_quantum = 1 / film_quantum;
+  return for_each_sample(scene, job, [&](int place, std::uint32_t index, Pair<double> at) {
+    if (leave && leave->load(std::memory_order_relaxed)) return false;
+    add(pixels[place], index & 1u, source.sample(at.x, at.y, index), per_quantum);
+    return ++pixels[place].taken, true;
+  });
 }
 
 double source_paths_per_tile(double paths_per_second, int threads) {

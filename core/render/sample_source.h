@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 /// Pictures whose samples come from a caller's function. Film, halves, passes, estimate and frames are those of any
 /// picture; only the kernels are not asked.
@@ -15,6 +16,9 @@ struct SampleSource {
   /// Linear radiance at a point of the picture: x, y in pixels from the upper left corner, y down. index: of the sample
   /// among those of its pixel, from 0 on. Called by all rendering threads at once. May take long: see sample_tile().
   std::function<Vec3f(double x, double y, std::uint64_t index)> sample;
+  /// Called with all points of a tile job before they are sampled, in their order, by the thread that samples them. So
+  /// a source that is far away is asked once for all of them. Throws nothing. May be empty.
+  std::function<void(const std::vector<Pair<double>>& points)> announce{};
 };
 
 /// Quantum of the films of sources, whose brightest sample nobody knows beforehand (see Film and ExactSum). Samples up

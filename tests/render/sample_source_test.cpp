@@ -205,6 +205,24 @@ TEST_CASE("sample source: is left after the present sample, and unfinished tiles
   CHECK(pixels[63].taken == 1);
 }
 
+TEST_CASE("sample source: all points of a tile job are announced before they are sampled, in their order") {
+  const std::shared_ptr<const PreparedScene> scene = prepare(empty_scene(1));
+  std::vector<FilmPixel> pixels(64);
+  std::vector<Pair<double>> told;
+  std::size_t next = 0;
+  const auto sample = [&](double x, double y, std::uint64_t) {
+    REQUIRE(next < told.size());
+    CHECK(told[next].x == x);
+    CHECK(told[next++].y == y);
+    return Vec3f{};
+  };
+  const SampleSource source{sample, [&](const std::vector<Pair<double>>& points) { told = points; }};
+  const TileJob job{.tile = {0, 0, 8, 8}, .step = 2, .first = 1, .last = 4};
+  CHECK(sample_tile(source, scene->view(), job, 1, pixels.data(), nullptr));
+  CHECK(told.size() == 48);
+  CHECK(next == 48);
+}
+
 TEST_CASE("sample source: bright and dark samples are kept, in a blocking render as well") {
   const Scene scene = empty_scene(16);
   RenderOptions options{.spp = 16};
