@@ -14,10 +14,6 @@ bool contains(std::string_view text, std::string_view part) { return text.find(p
 bool is_number(const Parameter& one) { return one.identifiers.size() == 1 && !one.has("<") && !one.has("*"); }
 /// The type's own name.
 std::string last_of(const Parameter& one) { return one.identifiers.empty() ? "" : one.identifiers.back(); }
-bool is_integer(const Parameter& parameter) {
-  const std::string last = last_of(parameter);
-  return contains(last, "int") || is_one_of(last, {"long", "unsigned", "short", "size_t"});
-}
 /// Whether the function may set it.
 bool is_set(const Parameter& one) { return !one.has("const") && one.has("&"); }
 bool is_real(const Parameter& parameter) {
@@ -115,7 +111,7 @@ void take_over() { serve(nullptr); }
   void hook(const Function& function) {
     if (function.name == hit_->name && outline_.is_derived(function.owner, shape_)) hook_hit(function);
     if (function.result.empty() && outline_.is_derived(function.owner, texture_) && !function.parameters.empty())
-      insert(function, " ::tyndall_book::texture_made(this);");
+      insert(function, " const ::tyndall_book::texture_made tyndall_made{this};");
     if (!may_be_hooked(function)) return;
     for (const Parameter& parameter : function.parameters)
       for (const std::string& name : parameter.identifiers)
@@ -177,17 +173,17 @@ void take_over() { serve(nullptr); }
   }
   void hook_colour(const Function& function, const std::string& world) {
     has_colour_ = true;
-    std::string ray, depth = "0";
+    std::string ray;
     const std::string arguments = for_each_parameter(function, [&](const Parameter& parameter) -> std::string {
-      if (depth == "0" && is_number(parameter) && is_integer(parameter)) depth = parameter.name;
       if (!parameter.has(ray_) || !ray.empty()) return parameter.name;
       ray = parameter.name;
       return "tyndall_ray";
     });
     insert(function,
            fmt::format(" if (!::tyndall_book::is_ours) return ::tyndall_book::colour_wanted<{}, {}>([&](const auto& "
-                       "tyndall_ray) {{ return {}({}); }}, {}, {}, static_cast<int>({}));",
-                       qualified(shape_), has_camera_, function.name, arguments, ray, world, depth));
+                       "tyndall_ray) {{ return {}({}); }}, {}, {}, ::tyndall_book::first_whole({}));",
+                       qualified(shape_), has_camera_, function.name, arguments, ray, world,
+                       for_each_parameter(function, [](const Parameter& one) { return one.name; })));
   }
   /// A function of a ray alone, whose world is a member or a global object that it asks for hits.
   void hook_without_world(const Function& function) {

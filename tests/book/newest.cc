@@ -98,7 +98,7 @@ struct constant_medium : hittable {
 int main() {
   hittable_list room;
   auto tiles = make_shared<checker_texture>(0.5, color(0.1, 0.2, 0.3), color(0.8, 0.8, 0.8));
-  room.add(make_shared<quad>(point3(-4, 0, -4), vec3(8, 0, 0), vec3(0, 0, 8), make_shared<textured>(tiles)));
+  room.add(box(point3(-4, -0.25, -4), point3(4, -0.25, 4), make_shared<textured>(tiles)));  // two quads, and four without an area
   room.add(make_shared<sphere>(point3(0, 1, 0), 1.0, make_shared<dielectric>(1.5)));
   room.add(make_shared<sphere>(point3(-2, 0.5, 1), point3(-2, 0.75, 1), 0.5, make_shared<metal>(color(0.9, 0.6, 0.2), 1.0)));
 

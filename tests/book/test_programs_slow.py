@@ -45,10 +45,10 @@ def test_numbers_and_files():
     write("deep/data/balls.txt", "-1 0 -3 0.5 1 0 -3 0.5")
     columns = [f"{32 * k} 0 0 " for k in range(8)]
     write("deep/src/map.ppm", "P3 8 1 255 " + "".join(columns))
-    texture = ("struct picture : texture { picture(std::ifstream file) { file.get(); } color value(double u, double, "
+    texture = ("struct picture : texture { picture(const char* file) { std::ifstream(file).get(); } color value(double u, double, "
                "const point3&) const override { return color(int(8 * u) * 32 / 255.0, 0, 0); } };")
     program("deep/src/main.cc", SECOND_BOOK + texture + world("make_shared<sphere>(point3(random_double(), 0, -1), 0.5, "
-            "make_shared<textured>(make_shared<picture>(std::ifstream(\"map.ppm\"))))", render="""
+            "make_shared<textured>(make_shared<picture>(\"map.ppm\")))", render="""
         std::ifstream in("../data/balls.txt"); std::ofstream out("log.txt"); out << 1; if (!out.flush()) return 1;
         for (double x, y, z, r; in >> x >> y >> z >> r;) w.add(make_shared<sphere>(point3(x, y, z), r, grey));
         c.render(w);"""), {

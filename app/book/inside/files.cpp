@@ -29,7 +29,7 @@ struct OpenedFiles {
   std::vector<std::string> read;                  ///< those that were opened to be read, last ones last
   std::vector<std::string> missing;               ///< names that were not found
   std::map<std::string, std::string> written;     ///< where a file of that name lies that was written
-  std::map<const void*, std::string> of_objects;  ///< the last file that was read before a texture was made
+  std::map<const void*, std::string> of_objects;  ///< the last file that was read when a texture was made
 };
 OpenedFiles& files() {
   static OpenedFiles opened;
@@ -121,7 +121,7 @@ std::vector<std::string> written_pictures() {
 
 }  // namespace
 
-void texture_made(const void* texture) {
+texture_made::~texture_made() {
   if (!files().read.empty()) files().of_objects[texture] = files().read.back();
 }
 std::string file_of(const void* texture) { return files().of_objects[texture]; }

@@ -70,7 +70,8 @@ class WorldReader {
     const Described& o = r_.described('s', shape);
     if (++depth_ > 200) o.refuse("holds itself");
     reason_ = "no such shape in Tyndall";
-    if (!sphere(shape, o) && !flat(shape, o) && !medium(shape, o) && !group(shape, o)) o.refuse(reason_);
+    if (!sphere(shape, o) && !flat(shape, o) && !medium(shape, o) && !group(shape, o) && !is_never_met(shape, o))
+      o.refuse(reason_);
     --depth_;
   }
 
@@ -144,6 +145,30 @@ class WorldReader {
         return true;
       }
     return false;
+  }
+  /// Whether it is a rectangle without an area, as those of boxes without a thickness are, and no ray meets it.
+  bool is_never_met(const void* shape, const Described& o) {
+    std::vector<Vec3d> points = o.vectors();
+    const double k = o.named("k", NAN);
+    const Vec3d first{o.named("x0", k), o.named("y0", k), o.named("z0", k)},
+        side = Vec3d{o.named("x1", k), o.named("y1", k), o.named("z1", k)} - first;
+    const bool has_sides = (side.x > 0) + (side.y > 0) + (side.z > 0) == 2;
+    const auto is_finite = [](Vec3d one) { return std::isfinite(one.x + one.y + one.z); };
+    const bool has_vectors =
+        std::all_of(points.begin(), points.end(), [&](Vec3d one) { return is_finite(one) && length(one) > 0; });
+    if (std::isnan(k) ? has_vectors : has_sides) return false;
+    points.insert(points.end(), {first, first + side});
+    std::erase_if(points, [&](Vec3d one) { return !is_finite(one); });
+    if (points.empty()) return false;
+    Vec3d low = points[0], high = low;
+    for (const Vec3d& one : points) low = lower(low, one), high = upper(high, one);
+    Piece region;
+    region.centre = 0.5 * (low + high), region.size = length(high - low);
+    pieces_.push_back(region);
+    bool is_met = false;
+    for (int n = 0; n < 500; ++n) is_met = is_met || r_.program.hit(shape, aimed(pieces_.size() - 1)).found;
+    pieces_.pop_back();
+    return !is_met;
   }
   bool meets(const void* shape, const Candidate& plane, double along_u, double along_v) {
     const book::shot shot = plane.shot_at(along_u, along_v);

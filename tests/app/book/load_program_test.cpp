@@ -50,39 +50,29 @@ TEST_CASE("a program without end is ended; one that is not wanted any more is gi
 
 namespace {
 
-ProgramTask task() {
+ChildEnd run_shell(const std::string& script, bool trusted = false, std::function<bool()> go_on = {}) {
   ProgramTask task;
-  task.name = "main.cc";
+  task.name = "main.cc", task.trusted = trusted, task.go_on = std::move(go_on);
   task.folder = fs::canonical(scratch_folder("run_guarded"));
-  return task;
-}
-
-ChildEnd run_shell(const ProgramTask& task, const std::string& script) {
   ChildPlan plan;
-  plan.command = {"sh", "-c", script};
-  plan.folder = "/";
+  plan.command = {"sh", "-c", script}, plan.folder = "/";
   return run_guarded(task, plan, "it ran");
 }
 
 }  // namespace
 
 TEST_CASE("a program has the rights of the guard that there is") {
-  const ProgramTask one = task();
   if (!available_guard().any()) {
-    CHECK_THROWS_AS(run_shell(one, ""), UsageError);
+    CHECK_THROWS_AS(run_shell(""), UsageError);
     return;
   }
-  const std::string kept = (scratch_folder("run_guarded_kept") / "kept").string();
-  CHECK(run_shell(one, "touch " + kept).exit_code != 0);
-  CHECK(run_shell(one, "touch " + one.folder.string() + "/own").exit_code == 0);
+  CHECK(run_shell("touch " + (scratch_folder("run_guarded_kept") / "kept").string()).exit_code != 0);
+  CHECK(run_shell("touch " + (scratch_folder("run_guarded") / "own").string()).exit_code == 0);
 }
 
 TEST_CASE("a signal ends the program") {
-  ProgramTask one = task();
-  one.trusted = true;
-  one.go_on = [] { return std::raise(SIGTERM) == 0; };
   try {
-    run_shell(one, "sleep 60");
+    run_shell("sleep 60", true, [] { return std::raise(SIGTERM) == 0; });
     FAIL("it was not interrupted");
   } catch (const ProgramInterrupted& end) {
     CHECK(end.signal == SIGTERM);

@@ -53,7 +53,7 @@ TEST_CASE("calls are inserted where rays are made and where their colours are co
   const InsertedCalls made = insert_calls(program, outline_of(program, {"/ours"}), true);
   CHECK(made.problem.empty());
   CHECK(made.text.find("get_ray(double u, double v) const { if (!::tyndall_book::is_ours)") != std::string::npos);
-  CHECK(made.text.find("return shade(tyndall_ray, world, depth); }, r, world, static_cast<int>(depth))") !=
+  CHECK(made.text.find("return shade(tyndall_ray, world, depth); }, r, world, ::tyndall_book::first_whole(r,") !=
         std::string::npos);
   CHECK(made.text.find("std::cout << ::std::unitbuf << \"P3\\n\" <<") != std::string::npos);
   CHECK(made.text.find("return ::tyndall_book::answer_of_world(&a, low, high, &b); return true; }") !=

@@ -125,8 +125,11 @@ bool goes_on_alone();
 constexpr double known_light[] = {0.25, 0.64, 4};
 /// Takes the world over, if there are functions, then serves samples.
 [[noreturn]] void serve(const program_functions* functions);
-/// Inserted into the constructors of textures.
-void texture_made(const void* texture);
+/// Inserted into the constructors of textures: at their end it is known which file was read for them.
+struct texture_made {
+  const void* texture;
+  ~texture_made();
+};
 /// Only one of the reader's threads at a time; the one that is served keeps it for good, and the others wait.
 struct one_thread {
   one_thread();

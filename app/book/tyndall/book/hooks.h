@@ -47,6 +47,19 @@ void ray_wanted(const C& camera, F call, A first, B second) {
   };
 }
 
+/// The first whole number of all; 0: there is none.
+template <class... A>
+int first_whole(const A&... all) {
+  std::optional<int> first;
+  const auto look = [&](const auto& one) {
+    using M = std::decay_t<decltype(one)>;
+    if constexpr (std::is_integral<M>::value && !std::is_same<M, bool>::value)
+      if (!first) first = static_cast<int>(one);
+  };
+  (look(all), ...);
+  return first.value_or(0);
+}
+
 /// Inserted into the function that computes the colour of a ray, in place of what it does. ask: calls it; has_camera:
 /// there is a get_ray().
 template <class Shape, bool has_camera, class F, class R, class W>
