@@ -99,7 +99,7 @@ void take_over() { serve(nullptr); }
       if (!outline_.class_named(type)) continue;
       if (ray.empty() && contains(key_of(type), "ray"))
         ray = type;
-      else if (is_set(parameter))
+      else if (is_set(parameter) && (record.empty() || contains(key_of(type), "rec")))
         record = type;
     }
     if (ray.empty() || record.empty() || function.result != "bool") return;
@@ -146,7 +146,7 @@ void take_over() { serve(nullptr); }
     });
     insert(function,
            fmt::format(" if (!::tyndall_book::is_ours) ::tyndall_book::ray_wanted({}, [=](auto tyndall_a, auto "
-                       "tyndall_b) {{ return {}({}); }}, {}, {});",
+                       "tyndall_b) mutable {{ return {}({}); }}, {}, {});",
                        !function.owner.empty() && !function.is_static ? "*this" : "0", function.name, arguments, first,
                        second));
   }
@@ -162,7 +162,7 @@ void take_over() { serve(nullptr); }
         record = parameter.name;
       else if (is_real(parameter))
         (reals++ == 0 ? low : high) = parameter.name;
-      else
+      else if (!is_set(parameter))
         low = fmt::format("::tyndall_book::end_of({}, false)", parameter.name),
         high = fmt::format("::tyndall_book::end_of({}, true)", parameter.name);
     }

@@ -58,6 +58,7 @@ class WorldReader {
   explicit WorldReader(Reading& reading) : r_(reading) {}
 
   std::string text() {
+    if (!book::loop().world) throw NotTaken{"its world is none of its shapes"};
     add(book::loop().world);
     std::vector<std::string> all;
     for (const Piece& one : pieces_) all.push_back(one.text());

@@ -107,7 +107,7 @@ struct program_loop {
   const void* (*made)(const ray_parts& parts) = nullptr;
   ray_parts (*parts)(const void* ray) = nullptr;
   vector (*colour)(const void* ray) = nullptr;  ///< what he computes
-  const void* world = nullptr;                  ///< a shape
+  const void* world = nullptr;                  ///< a shape; null: it is none
   int depth = 0;
   bool alone = false;  ///< see goes_on_alone()
 };

@@ -77,7 +77,8 @@ auto colour_wanted(F ask, R& ray, W& world, int depth) -> decltype(ask(ray)) {
   }
   static F* query;
   query = &ask;
-  its.world = static_cast<const Shape*>(pointer(world)), its.depth = depth;
+  if constexpr (leads_to<Shape, W>()) its.world = static_cast<const Shape*>(pointer(world));
+  its.depth = depth;
   its.colour = [](const void* one) { return to_vector((*query)(*static_cast<const ray_class*>(one))); };
   its.parts = ray_traits<ray_class>::parts, its.made = ray_traits<ray_class>::kept;
   is_ours = knows_loop(&ray);
