@@ -24,6 +24,7 @@ APP = [
      "if («!(largest(back) > 0) → false») r_.one_sided.insert(m_);", "book/programs"),
     ("rows from the top are taken for those from the bottom", "app/book/inside/loop.cpp",
      "from_top = «!loop().by_pixels && !high && !rows_rise_ → false»;", "book/programs_slow"),
+    ("a rectangle without an area is no shape", "app/book/inside/world_reader.cpp", "return «!is_met → false»;", "book/programs"),
     ("turned sides go unseen", "app/book/inside/world_reader.cpp", "return «is_flipped && !is_same → false»;", "book/programs"),
     ("loops from the top are compared a row too low", "app/check/check.cpp",
      "above = «program.picture.first_row - program.picture.less → 0»;", "book/programs_slow"),

@@ -101,6 +101,7 @@ CORE = [
      "{Lights::sphere, center, motion, {}, {}, «r → 2 * r», 0,", "trace/lights"),
     ("a box in the tree ends where another side of it does", "core/compile/bvh.cpp", "node.high[1][c] = «b.high.y → b.high.x»,", "compile/bvh"),
     ("the last column of a sky goes on to itself", "core/compile/sky.cpp", "x + 1 < texels_.width ? at(x + 1) : «first → left»;", "trace/sky render/integrators"),
+    ("flats in one plane shade each other", "core/compile/overlap.cpp", "if («!some → true») numbers.clear();", "render/furnace"),
     ("a ball inside another counts as overlapping", "core/compile/overlap.cpp",
      "d.minimum < own + other.radius && «d.greatest > other.radius - own → true»;", "compile/visibility"),
 
@@ -163,6 +164,8 @@ CORE = [
      "path_.radiance = «ended_ + v.radiance → v.radiance»;", "targets/replay"),
 
     ("a lost column at a tile's edge", "core/render/pass.cpp", "std::min(x + tile_, «region_.x1 → region_.x1 - 1»)", "render/same_picture"),
+    ("a source is not told what it will be asked for", "core/render/sample_source.cpp", "«source.announce(points); → »",
+     "render/sample_source"),
     ("cells have a say in their own samples", "core/render/plan.cpp", "«if (u == column && v == row) continue; → »", "render/plan"),
     ("rejected samples of one half are not counted", "core/render/pass.cpp",
      "rejected += from.rejected[0] + «from.rejected[1] → 0», truncated", "render/losses"),
