@@ -91,9 +91,9 @@ OwnSamples::OwnSamples()
 
 std::vector<Vec3d> OwnSamples::Held::samples(const std::vector<tyndall_book::pixel_place>& places) {
   std::unique_lock lock(mutex);
-  const std::shared_ptr<OwnProgram> asked = program;
+  const std::shared_ptr<OwnProgram> current = program;
   lock.unlock();
-  return asked ? asked->samples(places) : std::vector<Vec3d>();
+  return current ? current->samples(places) : std::vector<Vec3d>();
 }
 
 std::uint32_t OwnSamples::take(std::shared_ptr<OwnProgram> program, const std::string& reason) {
