@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <ranges>
 
 namespace tyndall {
 namespace {
@@ -215,9 +214,10 @@ std::vector<std::int32_t> plane_numbers(const Flattened& flat) {
     to = std::find_if(from, faces.end(), [&](const Face& one) { return one.plane != from->plane; });
     if (std::all_of(from, to, [&](const Face& one) { return one.shape == from->shape; })) continue;
     some = true;
-    for (const Face& one : std::ranges::subrange(from, to))
+    std::for_each(from, to, [&](const Face& one) {
       numbers[one.element] = static_cast<std::int32_t>(2 * (from - faces.begin())) +
                              (std::holds_alternative<Box<>>(flat.shapes[one.shape].shape) ? 1 : 0);
+    });
   }
   if (!some) numbers.clear();
   return numbers;
