@@ -257,6 +257,7 @@ std::size_t bytes_of(const RenderScene& s) {
   bytes += sizeof(BvhNode) * s.bvh.nodes.size() + sizeof(BvhLeaf) * s.bvh.leaves.size() +
            (sizeof(BvhInput) + 4) * s.bvh.input.size();
   if (s.sky.pixels) bytes += sizeof(float) * s.sky.pixels->rgb.size();
+  bytes += sizeof(std::int32_t) * s.elements.shared_plane.size();
   bytes += sizeof(std::int32_t) * s.sky.distribution.column_ends.size();
   for (const TextureColumns& t : s.textures)
     if (t.pixels) bytes += sizeof(float) * t.pixels->rgb.size();

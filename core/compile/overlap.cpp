@@ -202,6 +202,7 @@ std::vector<std::int32_t> plane_numbers(const Flattened& flat) {
       const Vec3d n = (1 / unit) * face.normal;
       const double x = std::round(n.x), y = std::round(n.y), z = std::round(n.z),
                    distance = dot(face.normal, face.corner);
+      if (!std::isfinite(x + y + z + distance)) return;
       const double side = std::array{x, y, z, 0.0} < std::array{-x, -y, -z, 0.0} ? -1 : 1;
       faces.push_back({{side * x, side * y, side * z, side * distance / unit}, i, first + static_cast<std::size_t>(k)});
       size = std::max(size, length(face.corner));
