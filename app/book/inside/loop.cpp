@@ -1,6 +1,7 @@
 #include "app/book/inside/inside.h"
 #include "app/book/inside/reading.h"
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -15,6 +16,9 @@ namespace {
 picture_told picture;
 bool from_top = false;    // get_ray()'s second argument is 0 at the picture's top
 bool rows_first = false;  // its arguments are a row and a column
+
+/// The thread whose loop is watched: the first one that asks for a colour.
+std::atomic<std::thread::id> watched{};
 
 std::mutex& mutex() {
   static std::mutex only;
@@ -42,13 +46,11 @@ class Watcher {
   bool knows() {
     if (seen_.empty()) begin();
     if (rows_first) std::swap(last.first, last.second);
-    if (thread_ != std::this_thread::get_id()) return false;
     seen_.push_back(last);
-    const bool high = seen_[0].second >= 0.5;
-    picture.less = loop().by_pixels || (high && seen_[0].second < 1) ? 0 : 1;
-    from_top = !loop().by_pixels && !high && !rows_rise_;
+    const bool is_known = knows_divisor();
+    from_top = !loop().by_pixels && seen_[0].second < 0.5 && !rows_rise_;
     picture.first_row = picture.less != 0 && !from_top ? 1 : 0;
-    if (picture.width > 0 && picture.height > 0) return picture.samples > 0 || counts_samples();
+    if (picture.width > 0 && picture.height > 0) return (picture.samples > 0 || counts_samples()) && is_known;
     return takes_size();
   }
 
@@ -60,6 +62,15 @@ class Watcher {
     picture.by_pixels = loop().by_pixels;
     rows_rise_ = !picture.by_pixels && side(0, 1).y > 0;
     rows_first = picture.by_pixels && std::fabs(side(1, 0).y) > std::fabs(side(0, 1).y);
+  }
+  /// A loop begins in the first row or the last one, whose place tells what it divides by. That of one of several
+  /// threads may begin elsewhere: then the end of a row tells.
+  bool knows_divisor() {
+    const double row = seen_[0].second, edge = 1.5 / std::max(picture.height, 1);
+    const bool is_between = !loop().by_pixels && row > edge && row < 1 - edge;
+    farthest_ = std::fmax(farthest_, last.first);
+    picture.less = loop().by_pixels || (is_between ? farthest_ < 1 : row >= 0.5 && row < 1) ? 0 : 1;
+    return !is_between || last.first < farthest_ - 0.5 || is_later(2);
   }
   bool is_later(int seconds) const { return std::chrono::steady_clock::now() - begin_ > std::chrono::seconds(seconds); }
   bool counts_samples() {
@@ -96,9 +107,9 @@ class Watcher {
     give_up("the size of the picture is not known");
   }
 
-  const std::thread::id thread_ = std::this_thread::get_id();
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   bool rows_rise_ = false;  ///< rows go up in the world: the picture is turned when it is written
+  double farthest_ = 0;     ///< the largest first argument
   std::vector<Place> seen_;
 };
 
@@ -153,7 +164,12 @@ vector sample(const pixel_place& at) {
 
 }  // namespace
 
-one_thread::one_thread() { mutex().lock(); }
+one_thread::one_thread() {
+  const std::thread::id one = watched;
+  if (one != std::thread::id() && one != std::this_thread::get_id())  // it would only be in the other one's way
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  mutex().lock();
+}
 one_thread::~one_thread() { mutex().unlock(); }
 
 program_loop& loop() {
@@ -164,6 +180,8 @@ void keep_place(double first, double second) { last = {first, second}; }
 
 bool knows_loop(const void* ray) {
   static Watcher watcher;
+  if (watched.load() == std::thread::id()) watched = std::this_thread::get_id();
+  if (watched.load() != std::this_thread::get_id()) return false;
   return loop().ray ? watcher.knows() : rows().knows(loop().parts(ray));
 }
 
