@@ -23,7 +23,7 @@ APP = [
     ("lights of one side shine on both", "app/book/inside/material_reader.cpp",
      "if («!(largest(back) > 0) → false») r_.one_sided.insert(m_);", "book/programs"),
     ("rows from the top are taken for those from the bottom", "app/book/inside/loop.cpp",
-     "from_top = «!loop().by_pixels && !high && !rows_rise_ → false»;", "book/programs_slow"),
+     "from_top = «!loop().by_pixels && seen_[0].second < 0.5 && !rows_rise_ → false»;", "book/programs_slow"),
     ("a rectangle without an area is no shape", "app/book/inside/world_reader.cpp", "return «!is_met → false»;", "book/programs"),
     ("turned sides go unseen", "app/book/inside/world_reader.cpp", "return «is_flipped && !is_same → false»;", "book/programs"),
     ("loops from the top are compared a row too low", "app/check/check.cpp",
