@@ -129,7 +129,10 @@ void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene*
   const std::vector<std::int32_t> first_element = first_elements(flat);
   for (const PlacedShape& shape : flat.shapes)
     append_elements(shape, out.origin, out.features, checker_of(scene, shape.material), out.elements);
-  for (const std::int32_t number : plane_numbers(flat)) out.elements.shared_plane.push_back(number);
+  for (const std::int32_t number : plane_numbers(flat, scene.materials)) {
+    out.elements.shared_plane.push_back(number);
+    out.elements.planes_have_glass |= number >= 0 && (number & SharedPlane::with_glass) != 0;
+  }
   out.camera.surface = camera_surface(flat, first_element, scene.camera, out.origin);
   out.lights = collect_lights(scene, flat, first_element, out.origin, out.elements);
   for (const std::int32_t i : choose_tree(flat, scene.camera, before, out)) {

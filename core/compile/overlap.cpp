@@ -186,7 +186,7 @@ bool is_covered(const Block& own, std::size_t shape, const std::vector<Flat>& fl
   });
 }
 
-std::vector<std::int32_t> plane_numbers(const Flattened& flat) {
+std::vector<std::int32_t> plane_numbers(const Flattened& flat, const std::vector<Material>& materials) {
   struct Face {
     std::array<double, 4> plane;  ///< unit normal to one of both sides, and distance from the origin, in units of each
     std::size_t shape, element;
@@ -215,10 +215,18 @@ std::vector<std::int32_t> plane_numbers(const Flattened& flat) {
     to = std::find_if(from, faces.end(), [&](const Face& one) { return one.plane != from->plane; });
     if (std::all_of(from, to, [&](const Face& one) { return one.shape == from->shape; })) continue;
     some = true;
+    std::int32_t all = 0;
     std::for_each(from, to, [&](const Face& one) {
-      numbers[one.element] = static_cast<std::int32_t>(2 * (from - faces.begin())) +
-                             (std::holds_alternative<Box<>>(flat.shapes[one.shape].shape) ? 1 : 0);
+      const PlacedShape& shape = flat.shapes[one.shape];
+      std::int32_t& number = numbers[one.element] =
+          static_cast<std::int32_t>(SharedPlane::unit * (from - faces.begin()));
+      if (!std::holds_alternative<Box<>>(shape.shape)) return;
+      number |= SharedPlane::box;
+      if (boundary_index(materials[static_cast<std::size_t>(shape.material)].kind) != 0)
+        number |= SharedPlane::glass_box;
+      all |= number & SharedPlane::glass_box ? SharedPlane::with_glass : 0;
     });
+    std::for_each(from, to, [&](const Face& one) { numbers[one.element] |= all; });
   }
   if (!some) numbers.clear();
   return numbers;

@@ -49,10 +49,10 @@ std::vector<Flat> list_flats(const Flattened& flat);
 /// the two a ray hits. shape: index of the shape to which the parallelogram belongs.
 bool is_covered(const Block& parallelogram, std::size_t shape, const std::vector<Flat>& flats);
 
-/// For each element, twice the number of the plane in which it lies, plus 1 for the face of a box, where another shape
-/// has a flat or face in that plane; else -1. Empty: no two shapes have. Planes that differ by less than a billionth of
-/// the scene's size, and directions that differ by less than a billionth, are one.
-std::vector<std::int32_t> plane_numbers(const Flattened& flat);
+/// For each element, the number of the plane in which it lies, with the bits of SharedPlane, where another shape has a
+/// flat or face in that plane; else -1. Empty: no two shapes have. Planes that differ by less than a billionth of the
+/// scene's size, and directions that differ by less than a billionth, are one.
+std::vector<std::int32_t> plane_numbers(const Flattened& flat, const std::vector<Material>& materials);
 
 /// All surfaces of a scene, which may block a line of sight. Spheres are blocks without edges.
 using Obstacles = std::vector<Flat>;

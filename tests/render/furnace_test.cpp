@@ -128,6 +128,19 @@ TEST_CASE("white furnace: flats, and faces of boxes, that lie in one plane do no
   }
 }
 
+TEST_CASE("glass that stands on a grey block is seen as if it were a hair above") {
+  const auto picture = [](double gap) {
+    Scene scene = sphere_room(1);
+    scene.camera.look_from = {0.5, 4, 3};
+    add(scene, Box<>{{-1, 0, -1}, {1, 0.5, 1}}, glass(1.5), {RotateY{20}});
+    add(scene, Box<>{{-5, -1 - gap, -5}, {5, -gap, 5}}, lambertian(0.3), {RotateY{20}});
+    return picture_mean(film_of(scene, 256));
+  };
+  const Estimate standing = picture(0), above = picture(1e-5);
+  CHECK(std::abs(standing.mean - above.mean) < 4 * std::hypot(standing.error, above.error));
+  CHECK(standing.error < 0.002 * standing.mean);
+}
+
 TEST_CASE("white furnace: media that only scatter are invisible at any density, also as milk in balls and boxes") {
   for (const double density : {0.01, 1.0, 10.0, 100.0})
     for (const double g : {0.0, 0.8, -0.5}) {
