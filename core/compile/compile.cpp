@@ -129,10 +129,7 @@ void fill_geometry(const Flattened& flat, const Scene& scene, const RenderScene*
   const std::vector<std::int32_t> first_element = first_elements(flat);
   for (const PlacedShape& shape : flat.shapes)
     append_elements(shape, out.origin, out.features, checker_of(scene, shape.material), out.elements);
-  for (const std::int32_t number : plane_numbers(flat, scene.materials)) {
-    out.elements.shared_plane.push_back(number);
-    out.elements.planes_have_glass |= number >= 0 && (number & SharedPlane::with_glass) != 0;
-  }
+  for (const std::int32_t number : plane_numbers(flat)) out.elements.shared_plane.push_back(number);
   out.camera.surface = camera_surface(flat, first_element, scene.camera, out.origin);
   out.lights = collect_lights(scene, flat, first_element, out.origin, out.elements);
   for (const std::int32_t i : choose_tree(flat, scene.camera, before, out)) {
@@ -216,7 +213,8 @@ RenderScene compile(const Scene& scene, const RenderScene* before) {
   out.textures = texture_columns(scene.textures, out.origin);
   for (const TextureColumns& t : out.textures)
     if (t.kind == place_in<Noise<>, TextureKinds<double>> && out.gradients.empty()) out.gradients = gradient_table();
-  fill_geometry(flat, scene, before, out);
+  const std::optional<Flattened> apart = set_glass_apart(flat, scene.materials, out.origin);
+  fill_geometry(apart ? *apart : flat, scene, before, out);
   out.max_depth = scene.render.max_depth;
   out.seed = scene.render.seed;
   out.schlick = scene.render.fresnel == FresnelKind::schlick;

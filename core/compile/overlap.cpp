@@ -186,7 +186,7 @@ bool is_covered(const Block& own, std::size_t shape, const std::vector<Flat>& fl
   });
 }
 
-std::vector<std::int32_t> plane_numbers(const Flattened& flat, const std::vector<Material>& materials) {
+std::vector<std::int32_t> plane_numbers(const Flattened& flat) {
   struct Face {
     std::array<double, 4> plane;  ///< unit normal to one of both sides, and distance from the origin, in units of each
     std::size_t shape, element;
@@ -215,21 +215,37 @@ std::vector<std::int32_t> plane_numbers(const Flattened& flat, const std::vector
     to = std::find_if(from, faces.end(), [&](const Face& one) { return one.plane != from->plane; });
     if (std::all_of(from, to, [&](const Face& one) { return one.shape == from->shape; })) continue;
     some = true;
-    std::int32_t all = 0;
     std::for_each(from, to, [&](const Face& one) {
-      const PlacedShape& shape = flat.shapes[one.shape];
-      std::int32_t& number = numbers[one.element] =
-          static_cast<std::int32_t>(SharedPlane::unit * (from - faces.begin()));
-      if (!std::holds_alternative<Box<>>(shape.shape)) return;
-      number |= SharedPlane::box;
-      if (boundary_index(materials[static_cast<std::size_t>(shape.material)].kind) != 0)
-        number |= SharedPlane::glass_box;
-      all |= number & SharedPlane::glass_box ? SharedPlane::with_glass : 0;
+      numbers[one.element] = static_cast<std::int32_t>(2 * (from - faces.begin())) +
+                             (std::holds_alternative<Box<>>(flat.shapes[one.shape].shape) ? 1 : 0);
     });
-    std::for_each(from, to, [&](const Face& one) { numbers[one.element] |= all; });
   }
   if (!some) numbers.clear();
   return numbers;
+}
+
+std::optional<Flattened> set_glass_apart(const Flattened& flat, const std::vector<Material>& materials, Vec3d origin) {
+  const std::vector<std::int32_t> numbers = plane_numbers(flat), first = first_elements(flat);
+  std::optional<Flattened> apart;
+  double size = 0;
+  for (const bool moves : {false, true})
+    for (std::size_t i = 0; i < flat.shapes.size() && !numbers.empty(); ++i) {
+      const PlacedShape& one = flat.shapes[i];
+      const auto* box = std::get_if<Box<>>(&one.shape);
+      if (!box || boundary_index(materials[static_cast<std::size_t>(one.material)].kind) == 0) continue;
+      for (int face = 0; face < 6; ++face) {
+        if (numbers[static_cast<std::size_t>(first[i] + face)] < 0) continue;
+        size = std::max(size, length(center_of(one) - origin) + length(box->max - box->min));
+        if (!moves) continue;
+        if (!apart) apart = flat;
+        auto& smaller = std::get<Box<>>(apart->shapes[i].shape);
+        const Vec3d normal = box_face_edges(*box, face).normal;
+        const double hair = std::min(0x1p-19 * size, 0.1 * std::abs(dot(normal, box->max - box->min)));
+        Vec3d& corner = face % 2 ? smaller.max : smaller.min;
+        corner = corner - hair * normal;
+      }
+    }
+  return apart;
 }
 
 Obstacles list_obstacles(const Flattened& flat) {

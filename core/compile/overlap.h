@@ -49,10 +49,15 @@ std::vector<Flat> list_flats(const Flattened& flat);
 /// the two a ray hits. shape: index of the shape to which the parallelogram belongs.
 bool is_covered(const Block& parallelogram, std::size_t shape, const std::vector<Flat>& flats);
 
-/// For each element, the number of the plane in which it lies, with the bits of SharedPlane, where another shape has a
-/// flat or face in that plane; else -1. Empty: no two shapes have. Planes that differ by less than a billionth of the
-/// scene's size, and directions that differ by less than a billionth, are one.
-std::vector<std::int32_t> plane_numbers(const Flattened& flat, const std::vector<Material>& materials);
+/// For each element, twice the number of the plane in which it lies, plus 1 for the face of a box, where another shape
+/// has a flat or face in that plane; else -1. Empty: no two shapes have. Planes that differ by less than a billionth of
+/// the scene's size, and directions that differ by less than a billionth, are one.
+std::vector<std::int32_t> plane_numbers(const Flattened& flat);
+
+/// The scene with boxes of glass a hair (a 2^-19th of the greatest distance of their corners from `origin`) smaller
+/// where a face lies in one plane with another shape's flat or face, so that rays meet the glass before what it stands
+/// on, and what it stands on when they have left it. Nothing: there are none.
+std::optional<Flattened> set_glass_apart(const Flattened& flat, const std::vector<Material>& materials, Vec3d origin);
 
 /// All surfaces of a scene, which may block a line of sight. Spheres are blocks without edges.
 using Obstacles = std::vector<Flat>;

@@ -121,14 +121,6 @@ struct Flats {
   TYNDALL_INLINE int count() const { return element.count(); }
 };
 
-/// Bits of the numbers of planes that several shapes share.
-struct SharedPlane {
-  static constexpr std::int32_t box = 1,  ///< the element is the face of a box
-      glass_box = 2,                      ///< which is of glass
-      with_glass = 4,                     ///< some face in the plane is one of glass
-      unit = 8;                           ///< from one plane's number to the next
-};
-
 /// Columns by element. An element is a sphere, a flat shape or a face of a box.
 struct Elements {
   /// Spheres: centre and 1 / signed radius. Flats: unit outward normal and 0.
@@ -138,7 +130,6 @@ struct Elements {
   Column<std::int32_t> material;
   Column<std::int32_t> light;         ///< index into Lights, or -1
   Column<std::int32_t> shared_plane;  ///< see plane_numbers()
-  bool planes_have_glass = false;     ///< some of these numbers have SharedPlane::with_glass
   /// For image textures; empty without image textures. Flats: u and v as affine functions of the point (8 floats).
   /// Spheres: cosine and sine of the rotation into the sphere's own frame, in the first two floats.
   Column<float> uv;
