@@ -225,24 +225,31 @@ std::vector<std::int32_t> plane_numbers(const Flattened& flat) {
 }
 
 std::optional<Flattened> set_glass_apart(const Flattened& flat, const std::vector<Material>& materials, Vec3d origin) {
+  const auto is_glass = [&](const PlacedShape& one) {
+    return std::holds_alternative<Box<>>(one.shape) &&
+           boundary_index(materials[static_cast<std::size_t>(one.material)].kind) != 0;
+  };
+  if (std::none_of(flat.shapes.begin(), flat.shapes.end(), is_glass)) return {};
   const std::vector<std::int32_t> numbers = plane_numbers(flat), first = first_elements(flat);
   std::optional<Flattened> apart;
   double size = 0;
   for (const bool moves : {false, true})
     for (std::size_t i = 0; i < flat.shapes.size() && !numbers.empty(); ++i) {
       const PlacedShape& one = flat.shapes[i];
-      const auto* box = std::get_if<Box<>>(&one.shape);
-      if (!box || boundary_index(materials[static_cast<std::size_t>(one.material)].kind) == 0) continue;
+      if (!is_glass(one)) continue;
+      const auto& box = std::get<Box<>>(one.shape);
       for (int face = 0; face < 6; ++face) {
         if (numbers[static_cast<std::size_t>(first[i] + face)] < 0) continue;
-        size = std::max(size, length(center_of(one) - origin) + length(box->max - box->min));
+        size = std::max(size, length(center_of(one) - origin) + length(box.max - box.min));
         if (!moves) continue;
         if (!apart) apart = flat;
         auto& smaller = std::get<Box<>>(apart->shapes[i].shape);
-        const Vec3d normal = box_face_edges(*box, face).normal;
-        const double hair = std::min(0x1p-19 * size, 0.1 * std::abs(dot(normal, box->max - box->min)));
+        const Vec3d normal = box_face_edges(box, face).normal;
+        const double hair = std::min(0x1p-19 * size, 0.1 * std::abs(dot(normal, box.max - box.min)));
         Vec3d& corner = face % 2 ? smaller.max : smaller.min;
         corner = corner - hair * normal;
+        for (PlacedVolume& within : apart->volumes)
+          if (within.surface == static_cast<int>(i)) within.boundary = smaller;
       }
     }
   return apart;
