@@ -123,22 +123,34 @@ TYNDALL_INLINE bool may_meet_own_plane(const auto& s, const Ray<F>& ray, const H
   return any(mask_and(less_equal(IntOf<F>(0), best.element), less(best.t, F(0x1p-10f) * largest_part(ray.origin))));
 }
 
+// Non-inlined versions for code that seldom runs: each inlined copy takes seconds to compile. They take rays by value,
+// because a reference would force the path loop to keep its rays in memory instead of registers.
+
+/// limit: the distance up to which each lane searches; negative: the lane is inactive.
+template <class F>
+[[gnu::noinline]] static Hit<F> call_search(const SceneView& s, Ray<F> ray, F limit) {
+  Hit<F> best{limit, IntOf<F>(-1)};
+  if (s.bvh.nodes.empty())
+    test_all(s, ray, RayQuery<F, false, false>{F(0.0f), IntOf<F>(-1), -1}, best);
+  else
+    test_tree(s, ray, RayQuery<F, false, true>{F(0.0f), IntOf<F>(-1), -1}, best);
+  return best;
+}
+
 /// The search of lanes that have met their own plane, from a start that is moved off it, by no more than it takes.
-/// best: what they have found; limit: the distance up to which they search.
-template <class F, bool is_shadow>
-[[gnu::noinline]] static Hit<F> search_off_plane(const auto& s, Ray<F> ray, F limit, IntOf<F> aim, Hit<F> best) {
+/// best: what they have found; limit: the distance up to which they search; aim: the element that does not count, or
+/// -1.
+template <class F>
+[[gnu::noinline]] static Hit<F> search_off_plane(const SceneView& s, Ray<F> ray, F limit, IntOf<F> aim, Hit<F> best) {
   const IntOf<F> left = as_int(shift_right<2>(as_uint(ray.from)));
   auto again = meets_own_plane(s, ray, best.element);
   for (float part = 0x1p-23f; part < 0x1p-10f && any(again); part *= 2) {
     const Vec3<F> normal = lookup<F>(s.elements.center_or_normal, s.elements.count(), select(again, left, IntOf<F>(0)));
     const F way = copy_sign(F(part) * largest_part(ray.origin), dot(normal, ray.direction));
     ray.origin = select(again, ray.origin + way * normal, ray.origin);
-    Hit<F> found{select(again, limit, F(-1.0f)), IntOf<F>(-1)};
-    if (s.bvh.nodes.empty())
-      test_all(s, ray, RayQuery<F, is_shadow, false>{F(0.0f), aim, -1}, found);
-    else
-      test_tree(s, ray, RayQuery<F, is_shadow, true>{F(0.0f), aim, -1}, found);
-    best.t = select(again, found.t, best.t), best.element = select(again, found.element, best.element);
+    const Hit<F> found = call_search(s, ray, select(again, limit, F(-1.0f)));
+    best.t = select(again, found.t, best.t);
+    best.element = select(again, select(equal(found.element, aim), IntOf<F>(-1), found.element), best.element);
     again = mask_and(again, meets_own_plane(s, ray, best.element));
   }
   return best;
@@ -162,7 +174,7 @@ template <class F>
 TYNDALL_INLINE Hit<F> closest(const auto& s, const Ray<F>& ray, MaskOf<F> active) {
   const Hit<F> best = s.bvh.nodes.empty() ? closest_of_all(s, ray, active) : closest_by_tree(s, ray, active);
   if (!may_meet_own_plane(s, ray, best)) return best;
-  return search_off_plane<F, false>(shared_view(s), ray, F(__builtin_inff()), IntOf<F>(-1), best);
+  return search_off_plane(s, ray, F(__builtin_inff()), IntOf<F>(-1), best);
 }
 
 /// Lanes that hit anything but element `aim` before `distance`. If `aim` is a face of a box, the box's other faces do
@@ -175,7 +187,7 @@ TYNDALL_INLINE MaskOf<F> blocked_towards(const auto& s, const Ray<F>& ray, F dis
     test_all(s, ray, RayQuery<F, true, false>{F(0.0f), aim, common_aim}, best);
   else
     test_tree(s, ray, RayQuery<F, true, true>{F(0.0f), aim, common_aim}, best);
-  if (may_meet_own_plane(s, ray, best)) best = search_off_plane<F, true>(shared_view(s), ray, distance, aim, best);
+  if (may_meet_own_plane(s, ray, best)) best = search_off_plane(s, ray, distance, aim, best);
   return less_equal(IntOf<F>(0), best.element);
 }
 
@@ -186,12 +198,13 @@ TYNDALL_INLINE MaskOf<F> blocked(const auto& s, const Ray<F>& ray, F distance, I
                          active);
 }
 
-// Non-inlined versions for code that seldom runs: each inlined copy takes seconds to compile. They take rays by value,
-// because a reference would force the path loop to keep its rays in memory instead of registers.
+// Not inlined: see call_search().
 
 template <class F>
 [[gnu::noinline]] static Hit<F> call_closest(const SceneView& s, Ray<F> ray, MaskOf<F> active) {
-  return closest(s, ray, active);
+  const Hit<F> best = call_search(s, ray, select(active, F(__builtin_inff()), F(-1.0f)));
+  if (!may_meet_own_plane(s, ray, best)) return best;
+  return search_off_plane(s, ray, F(__builtin_inff()), IntOf<F>(-1), best);
 }
 
 /// s: a shared_view().
