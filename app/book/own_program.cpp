@@ -50,13 +50,13 @@ std::vector<Vec3d> OwnProgram::samples(const std::vector<tyndall_book::pixel_pla
   const std::lock_guard lock(mutex_);
   std::vector<Vec3d> colours(places.size());
   for (std::size_t done = 0, count = 0; done < places.size(); done += count) {
-    count = std::min(batch_, places.size() - done);
+    count = std::min(batch_.load(), places.size() - done);
     const auto begin = Clock::now();
     ask(&places[done], count, &colours[done]);
     if (seconds_since(begin) > 0.02)
-      batch_ = std::max(batch_ / 2, std::size_t(1));
+      batch_ = std::max(count / 2, std::size_t(1));
     else if (seconds_since(begin) < 0.01 && count == batch_)
-      batch_ = std::min(2 * batch_, largest);
+      batch_ = std::min(2 * count, largest);
   }
   return colours;
 }

@@ -45,6 +45,9 @@ class OwnProgram {
   /// Linear colours of places in the picture. For any number of threads.
   std::vector<Vec3d> samples(const std::vector<tyndall_book::pixel_place>& places);
 
+  /// Whether several samples come within 20 ms; false at first. Those of a slow one should be asked for one by one.
+  bool is_quick() const { return batch_ > 1; }
+
   /// How it ended, or ends now.
   const ChildEnd& end();
 
@@ -56,8 +59,8 @@ class OwnProgram {
   std::atomic<bool> stops_ = false;
   Mutex wanted_mutex_;
   std::function<bool()> go_on_;
-  Mutex mutex_;            ///< one question at a time
-  std::size_t batch_ = 1;  ///< places of a question, so that it takes about 10 ms
+  Mutex mutex_;                         ///< one question at a time
+  std::atomic<std::size_t> batch_ = 1;  ///< places of a question, so that it takes about 10 ms
   std::shared_future<ChildEnd> end_;
 };
 

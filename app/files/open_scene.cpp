@@ -73,28 +73,23 @@ void apply_options(const SceneRequest& request, LoadedScene& loaded) {
 OwnSamples::OwnSamples()
     : function_(std::make_shared<WatchedFunction>(
           [its = held_](double x, double y, std::uint64_t, double rgb[3]) {
-            if (ahead.empty()) ahead = its->samples({{x, y}});
+            if (const auto program = its->current(); ahead.empty() && program) ahead = program->samples({{x, y}});
             if (ahead.empty()) return;
             rgb[0] = ahead.back().x, rgb[1] = ahead.back().y, rgb[2] = ahead.back().z;
             ahead.pop_back();
           },
           [its = held_](const std::vector<Pair<double>>& points) {
             ahead.clear();
+            const auto program = its->current();
+            if (!program || !program->is_quick()) return;
             std::vector<tyndall_book::pixel_place> places;
             for (const Pair<double>& one : points) places.push_back({one.x, one.y});
             try {
-              ahead = its->samples(places);
+              ahead = program->samples(places);
               std::reverse(ahead.begin(), ahead.end());
             } catch (const IoError&) {  // which is told where single samples are asked for
             }
           })) {}
-
-std::vector<Vec3d> OwnSamples::Held::samples(const std::vector<tyndall_book::pixel_place>& places) {
-  std::unique_lock lock(mutex);
-  const std::shared_ptr<OwnProgram> current = program;
-  lock.unlock();
-  return current ? current->samples(places) : std::vector<Vec3d>();
-}
 
 std::uint32_t OwnSamples::take(std::shared_ptr<OwnProgram> program, const std::string& reason) {
   const std::lock_guard lock(held_->mutex);

@@ -84,8 +84,10 @@ class OwnSamples {
     std::shared_ptr<OwnProgram> program;
     std::string reason;
     std::uint32_t taken = 0;
-    /// Of the program; without one, none.
-    std::vector<Vec3d> samples(const std::vector<tyndall_book::pixel_place>& places);
+    std::shared_ptr<OwnProgram> current() {
+      const std::lock_guard lock(mutex);
+      return program;
+    }
   };
   std::shared_ptr<Held> held_ = std::make_shared<Held>();
   std::shared_ptr<WatchedFunction> function_;  ///< keeps what is held
